@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -13,7 +14,9 @@
 #include <terrane/algorithms/core/process_memory.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/commands/file_options.hpp>
+#include <terrane/cli/options/output_options.hpp>
 #include <terrane/cli/session/spelling.hpp>
+#include <terrane/cli/session/styles.hpp>
 #include <terrane/io/atomic/file_set.hpp>
 
 namespace terrane::cli {
@@ -46,6 +49,24 @@ ExitStatus run_and_publish(const Command& command) {
     return status;
 }
 
+/// Adds --quiet and --color to a command that does something: to "bench paper", not to "bench".
+/// What completion and manual print is for programs.
+void offer_output_options(CLI::App& command) {
+    const auto inner = command.get_subcommands([](const CLI::App*) { return true; });
+    for (CLI::App* app : inner) add_output_options(*app);
+    const bool for_programs = command.get_name() == "completion" || command.get_name() == "manual";
+    if (inner.empty() && !for_programs) add_output_options(command);
+}
+
+/// Prints what was asked for, --help or --version, or what is wrong with the command line.
+ExitStatus tell(const CLI::App& program, const CLI::ParseError& stop) {
+    std::ostringstream asked, wrong;
+    const bool is_asked = program.exit(stop, asked, wrong) == 0;
+    print(stdout, with_headings(without_marks(asked.str())));
+    print(stderr, without_marks(wrong.str()));
+    return is_asked ? ExitStatus::done : ExitStatus::bad_input;
+}
+
 ExitStatus run(int argc, char** argv) {
     CLI::App program(description, "terrane");
     program.set_version_flag("--version", std::string("terrane " TERRANE_VERSION "\n") + licence);
@@ -56,16 +77,19 @@ ExitStatus run(int argc, char** argv) {
         arrange_command(program), volume_command(program), tetrahedralize_command(program),
         improve_command(program), build_command(program),  check_command(program),
         fill_command(program),    layer_command(program),  convert_command(program),
-        verify_command(program),  bench_command(program)};
+        verify_command(program),  bench_command(program),  completion_command(program),
+        manual_command(program)};
+    for (const Command& command : commands) offer_output_options(*command.options);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& stop) {
+        set_output(output_settings(program));
         const auto wrong =
             stop.get_exit_code() == 0 ? std::nullopt : misspelt(program, {argv, std::size_t(argc)});
         if (wrong) return fail(Error{ErrorCode::bad_option, *wrong, ""});
-        const bool asked = program.exit(stop) == 0; // --help, --version
-        return asked ? ExitStatus::done : ExitStatus::bad_input;
+        return tell(program, stop);
     }
+    set_output(output_settings(program));
     for (const Command& command : commands)
         if (command.options->parsed()) return run_and_publish(command);
     return ExitStatus::bad_input;

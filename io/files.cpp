@@ -233,6 +233,12 @@ Status write(const AnyMesh& mesh, const fs::path& path, const WriteOptions& opti
 
 } // namespace
 
+std::vector<std::string_view> format_names() {
+    std::vector<std::string_view> all;
+    for (const auto& [name, format] : names) all.push_back(name);
+    return all;
+}
+
 bool is_read(Format format) {
     switch (format) {
     case Format::gocad:

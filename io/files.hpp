@@ -64,6 +64,8 @@ std::optional<Format> format_of(const std::filesystem::path& path);
 
 /// Returns the format with this name, an extension without its dot: "ts", "ml", "obj", ...
 std::optional<Format> format_named(std::string_view name);
+/// Returns all names of formats, which are the extensions of their files: "ts", "ml", ...
+std::vector<std::string_view> format_names();
 
 /// Reads the surfaces of a file; "-" is standard input and needs a format. The header of the format
 /// defines what becomes a surface; a surface without a name is named after the file.

@@ -19,6 +19,8 @@ import sys
 from pathlib import Path
 
 NEEDED = {"libterrane-dev"}
+PAGES = ("man/man1/terrane.1.gz", "man/man1/terrane-arrange.1.gz", "bash-completion/completions/terrane",
+         "zsh/vendor-completions/_terrane", "fish/vendor_completions.d/terrane.fish")
 FIELDS = ("Package", "Version", "Architecture", "Maintainer", "Section", "Description", "Installed-Size")
 
 
@@ -60,6 +62,9 @@ def judge_packages(packages):
         if name not in ("libterrane-dev", "python3-terrane") and "libc6" not in depends[name]:
             flaws.append(f"{name} does not depend on the libraries that it is linked with")
     flaws += [f"there is no package {name}" for name in sorted(NEEDED - depends.keys())]
+    for page in PAGES if "terrane" in depends else ():
+        if owner.get(f"./usr/share/{page}") != "terrane":
+            flaws.append(f"terrane has no {page}")
     shared = [name for name in depends if name.startswith("libterrane-c")]
     for name in shared:
         if f"{name} (= " not in depends["libterrane-dev"]:

@@ -12,6 +12,7 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/invariants.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
@@ -217,8 +218,8 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     if (run.stop.stop_requested()) return interrupted();
 
     // (c) contacts, (d) equal points, (e) triangulation of the faces with contacts
-    Retriangulation division =
-        retriangulate(std::move(soup.points), soup.triangles, candidates, run);
+    Retriangulation division = retriangulate(std::move(soup.points), soup.triangles, candidates,
+                                             part_of_stage(run, "arrange", 0.3, 0.85));
     if (run.stop.stop_requested()) return interrupted();
     a.statistics = statistics_of(candidates.size(), division);
     a.statistics.search = used;

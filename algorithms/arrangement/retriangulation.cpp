@@ -2,11 +2,14 @@
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
 
 #include <algorithm>
+#include <iterator>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
 #include <terrane/algorithms/arrangement/detail/pool_covers.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/triangulation/triangulation.hpp>
 #include <terrane/kernel/predicates.hpp>
@@ -130,15 +133,16 @@ private:
     FaceTriangulation triangulate_;
 };
 
-PartBlock divide_faces(const TriangleSoup& soup, const Contacts& contacts, const PointOrder& order,
-                       const Run& run, RetriangulationStatistics& statistics) {
-    struct Range {
-        std::uint32_t piece, piece_end, crossing, crossing_end;
-    };
-    std::vector<Range> faces;
+/// The pieces and crossings of one face.
+struct FaceRange {
+    std::uint32_t piece, piece_end, crossing, crossing_end;
+};
+
+std::vector<FaceRange> faces_with_contacts(const Contacts& contacts) {
+    std::vector<FaceRange> faces;
     const auto count = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
     for (std::uint32_t p = 0, c = 0; p < count(contacts.pieces);) {
-        Range r{p, p, c, c};
+        FaceRange r{p, p, c, c};
         const std::uint32_t f = contacts.pieces[p].face;
         while (r.piece_end < count(contacts.pieces) && contacts.pieces[r.piece_end].face == f)
             ++r.piece_end;
@@ -149,24 +153,38 @@ PartBlock divide_faces(const TriangleSoup& soup, const Contacts& contacts, const
         p = r.piece_end;
         c = r.crossing_end;
     }
+    return faces;
+}
+
+PartBlock divide_faces(const TriangleSoup& soup, const Contacts& contacts, const PointOrder& order,
+                       const Run& run, RetriangulationStatistics& statistics) {
+    const std::vector<FaceRange> faces = faces_with_contacts(contacts);
     statistics.divided = faces.size();
     for (std::size_t k = 0; k < contacts.pools.faces.size(); ++k)
         statistics.divided += contacts.pools.faces[k].size() - 1;
     const std::span pieces(contacts.pieces);
     const std::span crossings(contacts.crossings);
-    const auto blocks = for_blocks<PartBlock>(
-        faces.size(), 64, run, [&](UpwardWitness upward, std::size_t first, std::size_t last) {
-            PartBlock block;
-            const PredicateCounts before = predicate_counts();
-            Divider retriangulate(upward, soup, contacts, order, run);
-            for (std::size_t i = first; i < last; ++i) {
-                const Range& r = faces[i];
-                retriangulate(pieces.subspan(r.piece, r.piece_end - r.piece), r.piece,
-                              crossings.subspan(r.crossing, r.crossing_end - r.crossing), block);
-            }
-            block.predicates = predicate_counts() - before;
-            return block;
-        });
+    const auto divide = [&](UpwardWitness upward, std::span<const FaceRange> some) {
+        PartBlock block;
+        const PredicateCounts before = predicate_counts();
+        Divider retriangulate(upward, soup, contacts, order, run);
+        for (const FaceRange& r : some)
+            retriangulate(pieces.subspan(r.piece, r.piece_end - r.piece), r.piece,
+                          crossings.subspan(r.crossing, r.crossing_end - r.crossing), block);
+        block.predicates = predicate_counts() - before;
+        return block;
+    };
+    constexpr std::size_t wave = 16384; // faces between two reports of the progress
+    std::vector<PartBlock> blocks;
+    for (std::size_t start = 0; start < faces.size(); start += wave) {
+        const auto some = std::span(faces).subspan(start, std::min(wave, faces.size() - start));
+        auto found = for_blocks<PartBlock>(
+            some.size(), 64, run, [&](UpwardWitness upward, std::size_t first, std::size_t last) {
+                return divide(upward, some.subspan(first, last - first));
+            });
+        std::ranges::move(found, std::back_inserter(blocks));
+        report_part(run, "triangulate", 0, 1, start + some.size(), faces.size());
+    }
     PartBlock all;
     for (const PartBlock& b : blocks) {
         const auto start = all.parts.size();
@@ -367,7 +385,9 @@ Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triang
     StageTimer step(run, "intersect");
     Retriangulation out;
     const TriangleSoup soup{points, triangles}; // moving the vector does not move the points
-    Contacts contacts = find_contacts(soup, std::move(points), candidates, run);
+    constexpr std::string_view stage = "retriangulate";
+    Contacts contacts =
+        find_contacts(soup, std::move(points), candidates, part_of_stage(run, stage, 0, 0.4));
     if (run.stop.stop_requested()) return out;
     merge_segments(soup, contacts, run);
     if (run.stop.stop_requested()) return out; // the pieces may be unfinished
@@ -378,7 +398,8 @@ Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triang
     out.statistics.predicates += contacts.predicates;
 
     step.next("triangulate");
-    const auto parts = divide_faces(soup, contacts, order, run, out.statistics);
+    const auto parts =
+        divide_faces(soup, contacts, order, part_of_stage(run, stage, 0.6, 0.9), out.statistics);
     if (run.stop.stop_requested()) return out;
 
     step.next("stitch");

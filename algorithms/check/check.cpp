@@ -8,6 +8,7 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
@@ -85,12 +86,23 @@ Result<CheckReport> check_valid(std::span<const Surface> surfaces, const Run& ru
     report.vertices = count_used(soup);
     describe_edges(soup, report);
     const auto candidates = candidate_pairs({soup.points, soup.triangles}, {}, Search::automatic);
-    const auto blocks = for_blocks<std::vector<ImproperContact>>(
-        candidates.size(), 16384, run, [&](std::size_t a, std::size_t b) {
-            return contacts_of(soup, std::span(candidates).subspan(a, b - a));
-        });
+    constexpr double search_share = 0.3; // of the time
+    report_part(run, "check", 0, search_share, 1, 1);
+    constexpr std::size_t wave = 1U << 20U; // pairs between two reports of the progress
+    for (std::size_t start = 0; start < candidates.size(); start += wave) {
+        const auto pairs =
+            std::span(candidates).subspan(start, std::min(wave, candidates.size() - start));
+        const auto blocks = for_blocks<std::vector<ImproperContact>>(
+            pairs.size(), 16384, run, [&](std::size_t a, std::size_t b) {
+                return contacts_of(soup, pairs.subspan(a, b - a));
+            });
+        if (run.stop.stop_requested())
+            return Error{ErrorCode::interrupted, "stopped on request", ""};
+        for (const auto& b : blocks)
+            report.contacts.insert(report.contacts.end(), b.begin(), b.end());
+        report_part(run, "check", search_share, 1, start + pairs.size(), candidates.size());
+    }
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
-    for (const auto& b : blocks) report.contacts.insert(report.contacts.end(), b.begin(), b.end());
     return report;
 }
 

@@ -11,8 +11,8 @@ namespace terrane {
 struct Run {
     unsigned threads = 1;   ///< >= 1; the result does not depend on it
     std::stop_token stop{}; ///< a requested stop ends the stage with ErrorCode::interrupted
-    /// Receives the name of the stage and the share of it that is done, in [0, 1]. It is called
-    /// between steps, in the calling thread.
+    /// Receives the name of the stage and the share of it that is done, in [0, 1]; 0 as long as
+    /// that is not known. It is called between steps, in the calling thread.
     std::function<void(std::string_view stage, double share)> progress{};
     /// Called when a stage, or a step of it, has ended, with its path ("arrange",
     /// "seal/arrange/search") and its wall-clock time; steps count to their stage. Calls may come

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/intersection/detail/construction_table.hpp>
 #include <terrane/algorithms/intersection/detail/equal_points.hpp>
 #include <terrane/kernel/separation_filter.hpp>
@@ -243,6 +244,7 @@ Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
         for (const PairBlock& block : blocks) collector.add(block);
         if (run.stop.stop_requested()) return contacts;
         if (collector.is_full()) collector.settle();
+        report_part(run, "contacts", 0, 1, start + pairs.size(), candidates.size());
     }
     collector.settle();
     contacts.pieces = std::move(collector).pieces();

@@ -429,10 +429,10 @@ Result<TetrahedralMesh> fill(const ConformingMesh& mesh, const Volumes& volumes,
 
     const Result<TetgenDomain> domain = make_domain(mesh, options);
     if (!domain) return domain.error();
-    if (Status go = proceed(run, 0.1); !go) return go.error();
+    if (Status go = proceed(run, 0); !go) return go.error();
 
     const Scale scale(domain.value().points);
-    if (Status go = proceed(run, 0.1); !go) return go.error();
+    if (Status go = proceed(run, 0); !go) return go.error(); // nobody knows the mesher's share
     Result<TetgenInput> input = tetgen_input(mesh, volumes, domain.value(), options, scale, run);
     if (!input) return input.error();
     Result<TetrahedralMesh> result =

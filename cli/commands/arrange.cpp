@@ -53,7 +53,7 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
 
     const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
-    print(summary_stream(files), summary(inputs.value(), arranged.value()));
+    say(summary_stream(files), summary(inputs.value(), arranged.value()));
     const Mesh& mesh = arranged.value().rounded.mesh;
     bool clean = arranged.value().rounded.report.clean;
     if (!clean) print(stderr, offending_pairs(inputs.value(), arranged.value()));
@@ -72,8 +72,8 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
     }
     const bool proves = !command.proof.certificate.empty() || !command.proof.exact.empty();
     if (!keep)
-        print(stderr, std::string("terrane: ") + (proves ? "the mesh is not" : "nothing") +
-                          " written (see --keep-unverified)\n");
+        print(stderr, complaint(std::string(proves ? "the mesh is not" : "nothing") +
+                                " written (see --keep-unverified)"));
     const ProofFiles certified{files.inputs, keep ? outputs.value() : std::vector<Output>(),
                                files.ascii, summary_stream(files),
                                cut_request(command.settings, *arranged)};

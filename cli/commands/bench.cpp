@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/paper/paper_tables.hpp>
 #include <terrane/cli/session/session.hpp>
 
@@ -200,7 +201,7 @@ Command bench_command(CLI::App& program) {
     paper
         .add_option("--skip", settings.skipped,
                     "Leave out grid, ab, ab-balanced, ab-median or mixed")
-        ->check(CLI::IsMember({"grid", "ab", "ab-balanced", "ab-median", "mixed"}))
+        ->check(one_of({"grid", "ab", "ab-balanced", "ab-median", "mixed"}))
         ->type_name("METHOD");
     paper
         .add_option("--limit", settings.limit,

@@ -69,9 +69,9 @@ public:
         if (status && *status == ExitStatus::done)
             when_written([kept = *kept_] { kept.remove(); });
         else if (kept_->any())
-            print(stderr, fmt::format("terrane: finished stages are kept in {}; --resume goes on "
-                                      "from there\n",
-                                      kept_->folder().string()));
+            print(stderr, complaint(fmt::format("finished stages are kept in {}; --resume goes on "
+                                                "from there",
+                                                kept_->folder().string())));
         return status;
     }
 
@@ -83,7 +83,7 @@ private:
         if (auto done = make(); !done && refused_.empty()) return done.error();
         if (!refused_.empty()) return refuse(refused_);
         if (built_.filled && !built_.filled->report.violations.empty())
-            return refuse(violations_text(built_.filled->report) + "terrane: nothing written\n");
+            return refuse(violations_text(built_.filled->report) + complaint("nothing written"));
         if (doubts_) return *doubts_;
         if (auto done = write(); !done) return done.error();
         return ExitStatus::done;
@@ -184,7 +184,7 @@ private:
     void begin_stage(std::string_view name, Phase phase) {
         const auto text = fmt::format("stage {} of {}: {}", ++stages_begun_, stage_count(), name);
         journal_.note(text);
-        print(stdout, text + "\n");
+        say(stdout, text + "\n");
         std::fflush(stdout);
         session_.number(stages_begun_, stage_count());
         session_.begin(name, phase);
@@ -202,11 +202,11 @@ private:
             journal_.say(summary(inputs_, built.arranged));
             if (!built.arranged.rounded.conforming)
                 refused_ = offending_pairs(inputs_, built.arranged) +
-                           "terrane: no blocks without a conforming mesh; nothing written\n";
+                           complaint("no blocks without a conforming mesh; nothing written");
             return;
         case BuildStage::improve:
             add_statistics(statistics_, *built.improved, session_.times());
-            if (!keeps_volumes(*built.improved, strict_)) refused_ = "terrane: nothing written\n";
+            if (!keeps_volumes(*built.improved, strict_)) refused_ = complaint("nothing written");
             return journal_.say(improve_text(*built.improved, inputs_));
         case BuildStage::blocks:
             add_statistics(statistics_, *built.model, session_.times());
@@ -236,7 +236,7 @@ private:
             said += borders_text(*done.filled) + filled_text(*done.filled);
             refused_ = refusals_text(*done.filled);
             if (!done.contacts.empty())
-                refused_ += "terrane: what was invented meets other triangles\n" +
+                refused_ += complaint("what was invented meets other triangles") +
                             contacts_text(*done.filled, done.contacts);
             add_statistics(statistics_, *done.filled);
             statistics_["seconds"]["fill"] = session_.times().latest("fill");
@@ -247,7 +247,7 @@ private:
             add_statistics(statistics_, inputs_, done.layers, session_.times());
         }
         journal_.say(said);
-        if (!refused_.empty()) refused_ += "terrane: nothing written\n";
+        if (!refused_.empty()) refused_ += complaint("nothing written");
     }
 
     Status write() {
@@ -275,7 +275,7 @@ private:
         if (auto done = write_file(to / "log.txt", journal_.log() + said); !done) return done;
         auto published = folder.value().publish();
         session_.end_stage();
-        if (published) when_written([said] { print(stdout, said); });
+        if (published) tell_when_written(stdout, said);
         return published;
     }
 

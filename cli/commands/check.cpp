@@ -41,9 +41,10 @@ Result<ExitStatus> check_files(const CheckCommand& command, Session& session) {
     session.end_stage();
     if (!report) return report.error();
     const CheckReport& r = report.value();
-    print(stdout, command.json
-                      ? text_of(json_of(r, inputs.value()))
-                      : report_text(r, inputs.value(), name_of_inputs(command.files), command.all));
+    if (command.json)
+        print(stdout, text_of(json_of(r, inputs.value())));
+    else
+        say(stdout, report_text(r, inputs.value(), name_of_inputs(command.files), command.all));
     return r.clean() ? ExitStatus::done : ExitStatus::negative;
 }
 

@@ -10,6 +10,7 @@
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
@@ -143,7 +144,7 @@ Result<bool> fill_and_write(const FillCommand& command, const std::vector<Output
     if (const auto done = fill_holes(inputs.surfaces, chosen.value(), work, session.run()); !done)
         return done.error();
     session.end_stage();
-    print(summary_stream(command.files), filled_text(work));
+    say(summary_stream(command.files), filled_text(work));
     const auto refused = refusals_text(work);
     print(stderr, refused);
     session.begin("check", Phase::computing);
@@ -151,7 +152,7 @@ Result<bool> fill_and_write(const FillCommand& command, const std::vector<Output
     session.end_stage();
     if (!contacts) return contacts.error();
     if (!contacts.value().empty()) {
-        print(stderr, "terrane: nothing written: what was invented meets other triangles\n" +
+        print(stderr, complaint("nothing written: what was invented meets other triangles") +
                           contacts_text(work, contacts.value()));
         return false;
     }
@@ -199,8 +200,11 @@ Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
         find_holes(inputs.value().surfaces, tasks_of(command, inputs.value()), session.run());
     session.end_stage();
     if (!work) return work.error();
-    print(summary_stream(command.files),
-          borders_text(work.value()) + (command.list ? holes_table(work.value()) : ""));
+    if (command.list)
+        print(summary_stream(command.files),
+              borders_text(work.value()) + holes_table(work.value()));
+    else
+        say(summary_stream(command.files), borders_text(work.value()));
     bool whole = true;
     if (!command.list) {
         const auto filled =
@@ -233,15 +237,14 @@ void add_choice(CLI::App& app, FillCommand& command) {
 void add_method(CLI::App& app, FillCommand& command) {
     app.add_option("--method", command.method,
                    "kriging, for z = f(x, y), or rbf, for any surface (default: kriging)")
-        ->check(CLI::IsMember({"kriging", "rbf"}).description(""))
+        ->check(one_of({"kriging", "rbf"}))
         ->type_name("METHOD");
     app.add_option(
            "--model", command.model,
            "Of the variogram of kriging: auto, spherical, exponential, gaussian, matern, power "
            "(default: auto, "
            "what fits best)")
-        ->check(CLI::IsMember({"auto", "spherical", "exponential", "gaussian", "matern", "power"})
-                    .description(""))
+        ->check(one_of({"auto", "spherical", "exponential", "gaussian", "matern", "power"}))
         ->type_name("MODEL");
     app.add_flag("--isotropic", command.settings.isotropic,
                  "The variogram of kriging is the same in all directions");

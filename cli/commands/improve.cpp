@@ -179,11 +179,11 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     if (!arranged) return arranged.error();
     if (!options.edge_length_of.empty()) // the boundary of a volume of interest added surfaces
         options.edge_length_of.resize(inputs.value().labels.size());
-    print(summary_stream(files), summary(inputs.value(), arranged.value()));
+    say(summary_stream(files), summary(inputs.value(), arranged.value()));
     bool clean = arranged.value().rounded.report.clean;
     if (!clean) {
         print(stderr, offending_pairs(inputs.value(), arranged.value()));
-        print(stderr, "terrane: only a conforming mesh can be improved; nothing written\n");
+        print(stderr, complaint("only a conforming mesh can be improved; nothing written"));
     } else {
         session.begin("improve", Phase::computing);
         const auto measured =
@@ -191,7 +191,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         session.end_stage();
         if (!measured) return measured.error();
         add_statistics(statistics, measured.value(), session.times());
-        print(summary_stream(files), improve_text(measured.value(), inputs.value()));
+        say(summary_stream(files), improve_text(measured.value(), inputs.value()));
         const Mesh& mesh = measured.value().improved.mesh;
         const auto narrow = stl_is_conforming(mesh, files, outputs.value(), session);
         if (!narrow) return narrow.error();
@@ -211,7 +211,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
                                            measured.value(), outputs.value(), session);
             if (!written) return written.error();
         } else {
-            print(stderr, "terrane: nothing written\n");
+            print(stderr, complaint("nothing written"));
         }
         statistics["seconds"]["write"] = writing.lap();
     }

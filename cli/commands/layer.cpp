@@ -12,6 +12,7 @@
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/max_move.hpp>
 #include <terrane/cli/options/statistics.hpp>
@@ -143,9 +144,9 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
     if (!layered) return layered.error();
     const RoundedMesh& rounded = layered.value().rounded;
     const bool is_stack = layered->is_stack();
-    print(summary_stream(files),
-          text_of(inputs.value(), layered->reports, rounded.report,
-                  is_stack ? std::optional(layered->step_width) : std::nullopt));
+    say(summary_stream(files),
+        text_of(inputs.value(), layered->reports, rounded.report,
+                is_stack ? std::optional(layered->step_width) : std::nullopt));
     print(stderr, flaws_text(rounded.report, layered->out_of_order));
     if (is_stack)
         if (const auto written = write_all(rounded.mesh, files, outputs.value(), session); !written)
@@ -173,7 +174,7 @@ Command layer_command(CLI::App& program) {
     app->add_option("--hard", command->hard, "File with the hard horizon")->type_name("FILE");
     app->add_option("--soft", command->soft, "File with the soft horizon")->type_name("FILE");
     app->add_option("--keep", command->keep, "Side of the hard one on which the soft one stays")
-        ->check(CLI::IsMember({"upper", "lower"}).description(""))
+        ->check(one_of({"upper", "lower"}))
         ->type_name("upper|lower");
     app->add_option("--layer", command->layers,
                     "A horizon and its hardness; repeated, from the top down")

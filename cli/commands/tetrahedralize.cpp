@@ -16,6 +16,7 @@
 #include <terrane/algorithms/tetgen/fill_blocks.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/column.hpp>
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
@@ -168,10 +169,10 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
 
     auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
-    print(summary_stream(files), summary(inputs.value(), arranged.value()));
+    say(summary_stream(files), summary(inputs.value(), arranged.value()));
     if (!arranged.value().rounded.report.clean) {
         print(stderr, offending_pairs(inputs.value(), arranged.value()));
-        print(stderr, "terrane: no tetrahedra without a conforming mesh; nothing written\n");
+        print(stderr, complaint("no tetrahedra without a conforming mesh; nothing written"));
         return finish(false);
     }
 
@@ -182,7 +183,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (const auto sound = examine(*model, *inputs, true, statistics); !sound) return sound.error();
     const auto filled = fill(model.value(), wishes.value(), session, statistics);
     if (!filled) return filled.error();
-    print(summary_stream(files), filled_text(filled.value(), inputs->unit));
+    say(summary_stream(files), filled_text(filled.value(), inputs->unit));
     const TetrahedraReport& report = filled.value().report;
     const bool good = report.violations.empty();
     Stopwatch writing;
@@ -197,7 +198,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
             if (!proved) return proved.error();
         }
     } else {
-        print(stderr, violations_text(report) + "terrane: nothing written\n");
+        print(stderr, violations_text(report) + complaint("nothing written"));
     }
     statistics["seconds"]["write"] = writing.lap();
     return finish(good);
@@ -251,6 +252,7 @@ void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
                                                                   {"tetgen", Mesher::tetgen},
                                                                   {"gmsh", Mesher::gmsh}})
                 .description(""))
+        ->check(listing({"auto", "tetgen", "gmsh"}))
         ->type_name("PROGRAM");
 }
 

@@ -10,10 +10,12 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/verify/verify_certificate.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
+#include <terrane/cli/session/styles.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/files.hpp>
 
@@ -190,28 +192,29 @@ struct Judgement {
 
 std::string output_text(const JudgedOutput& output, const std::string& what) {
     const auto renamed = output.verdict.renamed.size();
+    const std::string path = one_line(output.path);
     const std::string names =
         renamed > 0 ? fmt::format("; names or roles of {} are not those of the inputs",
                                   counted(renamed, "surface"))
                     : "";
     if (!output.missing.empty())
-        return fmt::format("{}: NOT verified: {}\n", output.path, output.missing);
+        return fmt::format("{}: {} {}\n", path, bad("NOT verified:"), output.missing);
     switch (output.verdict.check) {
     case OutputCheck::doubles:
-        return fmt::format("{}: holds these {}, bit for bit{}\n", output.path, what, names);
+        return fmt::format("{}: holds these {}, bit for bit{}\n", path, what, names);
     case OutputCheck::numbers:
         return fmt::format("{}: holds these blocks, interfaces, patches, lines and corners; block "
                            "names, exact volumes, gaps and leaks are not verified{}\n",
-                           output.path, names);
+                           path, names);
     case OutputCheck::float32:
         return fmt::format("{}: holds these triangles rounded to float32, at most {:.3g} away{}\n",
-                           output.path, output.verdict.float32_move, names);
+                           path, output.verdict.float32_move, names);
     case OutputCheck::hash_only:
         break;
     }
-    return fmt::format("{}: NOT verified: its SHA-256 is that of the certificate, but there is no "
+    return fmt::format("{}: {} its SHA-256 is that of the certificate, but there is no "
                        "reader for its format\n",
-                       output.path);
+                       path, bad("NOT verified:"));
 }
 
 std::string doubles_text(const Judgement& judged) {
@@ -264,7 +267,7 @@ std::string layers_text(const Judgement& judged) {
     const LayeredClaim& layered = *judged.certificate.layered;
     std::vector<std::string> names;
     for (const CertifiedInput& input : judged.certificate.inputs)
-        for (const CertifiedSurface& s : input.surfaces) names.push_back(s.name);
+        for (const CertifiedSurface& s : input.surfaces) names.push_back(one_line(s.name));
     std::string text = counted(layered.order.size(), "layer") + ", from the top down:";
     for (const CertifiedLayer& layer : layered.order)
         text += fmt::format("{} {} (hardness {})", &layer == &layered.order.front() ? "" : ",",
@@ -290,7 +293,7 @@ std::string sealed_text(const Certificate& certificate) {
             if (s == certificate.sealed->surfaces.size()) return text;
             const SealedPart& part = certificate.sealed->surfaces[s++];
             if (part.limit > 0)
-                text += fmt::format(" {} by at most {:.4g}", surface.name, part.limit);
+                text += fmt::format(" {} by at most {:.4g}", one_line(surface.name), part.limit);
         }
     return text;
 }
@@ -317,7 +320,7 @@ std::string cut_text(const Certificate& certificate) {
     } else {
         text += "the surface of";
         for (const CertifiedInput& input : std::span(certificate.inputs).last(volume.files))
-            text += " " + input.name;
+            text += " " + one_line(input.name);
     }
     return text +
            fmt::format(": all that is inside, and nothing else; {} of {} exact triangles "
@@ -345,18 +348,20 @@ std::string subject_text(const Judgement& judged) {
 std::string verdict_text(const Judgement& judged, const std::string& name) {
     const auto violations = judged.violations();
     if (violations.empty()) {
-        auto text = fmt::format("{}: valid: {}\n", name, subject_text(judged));
+        auto text = fmt::format("{}: {} {}\n", name, good("valid:"), subject_text(judged));
         const std::string cells = judged.certificate.tetrahedra ? "tetrahedra" : "triangles";
         text += blocks_text(judged);
         for (const JudgedOutput& output : judged.outputs) text += output_text(output, cells);
         if (judged.outputs.empty())
-            text += "NOT verified about any file: the certificate names no output file\n";
+            text += bad("NOT verified") + " about any file: the certificate names no output file\n";
         const auto& digest = judged.certificate.digest;
-        return digest.empty() ? text : text + digest + "\n";
+        return digest.empty() ? text : text + one_line(digest) + "\n";
     }
-    auto text = fmt::format("{}: refuted: {}\n", name, counted(violations.size(), "violation"));
+    auto text =
+        fmt::format("{}: {} {}\n", name, bad("refuted:"), counted(violations.size(), "violation"));
     for (std::size_t i = 0; i < violations.size() && i < most_violations; ++i)
-        text += fmt::format("  {}: {}\n", name_of(violations[i].rule), violations[i].sentence);
+        text += fmt::format("  {}: {}\n", name_of(violations[i].rule),
+                            one_line(violations[i].sentence));
     if (violations.size() > most_violations)
         text += fmt::format("  and {} more\n", violations.size() - most_violations);
     return text;
@@ -429,7 +434,10 @@ Result<ExitStatus> verify_file(const VerifyCommand& command) {
         if (!outputs) return outputs.error();
         judged.outputs = std::move(outputs).value();
     }
-    print(stdout, command.json ? verdict_json(judged) : verdict_text(judged, name));
+    if (command.json)
+        print(stdout, verdict_json(judged));
+    else
+        say(stdout, verdict_text(judged, one_line(name)));
     return judged.status();
 }
 

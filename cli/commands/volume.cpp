@@ -7,6 +7,7 @@
 
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/column.hpp>
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/relation_report.hpp>
@@ -241,17 +242,17 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
 
     auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
-    print(summary_stream(files), summary(inputs.value(), arranged.value()));
+    say(summary_stream(files), summary(inputs.value(), arranged.value()));
     const bool clean = arranged.value().rounded.report.clean;
     if (!clean) {
         print(stderr, offending_pairs(inputs.value(), arranged.value()));
-        print(stderr, "terrane: no blocks without a conforming mesh; nothing written\n");
+        print(stderr, complaint("no blocks without a conforming mesh; nothing written"));
     } else {
         const auto model = find_model(arranged.value(), *naming, session, statistics);
         if (!model) return model.error();
         const auto leaks = judge_leaks(*arranged, *model, session);
         if (!leaks) return leaks.error();
-        print(summary_stream(files), model_text(*inputs, *model, *leaks));
+        say(summary_stream(files), model_text(*inputs, *model, *leaks));
         if (const auto sound = examine(*model, *inputs, true, statistics); !sound)
             return sound.error();
         Stopwatch writing;
@@ -298,7 +299,7 @@ Command volume_command(CLI::App& program) {
     app->add_option("--parts", command->part_format,
                     "Format of blocks and interfaces: vtp, obj, ts, ply, off, stl, msh, msh22, "
                     "inp, mesh, poly, smesh")
-        ->check(CLI::IsMember(part_formats()).description(""))
+        ->check(one_of(part_formats()))
         ->type_name("FORMAT");
     app->add_option("--relations", command->relations,
                     "Which surface stops at, crosses or ends near which other one, as a table")

@@ -10,6 +10,7 @@
 
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/quantities.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
@@ -65,7 +66,8 @@ Status check_streams(const FileOptions& options) {
 template <class AnyMesh>
 Status write_with(const AnyMesh& mesh, const Output& output, WriteOptions options, Session& session,
                   Status (*write)(const AnyMesh&, const fs::path&, const WriteOptions&)) {
-    session.begin("write", output.path == "-" ? Phase::idle : Phase::writing);
+    const bool to_stream = output.path == "-"; // among which no progress may be
+    session.begin(to_stream ? "" : "write", to_stream ? Phase::idle : Phase::writing);
     options.format = output.format;
     auto status = write(mesh, output.path, options);
     session.end_stage();
@@ -134,7 +136,7 @@ void add_reading(CLI::App& command, FileOptions& options) {
     command
         .add_option("--unit", options.read.unit,
                     "Convert what has a stated unit: m, km, cm, ft, ftUS (default: as it is)")
-        ->check(CLI::IsMember({"m", "km", "cm", "ft", "ftUS"}).description(""))
+        ->check(one_of({"m", "km", "cm", "ft", "ftUS"}))
         ->type_name("UNIT");
 }
 
@@ -155,7 +157,7 @@ void add_output(CLI::App& command, FileOptions& options, const char* help) {
 
 void add_msh(CLI::App& command, FileOptions& options) {
     command.add_option("--msh", options.msh, "Version of .msh files: 4.1 or 2.2 (default: 4.1)")
-        ->check(CLI::IsMember({"4.1", "2.2"}).description(""))
+        ->check(one_of({"4.1", "2.2"}))
         ->type_name("VERSION");
 }
 
@@ -255,7 +257,7 @@ std::string left_out_of(const Output& output) {
 std::string wrote(const Output& output) {
     if (output.path == "-") return {};
     const auto left_out = left_out_of(output);
-    return "wrote " + output.path + (left_out.empty() ? "" : ": " + left_out) + "\n";
+    return "wrote " + one_line(output.path) + (left_out.empty() ? "" : ": " + left_out) + "\n";
 }
 
 std::FILE* summary_stream(const FileOptions& options) {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <terrane/algorithms/triangulation/point_surface.hpp>
@@ -107,7 +108,18 @@ Status write_statistics(Json json, const std::string& path, double total_seconds
 }
 
 std::string text_of(const Json& json) {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    const auto dumped = json.dump(2, ' ', false, Json::error_handler_t::replace);
+    std::string text;
+    for (std::size_t i = 0; i < dumped.size(); ++i) {
+        const auto code = static_cast<unsigned char>(dumped[i]);
+        const bool is_second_set = code == 0xC2 && static_cast<unsigned char>(dumped[i + 1]) < 0xA0;
+        if (code == 0x7F || is_second_set) // controls that JSON allows, and terminals obey
+            text += fmt::format("\\u{:04x}",
+                                is_second_set ? static_cast<unsigned char>(dumped[++i]) : code);
+        else
+            text += dumped[i];
+    }
+    return text + "\n";
 }
 
 } // namespace terrane::cli

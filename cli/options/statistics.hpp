@@ -38,7 +38,7 @@ void add_constants(Json& json, const char* stage, std::span<const NamedConstant>
 /// path.
 Status write_statistics(Json json, const std::string& path, double total_seconds);
 
-/// Returns indented text; bytes that are not UTF-8 become U+FFFD.
+/// Returns indented text; bytes that are not UTF-8 become U+FFFD, and control characters are escaped.
 std::string text_of(const Json& json);
 
 } // namespace terrane::cli

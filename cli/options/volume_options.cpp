@@ -17,6 +17,7 @@
 
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/quantities.hpp>
+#include <terrane/cli/session/text_width.hpp>
 #include <terrane/io/points/outline.hpp>
 
 namespace terrane::cli {
@@ -248,8 +249,9 @@ Result<VolumeRecord> record_of(const Project& project, const std::string& path) 
 std::string text_of(const VolumeReport& report, const Inputs& inputs) {
     const Quantities quantities(inputs.unit);
     std::string text = "volume of interest: areas inside, of all, and where surfaces end inside\n";
-    std::size_t width = 7, shown = 0, outside = 0;
-    for (const auto& label : inputs.labels) width = std::max(width, label.size());
+    constexpr std::size_t least_width = 7;
+    const std::size_t width = column_width(inputs.labels, least_width);
+    std::size_t shown = 0, outside = 0;
     for (std::size_t s = 0; s < report.surfaces.size(); ++s) {
         const SurfaceCut& cut = report.surfaces[s];
         const double all = cut.area_inside + cut.area_outside + cut.area_on_boundary;
@@ -259,7 +261,7 @@ std::string text_of(const VolumeReport& report, const Inputs& inputs) {
             continue;
         }
         if (++shown > most_surfaces_cut) continue;
-        text += fmt::format("  {:<{}}  {:>13} of {:>13}, {}", inputs.labels[s], width,
+        text += fmt::format("  {}  {:>13} of {:>13}, {}", padded(inputs.labels[s], width),
                             quantities.area(cut.area_inside + cut.area_on_boundary),
                             quantities.area(all), counted(cut.pieces, "piece"));
         if (cut.open_borders > 0)

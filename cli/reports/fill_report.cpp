@@ -14,6 +14,7 @@
 #include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 #include <terrane/cli/reports/fill_map.hpp>
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/styles.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -51,8 +52,9 @@ std::string borders_text(const FillWork& work) {
 std::string holes_table(const FillWork& work) {
     if (work.holes.empty()) return {};
     std::string text =
-        fmt::format("{:>6}  {:<10} {:>8} {:>12} {:>12} {:>10} {:>10}  {}\n", "hole", "kind",
-                    "border", "length", "area", "width", "throw", "centre, surface");
+        heading(fmt::format("{:>6}  {:<10} {:>8} {:>12} {:>12} {:>10} {:>10}  {}", "hole", "kind",
+                            "border", "length", "area", "width", "throw", "centre, surface")) +
+        "\n";
     for (const NumberedHole& hole : work.holes) {
         const BorderLoop& loop = loop_of(work, hole);
         text += fmt::format("{:>6}  {:<10} {:>8} {:>12.6g} {:>12.6g} {:>10.4g} {:>10.4g}  "
@@ -89,8 +91,8 @@ std::string refusals_text(const FillWork& work) {
     std::string text;
     for (const NumberedHole& hole : work.holes)
         if (!hole.refused.empty())
-            text += fmt::format("terrane: hole {} of {} is left open: {}\n", hole.number,
-                                work.surfaces[hole.task].label, hole.refused);
+            text += complaint(fmt::format("hole {} of {} is left open: {}", hole.number,
+                                          work.surfaces[hole.task].label, hole.refused));
     return text;
 }
 

@@ -8,9 +8,11 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/quantities.hpp>
+#include <terrane/cli/session/styles.hpp>
 #include <terrane/io/text/histogram_svg.hpp>
 
 namespace terrane::cli {
@@ -29,7 +31,7 @@ std::string worst_text(const Improved& improved) {
     const Mesh& m = improved.mesh;
     const Triangle& t = m.triangles[r.after.worst];
     return fmt::format("worst: triangle {} of {}, q {:.4f}, at {}: {}\n", r.after.worst,
-                       m.surfaces[m.surfaces_of[r.after.worst][0]].name, r.after.q.min,
+                       one_line(m.surfaces[m.surfaces_of[r.after.worst][0]].name), r.after.q.min,
                        text_of(m.vertices[t[0]]), name_of(r.worst_cause));
 }
 
@@ -56,12 +58,12 @@ std::string deviation_text(const ImprovedAndMeasured& measured, const Inputs& in
     const Quantities quantities(inputs.unit);
     return fmt::format("deviation: {} is shown to be within {} of what it was, measured {}; "
                        "the others keep farther below their bounds; from old to new measured {}, "
-                       "{}\n"
-                       "verified: the improved mesh is conforming, by exact check\n",
+                       "{}\n{} the improved mesh is conforming, by exact check\n",
                        inputs.labels[where], quantities.length(r.bound_of[where]),
                        quantities.length(deviations[where].out), quantities.length(back),
                        measured.is_near_back() ? "shown to be within the bounds as well"
-                                               : "not shown to be within the bounds") +
+                                               : "not shown to be within the bounds",
+                       good("verified:")) +
            text_of(measured.improved.conforming->pairs());
 }
 

@@ -180,7 +180,7 @@ std::string report_text(const TetrahedraReport& report) {
 std::string violations_text(const TetrahedraReport& report) {
     std::string text;
     for (const TetrahedraViolation& violation : report.violations)
-        text += "terrane: " + message(violation) + "\n";
+        text += complaint(message(violation));
     return text;
 }
 

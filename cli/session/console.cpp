@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <terrane/cli/session/styles.hpp>
+#include <terrane/cli/session/terminal.hpp>
 #include <terrane/io/atomic/file_set.hpp>
 #include <terrane/io/text/names.hpp>
 
@@ -28,12 +30,13 @@ ExitStatus status_of(ErrorCode code) {
 ExitStatus fail(const Error& error) {
     const bool interrupted = error.code == ErrorCode::interrupted;
     const auto message = interrupted ? "interrupted, nothing written" : error.message();
-    print(stderr, fmt::format("terrane: {}\n", detail::one_line(message)));
+    print(stderr, complaint(message));
     return status_of(error.code);
 }
 
 void warn(std::string_view sentence) {
-    print(stderr, fmt::format("terrane: warning: {}\n", detail::one_line(sentence)));
+    print(stderr,
+          fmt::format("{} {}\n", doubtful("terrane: warning:"), detail::one_line(sentence)));
 }
 
 void when_written(std::function<void()> tell) {
@@ -44,15 +47,23 @@ void when_written(std::function<void()> tell) {
 }
 
 void tell_when_written(std::FILE* stream, std::string text) {
-    when_written([stream, text = std::move(text)] { print(stream, text); });
+    when_written([stream, text = std::move(text)] { say(stream, text); });
 }
 
 void say_written(std::FILE* stream, const std::string& path) {
-    if (path != "-") tell_when_written(stream, "wrote " + path + "\n");
+    if (path != "-") tell_when_written(stream, "wrote " + detail::one_line(path) + "\n");
 }
 
 void print(std::FILE* stream, std::string_view text) {
-    std::fwrite(text.data(), 1, text.size(), stream);
+    write_text(stream, text);
+}
+
+void say(std::FILE* stream, std::string_view text) {
+    if (!is_quiet()) print(stream, text);
+}
+
+std::string complaint(std::string_view sentence) {
+    return fmt::format("{} {}\n", bad("terrane:"), detail::one_line(sentence));
 }
 
 void occupy_closed_streams() {

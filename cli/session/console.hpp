@@ -32,14 +32,22 @@ void warn(std::string_view sentence);
 /// Calls `tell` when all files of the run have their names, or at once outside a FileSet.
 void when_written(std::function<void()> tell);
 
-/// Prints a text when all files of the run have their names.
+/// Says a text when all files of the run have their names.
 void tell_when_written(std::FILE* stream, std::string text);
 
 /// Says that a file was written, when it has its name; nothing of standard output.
 void say_written(std::FILE* stream, const std::string& path);
 
-/// Writes text. finish() reports a failure to write.
+/// Writes text, with the colours of its marks (styles.hpp) where the stream has colours. finish()
+/// reports a failure to write.
 void print(std::FILE* stream, std::string_view text);
+
+/// Writes what nobody asked for: summaries, and names of files that were written. Nothing with
+/// --quiet.
+void say(std::FILE* stream, std::string_view text);
+
+/// Returns "terrane: SENTENCE" as a line, marked as an error.
+std::string complaint(std::string_view sentence);
 
 /// Gives the numbers of closed standard streams to /dev/null, opened the wrong way round, so that no
 /// file of ours gets them and is read or printed to by mistake. Call it before any file is opened.

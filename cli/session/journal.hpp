@@ -9,15 +9,16 @@
 
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/styles.hpp>
 
 namespace terrane::cli {
 
-/// Prints messages on the terminal and keeps them, with times, for log.txt.
+/// Says messages on the terminal and keeps them, with times, for log.txt.
 class Journal {
 public:
     void say(std::string_view text) {
-        print(stdout, text);
-        log_ += text;
+        terrane::cli::say(stdout, text);
+        log_ += without_marks(text);
     }
     /// Writes to the log only.
     void note(std::string_view text) { log_ += fmt::format("[{:9.2f} s] {}\n", seconds(), text); }

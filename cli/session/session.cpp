@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/terminal.hpp>
 #include <terrane/io/atomic/file_set.hpp>
 
 namespace terrane::cli {
@@ -21,6 +22,9 @@ constexpr int wake_signal = SIGURG;
 /// How long a stage may go on after an interrupt. Stages look for stop requests between steps, some
 /// of which are long: the solution of a dense system, say.
 constexpr std::chrono::milliseconds patience{700};
+
+/// The progress line is drawn this often at most, and not before so much time.
+constexpr std::chrono::milliseconds tick{100}, first_shown{1000};
 
 bool is_ignored(int signal) {
     struct sigaction action {};
@@ -41,13 +45,12 @@ sigset_t watched_signals() {
 } // namespace
 
 Session::Session(unsigned threads) :
-    terminal_(isatty(STDERR_FILENO) == 1), started_(std::chrono::steady_clock::now()) {
+    shows_progress_(shows_progress()), started_(std::chrono::steady_clock::now()) {
     run_.threads = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
     run_.stop = source_.get_token();
     run_.progress = [this](std::string_view stage, double share) {
         const std::lock_guard lock(mutex_);
-        stage_ = stage;
-        share_ = share;
+        enter(stage, share);
     };
     run_.timing = times_.observer();
     const auto set = watched_signals();
@@ -59,14 +62,24 @@ Session::~Session() {
     watcher_.request_stop();
     pthread_kill(watcher_.native_handle(), wake_signal); // else it would sleep until its next tick
     watcher_.join();
-    clear_line();
+    clear_progress();
 }
 
 void Session::begin(std::string_view stage, Phase phase) {
     phase_ = phase;
     const std::lock_guard lock(mutex_);
-    stage_ = stage;
-    share_ = 0;
+    enter(stage, 0);
+}
+
+void Session::enter(std::string_view stage, double share) {
+    const auto now = std::chrono::steady_clock::now();
+    if (stage != stage_ || share < share_) {
+        stage_ = stage;
+        stage_began_ = now;
+        time_left_ = TimeLeft();
+    }
+    share_ = share;
+    time_left_.update(share, std::chrono::duration<double>(now - stage_began_).count());
 }
 
 void Session::number(std::size_t stage, std::size_t stages) {
@@ -78,17 +91,17 @@ void Session::end_stage() {
     phase_ = Phase::idle;
     const std::lock_guard lock(mutex_);
     stage_.clear();
-    clear_line();
+    clear_progress();
 }
 
 void Session::watch(const std::stop_token& over) {
     const auto set = watched_signals();
-    const timespec tick{0, 100'000'000};
+    const timespec pause{0, std::chrono::nanoseconds(tick).count()};
     while (!over.stop_requested()) {
-        const int received = sigtimedwait(&set, nullptr, &tick);
+        const int received = sigtimedwait(&set, nullptr, &pause);
         if (received == SIGINT || received == SIGTERM || received == SIGHUP) on_interrupt();
         end_if_overdue();
-        if (terminal_) show();
+        if (shows_progress_) show();
     }
 }
 
@@ -106,27 +119,23 @@ void Session::end_if_overdue() {
 }
 
 void Session::end_at_once() {
-    clear_line();
+    clear_progress();
     const auto lock = remove_temporaries(); // until the end, so that no other is made
     fail({ErrorCode::interrupted, "", ""});
     _exit(static_cast<int>(ExitStatus::bad_input));
 }
 
-/// Draws the progress line, but not in the first second.
+/// Draws the progress line, but not in the first second, and at most once per tick.
 void Session::show() {
+    const auto now = std::chrono::steady_clock::now();
     const std::lock_guard lock(mutex_);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started_;
-    if (stage_.empty() || elapsed.count() < 1) return;
-    const auto share = share_ > 0 ? fmt::format(" {:.0f} %", 100 * share_) : std::string();
-    print(stderr,
-          fmt::format("\r\033[K{}{}{} ({:.0f} s)", number_, stage_, share, elapsed.count()));
-    std::fflush(stderr);
-    shown_ = true;
-}
-
-void Session::clear_line() {
-    if (shown_) print(stderr, "\r\033[K");
-    shown_ = false;
+    if (stage_.empty() || now - started_ < first_shown || now - drawn_ < tick) return;
+    drawn_ = now;
+    const std::chrono::duration<double> elapsed = now - stage_began_;
+    const auto left = time_left_.after(elapsed.count());
+    draw_progress(fmt::format(
+        "{}{}{} ({}{})", number_, stage_, share_ > 0 ? fmt::format(" {:.0f} %", 100 * share_) : "",
+        duration(elapsed.count()), left ? fmt::format(", {} left", duration(*left)) : ""));
 }
 
 } // namespace terrane::cli

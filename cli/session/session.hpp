@@ -14,6 +14,7 @@
 
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/core/stage_times.hpp>
+#include <terrane/cli/session/time_left.hpp>
 
 namespace terrane::cli {
 
@@ -55,20 +56,23 @@ private:
     void end_if_overdue();
     [[noreturn]] void end_at_once();
     void show();
-    void clear_line();
+    /// Notes the stage and its share; the caller holds mutex_.
+    void enter(std::string_view stage, double share);
 
     std::stop_source source_;
     StageTimes times_;
     Run run_;
     std::atomic<Phase> phase_ = Phase::idle;
 
-    bool terminal_;                                 ///< whether standard error is a terminal
-    std::chrono::steady_clock::time_point started_; ///< guarded by mutex_, like all below
-    std::mutex mutex_;
+    bool shows_progress_;
+    std::chrono::steady_clock::time_point started_;
+    std::chrono::steady_clock::time_point drawn_; ///< the progress line; the watcher's alone
+    std::mutex mutex_;                            ///< guards what follows, up to share_
+    std::chrono::steady_clock::time_point stage_began_;
+    TimeLeft time_left_; ///< of the stage
     std::string stage_;  ///< empty: nothing to show
     std::string number_; ///< "stage 2 of 5: ", or empty
     double share_ = 0;
-    bool shown_ = false;
 
     std::chrono::steady_clock::time_point interrupted_; ///< when; the watcher's alone
 

@@ -9,6 +9,7 @@
 
 #include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/styles.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -65,8 +66,9 @@ std::string text_of(const Inputs& inputs, std::span<const LayerReport> reports,
                                        [](const LayerReport& r) { return r.step_length > 0; });
     if (step_width)
         text += fmt::format(
-            "verified: the doubles are a conforming mesh, and no layer is above one "
-            "that is higher in the order{}, by exact checks\n",
+            "{} the doubles are a conforming mesh, and no layer is above one that is higher in "
+            "the order{}, by exact checks\n",
+            good("verified:"),
             has_steps ? fmt::format(" (except within {:.2g} of the lines of steps)", *step_width)
                       : "");
     return text + text_of(rounding.pairs);
@@ -75,14 +77,14 @@ std::string text_of(const Inputs& inputs, std::span<const LayerReport> reports,
 std::string flaws_text(const RoundingReport& report, std::span<const OutOfOrder> out_of_order) {
     if (report.clean && out_of_order.empty()) return {};
     if (report.clean)
-        return fmt::format("terrane: {} of triangles of layers are out of order in doubles, the "
-                           "first at {}, by {:.3g}; nothing written\n",
-                           counted(out_of_order.size(), "pair"), text_of(out_of_order[0].place),
-                           out_of_order[0].depth);
-    return fmt::format("terrane: {} of triangles meet improperly in doubles, the first at {}; "
-                       "nothing written\n",
-                       counted(report.contacts.size(), "pair"),
-                       text_of(report.contacts.at(0).place));
+        return complaint(fmt::format(
+            "{} of triangles of layers are out of order in doubles, the first at {}, by {:.3g}; "
+            "nothing written",
+            counted(out_of_order.size(), "pair"), text_of(out_of_order[0].place),
+            out_of_order[0].depth));
+    return complaint(
+        fmt::format("{} of triangles meet improperly in doubles, the first at {}; nothing written",
+                    counted(report.contacts.size(), "pair"), text_of(report.contacts.at(0).place)));
 }
 
 } // namespace terrane::cli

@@ -14,10 +14,13 @@
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/max_move.hpp>
 #include <terrane/cli/reports/merge_report.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/styles.hpp>
+#include <terrane/cli/session/text_width.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
 
 namespace terrane::cli {
@@ -50,14 +53,15 @@ std::string areas_text(const std::vector<double>& areas) {
 }
 
 std::string surface_table(const Inputs& inputs, const Arranged& arranged) {
-    std::size_t width = 7;
-    for (const auto& label : inputs.labels) width = std::max(width, label.size());
-    auto text = fmt::format("  {:<{}}  {:>9}  {:>9}  {:>7}  areas of the regions{}\n", "surface",
-                            width, "triangles", "-> output", "regions",
-                            inputs.unit.empty() ? "" : ", " + inputs.unit + "2");
+    constexpr std::string_view first = "surface"; // heading of the column of names
+    const std::size_t width = column_width(inputs.labels, first.size());
+    auto text = heading(fmt::format("  {}  {:>9}  {:>9}  {:>7}  areas of the regions{}",
+                                    padded(first, width), "triangles", "-> output", "regions",
+                                    inputs.unit.empty() ? "" : ", " + inputs.unit + "2")) +
+                "\n";
     const auto tallies = tally(arranged.rounded);
     for (std::size_t s = 0; s < std::min(tallies.size(), most_surfaces); ++s)
-        text += fmt::format("  {:<{}}  {:>9}  {:>9}  {:>7}  {}\n", inputs.labels[s], width,
+        text += fmt::format("  {}  {:>9}  {:>9}  {:>7}  {}\n", padded(inputs.labels[s], width),
                             arranged.surfaces[s].triangles.size(), tallies[s].triangles,
                             tallies[s].areas.size(), areas_text(tallies[s].areas));
     if (tallies.size() > most_surfaces)
@@ -104,10 +108,11 @@ std::string rounding_text(const RoundingReport& r) {
                             r.lost_regions.size() == 1
                                 ? std::string("1 surface has")
                                 : fmt::format("{} surfaces have", r.lost_regions.size()));
-    text += r.clean ? "verified: the doubles are a conforming mesh, by exact check\n"
-                    : fmt::format("NOT verified: {} of triangles still meet improperly, and no "
+    text += r.clean ? good("verified:") + " the doubles are a conforming mesh, by exact check\n"
+                    : fmt::format("{} {} of triangles still meet improperly, and no "
                                   "surface may move by more than {:.3g} to separate them\n",
-                                  counted(r.contacts.size(), "pair"), r.max_allowed);
+                                  bad("NOT verified:"), counted(r.contacts.size(), "pair"),
+                                  r.max_allowed);
     return text + text_of(r.pairs);
 }
 
@@ -187,12 +192,15 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
             all.emplace(name_of(m), m);
         return all;
     }();
+    std::vector<std::string> words;
+    for (const auto& [name, method] : methods) words.push_back(name);
     command
         .add_option("--search", settings.search,
                     "How triangles that may meet are found; the result is the same: "
                     "auto, grid, ab, ab-balanced, ab-median, mixed, hierarchy, brute (default: "
                     "auto)")
         ->transform(CLI::Transformer(methods, CLI::ignore_case).description(""))
+        ->check(listing(words))
         ->type_name("METHOD");
     command
         .add_option("--rounds", settings.rounds,

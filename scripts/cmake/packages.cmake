@@ -109,12 +109,7 @@ terrane_package(gmsh terrane-gmsh science GPL-3+ "exact meshes of geological sur
 terrane_package(python python3-terrane python LGPL-3+ "exact meshes of geological surfaces - Python package"
     "${what}\n.\nThis package has the module terrane for Python 3." DEPENDS "python3, python3-numpy"
     SUGGESTS "terrane-tetgen, python3-meshio")
-file(READ ${debian_folder}/terrane.1 page)
-string(REPLACE ";" "\;" page "${page}")
-terrane_gzip("${page}" terrane.1)
-if(TARGET terrane_program)
-  install(FILES ${PROJECT_BINARY_DIR}/debian/terrane.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
-endif()
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/scripts/cmake/compress_pages.cmake)
 
 # Packages of what this build has.
 set(CPACK_COMPONENTS_ALL dev)

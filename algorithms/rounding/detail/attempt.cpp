@@ -239,7 +239,9 @@ bool Rounding::divide_again(std::size_t most_pairs) {
     const auto pairs = contacts();
     if (pairs.size() > most_pairs) return false;
     if (pairs.empty()) return true;
-    Retriangulation division = retriangulate(state_.points, state_.triangles, pairs, run_);
+    Run quiet = run_; // the share of one round says nothing about the others
+    quiet.progress = nullptr;
+    Retriangulation division = retriangulate(state_.points, state_.triangles, pairs, quiet);
     if (run_.stop.stop_requested()) return true;
     const auto first_new = static_cast<std::uint32_t>(state_.points.size());
     std::vector<std::uint32_t> name_of(division.points.size());

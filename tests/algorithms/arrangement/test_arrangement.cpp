@@ -5,6 +5,9 @@
 #include "support/points.hpp"
 #include "support/shapes.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <catch2/catch.hpp>
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 
@@ -234,6 +237,26 @@ TEST_CASE("arrange: progress ascends to 1") {
                   }};
     REQUIRE(arrange(std::vector{floor_triangle}, {}, run));
     CHECK(std::is_sorted(shares.begin(), shares.end()));
+    CHECK(shares.back() == 1);
+}
+
+TEST_CASE("arrange: progress is told within its long steps") {
+    constexpr int size = 100; // 40 000 triangles, each of which is divided
+    const auto crumpled = [](double height) {
+        return sheet_of(
+            size, size, 1.0, [](int, int) { return true; },
+            [height](double x, double y) {
+                return Point3{x, y, std::fmod(x + y, 2) == 0 ? height : -height};
+            });
+    };
+    std::vector<double> shares;
+    const Run run{
+        .threads = 2, .stop = {}, .progress = [&](auto, double share) { shares.push_back(share); }};
+    const auto arranged = arrange(std::vector{crumpled(1), crumpled(-1)}, {}, run);
+    REQUIRE(arranged);
+    CHECK(arranged->statistics.divided == 4 * size * size);
+    CHECK(std::is_sorted(shares.begin(), shares.end()));
+    CHECK(std::ranges::count_if(shares, [](double s) { return s > 0.3 && s < 0.85; }) >= 4);
     CHECK(shares.back() == 1);
 }
 

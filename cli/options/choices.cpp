@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/options/choices.hpp>
+
+#include <string_view>
+
+namespace terrane::cli {
+namespace {
+
+constexpr std::string_view list_start = "one of:";
+
+std::string list_of(const std::vector<std::string>& words) {
+    std::string list(list_start);
+    for (const std::string& word : words) list += ' ' + word;
+    return list;
+}
+
+} // namespace
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+    return CLI::IsMember(words).description("").name(list_of(words));
+}
+
+CLI::Validator listing(const std::vector<std::string>& words) {
+    return CLI::Validator([](std::string&) { return std::string(); }, "", list_of(words));
+}
+
+std::vector<std::string> choices_of(CLI::Option& option) {
+    for (int i = 0;; ++i) {
+        try {
+            const std::string name = option.get_validator(i)->get_name();
+            if (name.starts_with(list_start))
+                return CLI::detail::split_up(name.substr(list_start.size()));
+        } catch (const CLI::OptionNotFound&) { // there are no more
+            return {};
+        }
+    }
+}
+
+} // namespace terrane::cli

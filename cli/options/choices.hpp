@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Words that an option takes. They are kept in the name of a validator of CLI11, where completion and
+// manual pages find them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace terrane::cli {
+
+/// Checks that a value is one of the words, and lists them.
+CLI::Validator one_of(const std::vector<std::string>& words);
+
+/// Lists words that something else checks.
+CLI::Validator listing(const std::vector<std::string>& words);
+
+/// Returns the words that one_of or listing gave to an option; empty if none did.
+std::vector<std::string> choices_of(CLI::Option& option);
+
+} // namespace terrane::cli
