@@ -77,11 +77,11 @@ writeFileSync(target, `// SPDX-License-Identifier: LGPL-3.0-or-later
 namespace terrane::cli::page {
 namespace {
 
-constexpr std::string_view page_script =
+constexpr char page_script[] =
     ${literals(script)};
-constexpr std::string_view page_style =
+constexpr char page_style[] =
     ${literals(style)};
-constexpr Bundle page_bundle{page_script, page_style};
+constexpr Bundle page_bundle{{page_script, sizeof page_script - 1}, {page_style, sizeof page_style - 1}};
 
 } // namespace
 
