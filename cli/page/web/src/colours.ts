@@ -4,14 +4,13 @@
 // and horizons, its variants for more than nine.
 import { Color } from "three";
 
-const light = ["#77aadd", "#ee8866", "#eedd88", "#ffaabb", "#99ddff", "#44bb99", "#bbcc33", "#aaaa00", "#dddddd"];
+const light = ["#77aadd", "#ee8866", "#eedd88", "#44bb99", "#ffaabb", "#99ddff", "#bbcc33", "#aaaa00", "#cfd3d6"];
 
 /** The colour of block or surface `index`; after nine, the same ones darker or lighter. */
 export function colourOf(index: number): Color {
   const colour = new Color(light[index % light.length]);
   const round = Math.floor(index / light.length) % 4;
-  const shade = [0, -0.14, 0.08, -0.24][round];
-  return colour.offsetHSL(0.02 * round, -0.04 * round, shade);
+  return colour.offsetHSL(0.025 * round, -0.12, 0).lerp(new Color(round === 2 ? "#ffffff" : "#46515b"), [0, 0.3, 0.35, 0.5][round]);
 }
 
 /** The colour of a surface: faults are wine, boundaries grey. */

@@ -47,7 +47,10 @@ function sectionControl(view: View): HTMLElement {
     const at = view.model.origin[k] + view.model.half.getComponent(k) * (1 + 2 * view.exploded) * (2 * share - 1);
     shown.textContent = `${axis.value} ${Number(at.toPrecision(6)).toLocaleString("en", { maximumFractionDigits: 2 })}`;
   };
-  axis.addEventListener("change", act);
+  axis.addEventListener("change", () => { // what is kept shows its cut to us
+    if (axis.value !== "off") flipped = view.isBehind("xyz".indexOf(axis.value) as Axis);
+    act();
+  });
   place.addEventListener("input", act);
   const flip = button("⇄", "Keep the other side", () => { flipped = !flipped; act(); }, { "data-control": "Section flip" });
   return element("div", { class: "slider section", role: "group", "aria-label": "Section" }, element("span", {}, "Section"), axis, place, flip, shown);

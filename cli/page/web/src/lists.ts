@@ -33,7 +33,7 @@ function itemRow(item: Item, content: Content, view: View, quantities: Quantitie
   shown.addEventListener("change", () => view.show(item, shown.checked));
   const colour = element("input", { type: "color", value: `#${item.colour.getHexString()}`, "aria-label": `Colour of ${label}` });
   colour.addEventListener("input", () => view.recolour(item, colour.value));
-  const opacity = element("input", { type: "range", min: 0.1, max: 1, step: 0.05, value: 1, "aria-label": `Opacity of ${label}` });
+  const opacity = element("input", { type: "range", min: 0.1, max: 1, step: 0.05, value: item.opacity, "aria-label": `Opacity of ${label}` });
   opacity.addEventListener("input", () => view.setOpacity(item, Number(opacity.value)));
   const name = button("", `Look at ${label}`, () => choose(item), { class: "choose" });
   if (item.kind === "block") name.append(element("b", {}, `${item.number} `));
@@ -46,8 +46,8 @@ function itemRow(item: Item, content: Content, view: View, quantities: Quantitie
 
 /** Makes the list of kinds of lines. */
 export function lineList(view: View, content: Content, quantities: Quantities): HTMLElement {
-  const rows = view.lines.map(({ kind, object }) => {
-    const shown = element("input", { type: "checkbox", checked: object.visible });
+  const rows = view.lines.map(({ kind, wanted }) => {
+    const shown = element("input", { type: "checkbox", checked: wanted });
     shown.addEventListener("change", () => view.showLines(kind, shown.checked));
     const length = content.lines.filter((l) => l.kind === kind).reduce((sum, l) => sum + l.length, 0);
     const key = element("span", { class: "key", "data-kind": kind });

@@ -49,6 +49,7 @@ export class Plots {
     const style = getComputedStyle(document.documentElement);
     const ink = style.getPropertyValue("--ink").trim(), grid = style.getPropertyValue("--line").trim();
     const count = plot.series[0].values.length;
+    const y = this.quantities.axis(plot.y.label, plot.y.measure, Math.max(...plot.series.flatMap((s) => s.values)));
     const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid }, font: "12px system-ui", labelFont: "12px system-ui" };
     const at = Array.from({ length: count }, (_, i) => i + 0.5);
     const bars = (k: number) => uPlot.paths.bars!({
@@ -64,8 +65,8 @@ export class Plots {
       axes: [
         { ...axis, label: this.quantities.label(plot.x.label, plot.x.measure), labelSize: 22, size: 28,
           splits: () => ends.filter((_, i) => i % step === 0), values: (_, list) => list.map(label), grid: { show: false } },
-        { ...axis, label: this.quantities.label(plot.y.label, plot.y.measure), labelSize: 20, size: 58,
-          values: (_, list) => list.map((v) => short(v)) },
+        { ...axis, label: y.label, labelSize: 20, size: 58,
+          values: (_, list) => list.map((v) => short(v / y.factor)) },
       ],
       series: [{}, ...plot.series.map((s, k) => ({
         label: s.name, fill: seriesColours[plot.series.length > 1 ? k : 1], stroke: seriesColours[plot.series.length > 1 ? k : 1],

@@ -17,7 +17,7 @@ export function tableOf(table: Table, quantities: Quantities, announce: (text: s
   const fill = () => body.replaceChildren(...order.slice(0, mostRows).map((row) => element("tr", {}, ...row.map(cellOf))));
   const heads = table.columns.map((column, c) => {
     const head = element("th", { scope: "col", "aria-sort": "none", class: isNumeric(c) ? "number" : "" });
-    head.append(button(quantities.label(column.title, column.measure), `Sort by ${column.title}`, () => {
+    head.append(button(column.title, `Sort by ${column.title}`, () => {
       const down = head.getAttribute("aria-sort") === "ascending";
       for (const other of heads) other.setAttribute("aria-sort", "none");
       head.setAttribute("aria-sort", down ? "descending" : "ascending");

@@ -17,6 +17,12 @@ export class Quantities {
       return `${plain(value / 1000 ** power, digits)} km${sup(power)}`;
     return `${plain(value, digits)}${this.unit ? " " + this.unit + sup(power) : ""}`;
   }
+  /** Returns the unit for an axis on which `most` is the largest value, and how many base units it has. */
+  axis(label: string, measure: string, most: number): { label: string; factor: number } {
+    const power = { length: 1, area: 2, volume: 3 }[measure] ?? 0;
+    const large = power > 0 && this.unit === "m" && most >= [0, 1e4, 1e5, 1e8][power];
+    return large ? { label: `${label} (km${sup(power)})`, factor: 1000 ** power } : { label: this.label(label, measure), factor: 1 };
+  }
   /** Returns "length (m)", or the label alone where no unit is known. */
   label(label: string, measure: string): string {
     const power = { length: 1, area: 2, volume: 3 }[measure] ?? 0;

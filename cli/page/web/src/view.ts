@@ -37,11 +37,29 @@ export interface Section { axis: Axis; share: number; flipped: boolean }
 export type ViewName = "perspective" | "top" | "north" | "east";
 
 const edgeOpacity = 0.28;
+const margin = 1.12; ///< round a model that is shown as a whole
+
+/**
+ * How far a camera must be to see a box round its target from `direction`, and how high, halved, the
+ * picture must be without perspective. `slope` is the tangent of half the field of view.
+ */
+function needed(half: Vector3, direction: Vector3, slope: number, aspect: number): { distance: number; height: number } {
+  const right = new Vector3(0, 0, 1).cross(direction).normalize();
+  const up = direction.clone().cross(right);
+  let distance = 0, height = 0;
+  for (let corner = 0; corner < 8; ++corner) {
+    const p = new Vector3(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, corner & 4 ? half.z : -half.z);
+    const span = Math.max(Math.abs(p.dot(up)), Math.abs(p.dot(right)) / aspect) * margin;
+    distance = Math.max(distance, span / slope + p.dot(direction));
+    height = Math.max(height, span);
+  }
+  return { distance, height };
+}
 
 export class View {
   readonly model: ModelGeometry;
   readonly items: Item[] = [];
-  readonly lines: { kind: string; object: LineSegments2 }[] = [];
+  readonly lines: { kind: string; object: LineSegments2; wanted: boolean }[] = [];
   readonly renderer: WebGLRenderer;
   readonly controls: OrbitControls;
   camera: PerspectiveCamera | OrthographicCamera;
@@ -91,7 +109,9 @@ export class View {
 
   private addItems(): void {
     const { surfaces, blocks } = this.report.content;
-    const hasBlocks = blocks.length > 0;
+    const { x, y, z } = this.model.half;
+    const filled = blocks.reduce((sum, b) => sum + b.volume, 0) / (8 * x * y * z);
+    const hasBlocks = filled > 0.15; // else blocks are accidents between surfaces
     surfaces.forEach((surface, s) => {
       for (const filled of [false, true]) {
         const geometry = this.model.surface(s, filled);
@@ -104,10 +124,26 @@ export class View {
     for (const block of blocks) {
       const geometry = this.model.block(block.number);
       if (geometry.index!.count > 0)
-        this.addItem("block", block.number, block.name, geometry, colourOf(block.number - 1), true);
+        this.addItem("block", block.number, block.name, geometry, colourOf(block.number - 1), hasBlocks);
     }
     if (!this.items.some((i) => i.visible)) for (const item of this.items) item.visible = true;
     for (const item of this.items) item.mesh.visible = item.visible;
+    if (!hasBlocks) this.items.filter((i) => this.isLid(i)).forEach((i) => this.setOpacity(i, 0.45));
+  }
+
+  /** Whether a surface lies above most of the others and hides them from above. */
+  private isLid(item: Item): boolean {
+    if (item.kind !== "surface" || this.items.filter((i) => i.visible).length < 3) return false;
+    const least = [Infinity, Infinity], most = [-Infinity, -Infinity];
+    for (const v of item.mesh.geometry.index!.array as Uint32Array)
+      for (let k = 0; k < 2; ++k) {
+        const at = this.model.vertices[3 * v + k];
+        if (at < least[k]) least[k] = at;
+        if (at > most[k]) most[k] = at;
+      }
+    const covered = (most[0] - least[0]) * (most[1] - least[1]) / (4 * this.model.half.x * this.model.half.y);
+    const below = this.items.filter((i) => i.kind === "surface" && i.centre.z < item.centre.z).length;
+    return covered > 0.7 && below >= 0.6 * (this.report.content.surfaces.length - 1);
   }
 
   private addItem(kind: Item["kind"], number: number, name: string, geometry: BufferGeometry,
@@ -130,13 +166,12 @@ export class View {
   private addLines(): void {
     for (const kind of new Set(this.report.content.lines.map((line) => line.kind))) {
       const geometry = new LineSegmentsGeometry().setPositions(this.model.segmentsOf(kind));
-      const material = new LineMaterial({ color: lineColours[kind] ?? "#111111", linewidth: 1.8 });
+      const material = new LineMaterial({ color: lineColours[kind] ?? "#111111", linewidth: kind === "boundary line" ? 1.1 : 1.8 });
       const object = new LineSegments2(geometry, material);
       object.frustumCulled = false;
       object.renderOrder = 1;
-      object.visible = !this.items.some((i) => i.kind === "block") || kind !== "boundary line";
       this.root.add(object);
-      this.lines.push({ kind, object });
+      this.lines.push({ kind, object, wanted: true });
     }
   }
 
@@ -181,8 +216,8 @@ export class View {
   }
   get showsEdges(): boolean { return this.edgesShown; }
   showLines(kind: string, shown: boolean): void {
-    for (const line of this.lines) if (line.kind === kind) line.object.visible = shown;
-    this.draw();
+    for (const line of this.lines) if (line.kind === kind) line.wanted = shown;
+    this.placeLines();
   }
 
   /** Moves blocks apart: each away from the centre, by `share` of its distance from there. */
@@ -243,7 +278,13 @@ export class View {
       item.edges.position.copy(offset);
     }
     this.cap(item, offset);
-    for (const { object } of this.lines) object.position.set(0, 0, 0);
+    this.placeLines();
+  }
+
+  /** Lines belong to several blocks: they are not shown while blocks are moved apart. */
+  private placeLines(): void {
+    const apart = this.exploded > 0 && this.items.some((i) => i.kind === "block" && i.visible);
+    for (const line of this.lines) line.object.visible = line.wanted && !apart;
     this.draw();
   }
 
@@ -350,17 +391,19 @@ export class View {
     this.resize();
   }
   private aim(target: Vector3, direction: Vector3, radius: number): void {
-    const { clientWidth: width, clientHeight: height } = this.place;
-    const narrow = Math.min(1, width / Math.max(height, 1));
-    const distance = (0.82 * radius) / Math.sin((this.perspective.fov * Math.PI) / 360) / narrow;
+    const aspect = this.place.clientWidth / Math.max(this.place.clientHeight, 1);
+    const all = radius >= this.bounds().radius;
     const whole = this.bounds().radius;
+    const half = all ? this.model.half.clone().multiplyScalar(1 + this.exploded) : new Vector3(radius, radius, radius).multiplyScalar(0.6);
+    if (all) half.z *= this.exaggeration;
+    const need = needed(half, direction, Math.tan((this.perspective.fov * Math.PI) / 360), aspect);
     this.controls.target.copy(target);
-    this.camera.position.copy(target).addScaledVector(direction, this.camera === this.perspective ? distance : 4 * whole);
-    this.perspective.near = distance / 200;
-    this.perspective.far = distance + 8 * whole;
+    this.camera.position.copy(target).addScaledVector(direction, this.camera === this.perspective ? need.distance : 4 * whole);
+    this.perspective.near = need.distance / 200;
+    this.perspective.far = need.distance + 8 * whole;
     this.orthographic.near = 0;
     this.orthographic.far = 10 * whole;
-    this.orthographic.zoom = this.orthographic.top / (radius / narrow * 0.86);
+    this.orthographic.zoom = this.orthographic.top / need.height;
     for (const camera of [this.perspective, this.orthographic]) camera.updateProjectionMatrix();
     this.controls.update();
     this.draw();
@@ -373,6 +416,10 @@ export class View {
       return (this.orthographic.top - this.orthographic.bottom) / this.orthographic.zoom / height;
     const distance = this.camera.position.distanceTo(this.controls.target);
     return (2 * distance * Math.tan((this.perspective.fov * Math.PI) / 360)) / height;
+  }
+  /** Whether the camera looks from the lower side of an axis. */
+  isBehind(axis: Axis): boolean {
+    return this.camera.position.getComponent(axis) < this.controls.target.getComponent(axis);
   }
   get isPerspective(): boolean { return this.camera === this.perspective; }
 
