@@ -56,8 +56,7 @@ ExitStatus run(int argc, char** argv) {
         arrange_command(program), volume_command(program), tetrahedralize_command(program),
         improve_command(program), build_command(program),  check_command(program),
         fill_command(program),    layer_command(program),  report_command(program),
-        convert_command(program),
-        verify_command(program),  bench_command(program)};
+        convert_command(program), verify_command(program), bench_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& stop) {

@@ -50,8 +50,7 @@ Result<ExitStatus> check_files(const CheckCommand& command, Session& session) {
     print(stdout, command.json
                       ? text_of(json_of(r, inputs.value()))
                       : report_text(r, inputs.value(), name_of_inputs(command.files), command.all));
-    if (const auto drawn = page->add_check(*inputs, r, session.run()); !drawn)
-        return drawn.error();
+    if (const auto drawn = page->add_check(*inputs, r, session.run()); !drawn) return drawn.error();
     return write_run(*page, json_of(r, *inputs), command.files, total.lap(), r.clean());
 }
 

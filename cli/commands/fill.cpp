@@ -214,6 +214,11 @@ Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
     }
     add_statistics(statistics, work.value());
     page->add_filled(*work);
+    page->set_verdict(command.list ? "Holes are listed, and none is filled."
+                      : whole      ? "All chosen holes are filled; the new triangles meet others "
+                                     "properly, by an exact check."
+                                   : "Not all chosen holes could be filled.",
+                      whole);
     page->add_certificate(command.proof.certificate);
     return write_run(*page, statistics, command.files, total.lap(), whole);
 }

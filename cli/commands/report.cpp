@@ -78,7 +78,8 @@ Result<ExitStatus> report_files(const ReportCommand& command, Session& session) 
 
 Command report_command(CLI::App& program) {
     auto command = std::make_shared<ReportCommand>();
-    auto* app = program.add_subcommand("report", "Show a model, and what is wrong with it, in a page");
+    auto* app =
+        program.add_subcommand("report", "Show a model, and what is wrong with it, in a page");
     add_inputs(*app, command->files);
     command->files.app = app;
     app->add_option("-o,--output", command->files.report, "The page; - is standard output")

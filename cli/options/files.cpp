@@ -51,8 +51,7 @@ Status check_streams(const FileOptions& options) {
         return std::count(names.begin(), names.end(), "-");
     };
     if (dashes(options.inputs) > 1) return usage("standard input can be read only once");
-    if (dashes(options.outputs) + (options.stats == "-" ? 1 : 0) +
-            (options.report == "-" ? 1 : 0) >
+    if (dashes(options.outputs) + (options.stats == "-" ? 1 : 0) + (options.report == "-" ? 1 : 0) >
         1)
         return usage("standard output can take only one file");
     if (dashes(options.inputs) == 1 && options.format.empty() && options.input_format.empty())
@@ -176,7 +175,8 @@ void add_stats(CLI::App& command, FileOptions& options) {
 
 void add_report(CLI::App& command, FileOptions& options) {
     options.app = &command;
-    command.add_option("--report", options.report, "Write a page to look at: the model and its flaws")
+    command
+        .add_option("--report", options.report, "Write a page to look at: the model and its flaws")
         ->type_name("FILE.html");
 }
 
@@ -268,8 +268,8 @@ std::string wrote(const Output& output) {
 
 std::FILE* summary_stream(const FileOptions& options) {
     const auto& names = options.outputs;
-    const bool taken =
-        options.stats == "-" || options.report == "-" || std::find(names.begin(), names.end(), "-") != names.end();
+    const bool taken = options.stats == "-" || options.report == "-" ||
+                       std::find(names.begin(), names.end(), "-") != names.end();
     return taken ? stderr : stdout;
 }
 

@@ -22,17 +22,17 @@ namespace terrane::cli {
 struct FileOptions {
     std::vector<std::string> inputs;
     std::vector<std::string> outputs;
-    std::string format;        ///< format of every "-"
-    std::string input_format;  ///< format of the inputs, whatever their extensions
-    std::string output_format; ///< format of the outputs, whatever their extensions
-    ReadOptions read;          ///< how to read grids and points
-    std::string stats;         ///< path of the statistics; empty: none
-    std::string report;        ///< path of the report page; empty: none
+    std::string format;            ///< format of every "-"
+    std::string input_format;      ///< format of the inputs, whatever their extensions
+    std::string output_format;     ///< format of the outputs, whatever their extensions
+    ReadOptions read;              ///< how to read grids and points
+    std::string stats;             ///< path of the statistics; empty: none
+    std::string report;            ///< path of the report page; empty: none
     const CLI::App* app = nullptr; ///< the command, for the page's list of options
-    unsigned threads = 0;      ///< 0: all cores
-    bool ascii = false;        ///< STL as text
-    bool strict = false;       ///< warnings about the inputs are errors
-    std::string msh = "4.1";   ///< version of MSH, or 2.2
+    unsigned threads = 0;          ///< 0: all cores
+    bool ascii = false;            ///< STL as text
+    bool strict = false;           ///< warnings about the inputs are errors
+    std::string msh = "4.1";       ///< version of MSH, or 2.2
 };
 
 void add_inputs(CLI::App& command, FileOptions& options);

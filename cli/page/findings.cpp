@@ -65,6 +65,13 @@ std::string surfaces_text(const Mesh& mesh, std::uint32_t t,
     return text;
 }
 
+/// Returns the name of a constant as words.
+std::string in_words(std::string_view name) {
+    std::string words(name);
+    std::replace(words.begin(), words.end(), '_', ' ');
+    return words;
+}
+
 /// Returns the indices of the least values, the least first; equal ones by index.
 std::vector<std::uint32_t> least_of(const std::vector<double>& values) {
     std::vector<std::uint32_t> order(values.size());
@@ -85,14 +92,13 @@ void add_contacts(Findings& findings, const RoundedMesh& rounded,
     const Mesh& mesh = rounded.mesh;
     for (const ImproperContact& c : rounded.report.contacts) {
         const auto [a, b] = c.triangles;
-        const double size =
-            std::max(longest_edge(corners_of(mesh.vertices, mesh.triangles[a])),
-                     longest_edge(corners_of(mesh.vertices, mesh.triangles[b])));
-        findings.push_back({"improper contact",
-                            fmt::format("{} triangle {} and {} triangle {}: {}",
-                                        surfaces_text(mesh, a, labels), a,
-                                        surfaces_text(mesh, b, labels), b, name_of(c.kind)),
-                            size, "length", c.place, 2 * size});
+        const double size = std::max(longest_edge(corners_of(mesh.vertices, mesh.triangles[a])),
+                                     longest_edge(corners_of(mesh.vertices, mesh.triangles[b])));
+        findings.push_back(
+            {"improper contact",
+             fmt::format("{} triangle {} and {} triangle {}: {}", surfaces_text(mesh, a, labels), a,
+                         surfaces_text(mesh, b, labels), b, name_of(c.kind)),
+             size, "length", c.place, 2 * size});
     }
 }
 
@@ -116,8 +122,8 @@ void add_flaws(Findings& findings, const CheckReport& report, const Inputs& inpu
         const auto corners = triangles.corners(t);
         const double size = longest_edge(corners);
         findings.push_back({"repeated triangle",
-                            triangles.name(t) + " repeats " + triangles.name(other), size,
-                            "length", centre_of(corners), 2 * size});
+                            triangles.name(t) + " repeats " + triangles.name(other), size, "length",
+                            centre_of(corners), 2 * size});
     }
 }
 
@@ -180,23 +186,21 @@ void add_seal(Findings& findings, const Arranged& arranged,
     if (arranged.sealed) {
         for (const ClosedGap& gap : arranged.sealed->closed)
             findings.push_back({"closed gap",
-                                fmt::format("{} was extended to {} across {:.3g}",
-                                            labels[gap.from], labels[gap.to], gap.width),
+                                fmt::format("{} was extended to {} across {:.3g}", labels[gap.from],
+                                            labels[gap.to], gap.width),
                                 gap.length, "length", gap.place,
                                 std::max(8 * gap.width, gap.length)});
         for (const OpenGap& gap : arranged.sealed->open)
-            findings.push_back({"open gap",
-                                fmt::format("between {} and {}, up to {:.3g} wide: {}",
-                                            labels[gap.from], labels[gap.to], gap.width,
-                                            name_of(gap.reason)),
-                                gap.length, "length", gap.place,
-                                std::max(8 * gap.width, gap.length / 4)});
+            findings.push_back(
+                {"open gap",
+                 fmt::format("between {} and {}, up to {:.3g} wide: {}", labels[gap.from],
+                             labels[gap.to], gap.width, in_words(name_of(gap.reason))),
+                 gap.length, "length", gap.place, std::max(8 * gap.width, gap.length / 4)});
     }
     if (!arranged.merged) return;
     for (const MergedBlock& block : arranged.merged->merged)
-        findings.push_back({"merged block",
-                            fmt::format("too small, {:.3g} thick", block.thickness), block.volume,
-                            "volume", block.place, 4 * std::cbrt(block.volume)});
+        findings.push_back({"merged block", fmt::format("too small, {:.3g} thick", block.thickness),
+                            block.volume, "volume", block.place, 4 * std::cbrt(block.volume)});
 }
 
 void add_thin_blocks(Findings& findings, const Model& model) {
@@ -217,12 +221,10 @@ void add_thin_blocks(Findings& findings, const Model& model) {
         const double thickness = 2 * block.volume / block.area;
         if (thickness >= thin) continue;
         const auto& outline = model.structure.interfaces[block.interfaces[0]];
-        const auto corners =
-            corners_of(mesh.vertices, mesh.triangles[outline.triangles[0]]);
+        const auto corners = corners_of(mesh.vertices, mesh.triangles[outline.triangles[0]]);
         findings.push_back({"thin block",
                             fmt::format("block {}, {}: {:.3g} thick", b, block.name, thickness),
-                            block.volume, "volume", centre_of(corners),
-                            4 * std::sqrt(block.area)});
+                            block.volume, "volume", centre_of(corners), 4 * std::sqrt(block.area)});
     }
 }
 
@@ -247,8 +249,8 @@ void add_worst_tetrahedra(Findings& findings, const TetrahedralMesh& mesh,
                           const std::vector<std::string>& block_names) {
     const auto corners_at = [&](std::size_t t) {
         const auto& v = mesh.tetrahedra[t];
-        return std::array<Point3, 4>{mesh.vertices[v[0]], mesh.vertices[v[1]],
-                                     mesh.vertices[v[2]], mesh.vertices[v[3]]};
+        return std::array<Point3, 4>{mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]],
+                                     mesh.vertices[v[3]]};
     };
     std::vector<double> least(mesh.tetrahedra.size(), 180);
     for (std::size_t t = 0; t < least.size(); ++t) {

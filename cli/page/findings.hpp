@@ -9,9 +9,9 @@
 #include <vector>
 
 #include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/leak_advice.hpp>
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/cli/options/statistics.hpp>
 

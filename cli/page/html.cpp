@@ -11,8 +11,7 @@ namespace {
 /// Returns the hash of an element's content as a Content-Security-Policy names it.
 std::string policy_hash(std::string_view content) {
     const Hash hash = sha256(content);
-    return "'sha256-" +
-           base64_of({reinterpret_cast<const char*>(hash.data()), hash.size()}) + "'";
+    return "'sha256-" + base64_of({reinterpret_cast<const char*>(hash.data()), hash.size()}) + "'";
 }
 
 /// Returns JSON that an HTML element can hold: no '<' can end it.
@@ -48,9 +47,10 @@ std::string html_of(const Json& content, const Arrays& arrays, const Json& run,
 <style>)",
         policy_hash(bundle.script), policy_hash(bundle.style));
     page += bundle.style;
-    page += "</style>\n</head>\n<body>\n<noscript>This report is drawn by its own JavaScript, which "
-            "is switched off.</noscript>\n"
-            "<script type=\"application/octet-stream\" id=\"terrane-data\">";
+    page +=
+        "</style>\n</head>\n<body>\n<noscript>This report is drawn by its own JavaScript, which "
+        "is switched off.</noscript>\n"
+        "<script type=\"application/octet-stream\" id=\"terrane-data\">";
     page += base64_of(gzipped(block_of(content, arrays)));
     page += "</script>\n<script type=\"application/json\" id=\"terrane-run\">";
     page += embedded(run);

@@ -29,8 +29,7 @@ Result<Page> Page::plan(const FileOptions& files) {
     if (files.report.empty()) return page;
     if (page::bundle() == nullptr)
         return Error{ErrorCode::unsupported,
-                     "this terrane was built without npm, so it makes no report pages",
-                     "--report"};
+                     "this terrane was built without npm, so it makes no report pages", "--report"};
     if (const auto folder = check_folder(files.report); !folder) return folder.error();
     return page;
 }
@@ -89,11 +88,11 @@ void Page::add_arranged(const Inputs& inputs, const Arranged& arranged) {
     page::add_contacts(findings_, arranged.rounded, labels_);
     page::add_seal(findings_, arranged, labels_);
     const bool clean = arranged.rounded.report.clean;
-    set_verdict(clean ? "The mesh is conforming, by an exact check of its doubles."
-                      : fmt::format("The mesh is not conforming: {} left. Nothing was written.",
-                                    counted(arranged.rounded.report.contacts.size(),
-                                            "improper contact")),
-                clean);
+    set_verdict(
+        clean ? "The mesh is conforming, by an exact check of its doubles."
+              : fmt::format("The mesh is not conforming: {} left. Nothing was written.",
+                            counted(arranged.rounded.report.contacts.size(), "improper contact")),
+        clean);
 }
 
 void Page::add_improved(const Inputs& inputs, const ImprovedAndMeasured& measured,
@@ -178,11 +177,10 @@ Json Page::surfaces_json() const {
 Json Page::tables(const Json& statistics) const {
     Json tables = tables_;
     tables.push_back(page::surface_table(surfaces_json()));
-    tables.push_back({{"title", "Input files"},
-                      {"columns", page::columns({{"file", "text"},
-                                                 {"bytes", "count"},
-                                                 {"SHA-256", "text"}})},
-                      {"rows", inputs_}});
+    tables.push_back(
+        {{"title", "Input files"},
+         {"columns", page::columns({{"file", "text"}, {"bytes", "count"}, {"SHA-256", "text"}})},
+         {"rows", inputs_}});
     tables.push_back(page::option_table(*files_.app));
     Json verdicts = Json::array();
     if (!verdict_.empty()) verdicts.push_back({"result", verdict_});

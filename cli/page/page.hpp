@@ -83,7 +83,7 @@ private:
     std::string verdict_;
     bool good_ = true;
     page::Scene scene_;
-    SharedMesh before_; ///< before it was improved
+    SharedMesh before_;              ///< before it was improved
     std::optional<SharedMesh> mesh_; ///< whose triangles are measured
 };
 

@@ -2,8 +2,8 @@
 #include <terrane/cli/page/plots.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <climits>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -40,8 +40,8 @@ Measured measured(const Mesh& mesh) {
 std::vector<double> even_bounds(double from, double to, std::size_t classes) {
     std::vector<double> bounds;
     for (std::size_t i = 0; i <= classes; ++i)
-        bounds.push_back(from + (to - from) * static_cast<double>(i) /
-                                    static_cast<double>(classes));
+        bounds.push_back(from +
+                         (to - from) * static_cast<double>(i) / static_cast<double>(classes));
     return bounds;
 }
 

@@ -3,8 +3,8 @@
 // The plots of a page, as data: bars over classes of a measure, or over names.
 #pragma once
 
-#include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
+#include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
 #include <terrane/cli/options/statistics.hpp>

@@ -21,11 +21,11 @@ namespace terrane::cli::page {
 struct ScenePart {
     std::vector<std::uint32_t> surfaces{}; ///< ascending, >= 1
     std::optional<std::array<std::uint32_t, 2>>
-        blocks{};            ///< in front of all its triangles, and behind; none: not known
-    std::size_t first = 0;   ///< triangle of the scene
-    std::size_t count = 0;   ///< number of triangles
-    double area = 0;         ///< squared unit
-    bool filled = false;     ///< the triangles were invented to fill holes
+        blocks{};          ///< in front of all its triangles, and behind; none: not known
+    std::size_t first = 0; ///< triangle of the scene
+    std::size_t count = 0; ///< number of triangles
+    double area = 0;       ///< squared unit
+    bool filled = false;   ///< the triangles were invented to fill holes
 };
 
 /// A line, or all lines of one kind.
@@ -48,8 +48,8 @@ struct Scene {
     std::vector<std::array<std::uint32_t, 4>> tetrahedra{};
     std::vector<std::uint32_t> region_of{}; ///< per tetrahedron: its block
     std::size_t given = 0;                  ///< triangles before decimation
-    std::size_t left_out = 0; ///< tetrahedra that are not drawn as there are too many
-    double cell = 0;          ///< edge of the cells of decimation; 0: every triangle is drawn
+    std::size_t left_out = 0;               ///< tetrahedra that are not drawn as there are too many
+    double cell = 0; ///< edge of the cells of decimation; 0: every triangle is drawn
 };
 
 /// Makes the scene of a mesh: one part for each set of surfaces. Lines are its intersection edges

@@ -28,8 +28,7 @@ struct Bounds {
     }
     /// Returns the longest edge; 0 without points.
     [[nodiscard]] double extent() const {
-        return std::max(
-            {largest.x - least.x, largest.y - least.y, largest.z - least.z, 0.0});
+        return std::max({largest.x - least.x, largest.y - least.y, largest.z - least.z, 0.0});
     }
 };
 
@@ -116,8 +115,8 @@ Json points_packed(const std::vector<Point3>& points, const Bounds& box, double 
         return static_cast<std::uint32_t>(std::lround(std::min((x - least) / step, most_steps)));
     };
     for (const Point3& p : points)
-        values.insert(values.end(), {steps(p.x, box.least.x), steps(p.y, box.least.y),
-                                     steps(p.z, box.least.z)});
+        values.insert(values.end(),
+                      {steps(p.x, box.least.x), steps(p.y, box.least.y), steps(p.z, box.least.z)});
     return arrays.add(values, 3);
 }
 

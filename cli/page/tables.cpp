@@ -70,9 +70,8 @@ std::string title_of(const FileOptions& files) {
     const std::string& first = files.inputs.front();
     const auto name =
         first == "-" ? "standard input" : std::filesystem::path(first).filename().string();
-    return files.inputs.size() == 1
-               ? name
-               : fmt::format("{} and {} more", name, files.inputs.size() - 1);
+    return files.inputs.size() == 1 ? name
+                                    : fmt::format("{} and {} more", name, files.inputs.size() - 1);
 }
 
 Result<Json> file_row(const std::string& path) {
@@ -85,16 +84,16 @@ Json blocks_json(const Model& model, const std::vector<std::string>& labels) {
     Json json = Json::array();
     for (std::size_t b = 1; b < model.structure.blocks.size(); ++b) {
         const ModelBlock& block = model.structure.blocks[b];
-        json.push_back({{"number", b},
-                        {"name", block.name},
-                        {"unit", block.unit},
-                        {"volume", b < model.exact_volumes.size() ? model.exact_volumes[b]
-                                                                  : block.volume},
-                        {"area", block.area},
-                        {"above", names_of(block.above, labels)},
-                        {"below", names_of(block.below, labels)},
-                        {"beside", names_of(block.beside, labels)},
-                        {"neighbours", block.neighbours}});
+        json.push_back(
+            {{"number", b},
+             {"name", block.name},
+             {"unit", block.unit},
+             {"volume", b < model.exact_volumes.size() ? model.exact_volumes[b] : block.volume},
+             {"area", block.area},
+             {"above", names_of(block.above, labels)},
+             {"below", names_of(block.below, labels)},
+             {"beside", names_of(block.beside, labels)},
+             {"neighbours", block.neighbours}});
     }
     return json;
 }
@@ -102,8 +101,8 @@ Json blocks_json(const Model& model, const std::vector<std::string>& labels) {
 std::vector<Json> block_tables(const Model& model, const std::vector<std::string>& labels) {
     Json blocks = Json::array();
     for (const Json& b : blocks_json(model, labels))
-        blocks.push_back({b["number"], b["name"], b["volume"], b["area"], b["above"], b["below"],
-                          b["beside"]});
+        blocks.push_back(
+            {b["number"], b["name"], b["volume"], b["area"], b["above"], b["below"], b["beside"]});
     std::map<std::array<std::uint32_t, 2>, std::pair<double, std::string>> areas;
     for (const ModelInterface& i : model.structure.interfaces) {
         if (i.dangles()) continue;
@@ -115,21 +114,21 @@ std::vector<Json> block_tables(const Model& model, const std::vector<std::string
     for (const auto& [pair, contact] : areas)
         neighbours.push_back({pair[0] == 0 ? Json("outside") : Json(pair[0]), pair[1],
                               contact.first, contact.second});
-    return {{{"title", "Blocks"},
-             {"columns", columns({{"block", "count"},
-                                  {"name", "text"},
-                                  {"volume", "volume"},
-                                  {"area", "area"},
-                                  {"above", "text"},
-                                  {"below", "text"},
-                                  {"beside", "text"}})},
-             {"rows", blocks}},
-            {{"title", "Neighbours"},
-             {"columns", columns({{"block", "count"},
-                                  {"neighbour", "count"},
-                                  {"area", "area"},
-                                  {"across", "text"}})},
-             {"rows", neighbours}}};
+    return {
+        {{"title", "Blocks"},
+         {"columns", columns({{"block", "count"},
+                              {"name", "text"},
+                              {"volume", "volume"},
+                              {"area", "area"},
+                              {"above", "text"},
+                              {"below", "text"},
+                              {"beside", "text"}})},
+         {"rows", blocks}},
+        {{"title", "Neighbours"},
+         {"columns",
+          columns(
+              {{"block", "count"}, {"neighbour", "count"}, {"area", "area"}, {"across", "text"}})},
+         {"rows", neighbours}}};
 }
 
 Json surface_table(const Json& surfaces) {

@@ -153,11 +153,11 @@ class Page {
       const rows = of.map((finding) => {
         const row = button("", `Fly to ${kind}`, () => this.flyTo(finding), { class: "finding" });
         row.removeAttribute("aria-label");
-        row.append(element("span", { class: "size" }, this.sizeOf(finding)), named(finding.text));
+        row.append(element("span", { class: "size" }, this.sizeOf(finding)), named(finding.text, 1000));
         return element("li", {}, row);
       });
       const more = count > of.length ? [element("p", { class: "note" }, `The ${of.length} largest of ${count} are listed.`)] : [];
-      panel.append(element("details", { open: of.length <= 50 || Object.keys(counts).length === 1 },
+      panel.append(element("details", { open: of[0] === list[0] || of.length <= 50 },
         element("summary", {}, plural(kind, count), element("span", { class: "count" }, ` ${count.toLocaleString("en")}`)), element("ol", {}, ...rows), ...more));
     }
     return panel;

@@ -8,11 +8,11 @@ const mostRows = 1000; ///< rows that are shown; copying takes all
 export function tableOf(table: Table, quantities: Quantities, announce: (text: string) => void): HTMLElement {
   const body = element("tbody");
   let order = table.rows;
-  const isNumeric = (c: number) => !["text"].includes(table.columns[c].measure) && table.rows.some((r) => typeof r[c] === "number");
+  const isNumeric = (c: number) => table.rows.some((r) => typeof r[c] === "number") && table.rows.every((r) => typeof r[c] !== "string");
   const cellOf = (value: Cell, c: number): HTMLElement => {
     if (typeof value === "number") return element("td", { class: "number" }, quantities.text(value, table.columns[c].measure === "number" ? "" : table.columns[c].measure, 6));
     if (value === null || value === "") return element("td", {}, "–");
-    return element("td", {}, typeof value === "string" ? named(value) : String(value));
+    return element("td", {}, typeof value === "string" ? named(value, 1000) : String(value));
   };
   const fill = () => body.replaceChildren(...order.slice(0, mostRows).map((row) => element("tr", {}, ...row.map(cellOf))));
   const heads = table.columns.map((column, c) => {

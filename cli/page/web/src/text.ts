@@ -72,8 +72,8 @@ export function shortened(name: string, most = 120): string {
 }
 
 /** An element with a name from a file, in its own direction of writing. */
-export function named(name: string): HTMLElement {
-  return element("bdi", { title: name.length > 2000 ? shortened(name, 2000) : name, class: "name" }, shortened(name));
+export function named(name: string, most = 120): HTMLElement {
+  return element("bdi", { title: shortened(name, 2000), class: name.length > 40 ? "name long" : "name" }, shortened(name, most));
 }
 
 export function download(name: string, type: string, text: string): void {

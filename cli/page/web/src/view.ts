@@ -116,7 +116,7 @@ export class View {
       for (const filled of [false, true]) {
         const geometry = this.model.surface(s, filled);
         if (!geometry) continue;
-        const colour = filled ? new Color("#cc3311") : colourOfRole(surface.role, s);
+        const colour = filled ? new Color("#e0763a") : colourOfRole(surface.role, s);
         const name = filled ? `${surface.label}: filled` : surface.label;
         this.addItem("surface", s, name, geometry, colour, !hasBlocks && (surface.role !== "boundary"));
       }
