@@ -43,10 +43,4 @@ else()
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page_web}/package-lock.json)
   file(GLOB page_sources CONFIGURE_DEPENDS ${page_web}/src/*)
   set(page_source ${PROJECT_BINARY_DIR}/page_bundle.cpp)
-  add_custom_command(
-    OUTPUT ${page_source}
-    COMMAND ${NODE_PROGRAM} ${page_web}/build.mjs ${page_packages} ${page_web} ${page_source}
-            ${page_packages}/page.js ${page_packages}/page.css
-    DEPENDS ${page_sources} ${page_web}/build.mjs ${page_packages}/installed
-    COMMENT "Bundling the report page" VERBATIM)
 endif()

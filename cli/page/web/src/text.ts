@@ -61,7 +61,8 @@ export function element<K extends keyof HTMLElementTagNameMap>(
 
 /** Makes a button that does something. */
 export function button(text: string, label: string, act: () => void, attributes: Attributes = {}): HTMLButtonElement {
-  const made = element("button", { type: "button", title: label, "aria-label": label, ...attributes }, text);
+  const name = label.toLowerCase().includes(text.toLowerCase()) ? label : `${text}: ${label}`; // holds what is seen
+  const made = element("button", { type: "button", title: label, "aria-label": name, ...attributes }, text);
   made.addEventListener("click", act);
   return made;
 }
