@@ -28,7 +28,8 @@ input or usage, cannot read or write, interrupted; 3 internal, out of memory. Wh
 written completely, it is not written at all.
 
 Start here:
-  terrane arrange horizons.ts faults.ts -o model.vtp   (look at it in ParaView)
+  terrane report horizons.ts faults.ts -o model.html   (look at it in a browser)
+  terrane arrange horizons.ts faults.ts -o model.vtp
   terrane COMMAND --help)";
 
 constexpr auto licence =
@@ -53,10 +54,11 @@ ExitStatus run(int argc, char** argv) {
     program.footer(main_footer);
     const std::array commands{
         // as --help lists them: what people use most comes first
-        arrange_command(program), volume_command(program), tetrahedralize_command(program),
-        improve_command(program), build_command(program),  check_command(program),
-        fill_command(program),    layer_command(program),  report_command(program),
-        convert_command(program), verify_command(program), bench_command(program)};
+        arrange_command(program), volume_command(program),  tetrahedralize_command(program),
+        improve_command(program), build_command(program),   check_command(program),
+        fill_command(program),    layer_command(program),   report_command(program),
+        view_command(program),    convert_command(program), verify_command(program),
+        bench_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& stop) {

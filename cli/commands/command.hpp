@@ -27,6 +27,7 @@ Command layer_command(CLI::App& program);
 Command report_command(CLI::App& program);
 Command tetrahedralize_command(CLI::App& program);
 Command verify_command(CLI::App& program);
+Command view_command(CLI::App& program);
 Command volume_command(CLI::App& program);
 
 } // namespace terrane::cli
