@@ -96,6 +96,36 @@ export class ModelGeometry {
     return points;
   }
 
+  private clusters: Uint32Array | null = null;
+
+  /** The triangles that are left when the vertices in each cell of a grid are joined: about `most` in all. */
+  coarse(geometry: BufferGeometry, most: number): BufferGeometry {
+    this.clusters ??= this.firstInCell(Math.sqrt(this.content.parts.reduce((sum, p) => sum + p.area, 0) / most));
+    const first = this.clusters, index = geometry.index!.array as Uint32Array;
+    const kept = new Uint32Array(index.length);
+    let at = 0;
+    for (let t = 0; t < index.length; t += 3) {
+      const a = first[index[t]], b = first[index[t + 1]], c = first[index[t + 2]];
+      if (a === b || b === c || c === a) continue;
+      kept[at++] = a;
+      kept[at++] = b;
+      kept[at++] = c;
+    }
+    return this.geometry(kept.slice(0, at));
+  }
+  private firstInCell(cell: number): Uint32Array {
+    const seen = new Map<number, number>(), count = this.vertices.length / 3;
+    const result = new Uint32Array(count);
+    const along = (v: number, k: number) => Math.floor((this.vertices[3 * v + k] + this.half.getComponent(k)) / cell);
+    for (let v = 0; v < count; ++v) {
+      const key = (along(v, 0) * 65536 + along(v, 1)) * 65536 + along(v, 2);
+      const known = seen.get(key);
+      if (known === undefined) seen.set(key, v);
+      result[v] = known ?? v;
+    }
+    return result;
+  }
+
   /** The edges of an index, each once where there are not too many to sort out. */
   edges(geometry: BufferGeometry): BufferGeometry {
     const index = geometry.index!.array as Uint32Array;

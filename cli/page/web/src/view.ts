@@ -21,6 +21,8 @@ export interface Item {
   number: number;
   name: string;
   mesh: Mesh<BufferGeometry, MeshLambertMaterial>;
+  geometry: BufferGeometry;      ///< all triangles; the mesh may have fewer while it turns
+  coarse: BufferGeometry | null; ///< made when it is needed
   edges: LineSegments | null;
   cap: Mesh<BufferGeometry, MeshLambertMaterial> | null;
   capEdges: LineSegments | null;
@@ -37,6 +39,8 @@ export interface Section { axis: Axis; share: number; flipped: boolean }
 export type ViewName = "perspective" | "top" | "north" | "east";
 
 const edgeOpacity = 0.28;
+const slowPicture = 70;        ///< milliseconds between two pictures above which they become simpler
+const quickTriangles = 100_000; ///< drawn at most then, about
 const margin = 1.12; ///< round a model that is shown as a whole
 
 /**
@@ -77,6 +81,10 @@ export class View {
   private readonly markers = new Group();
   private edgesShown = false;
   private pending = false;
+  private quick = false; ///< drawn with fewer pixels and triangles, as turning was slow
+  private moves = 0;     ///< pictures since the view came to rest
+  private drawnAt = 0;
+  private rest: number | undefined;
 
   constructor(private readonly place: HTMLElement, readonly report: Report) {
     this.model = new ModelGeometry(report);
@@ -88,7 +96,10 @@ export class View {
     for (const camera of [this.perspective, this.orthographic]) camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.zoomToCursor = true;
-    this.controls.addEventListener("change", () => this.draw());
+    this.controls.addEventListener("change", () => {
+      this.move();
+      this.draw();
+    });
     this.scene.add(this.root, this.sun, this.sun.target, new AmbientLight(0xffffff, 1.35));
     this.root.add(this.markers);
     this.addItems();
@@ -135,7 +146,7 @@ export class View {
   private isLid(item: Item): boolean {
     if (item.kind !== "surface" || this.items.filter((i) => i.visible).length < 3) return false;
     const least = [Infinity, Infinity], most = [-Infinity, -Infinity];
-    for (const v of item.mesh.geometry.index!.array as Uint32Array)
+    for (const v of item.geometry.index!.array as Uint32Array)
       for (let k = 0; k < 2; ++k) {
         const at = this.model.vertices[3 * v + k];
         if (at < least[k]) least[k] = at;
@@ -157,7 +168,7 @@ export class View {
     this.root.add(mesh);
     const centre = this.model.centre(geometry);
     this.items.push({
-      kind, number, name, mesh, edges: null, cap: null, capEdges: null, cut: null, centre,
+      kind, number, name, mesh, geometry, coarse: null, edges: null, cap: null, capEdges: null, cut: null, centre,
       reach: this.model.reach(geometry, centre), visible, colour: colour.clone(), opacity: 1,
       tetrahedra: kind === "block" ? this.model.tetrahedraOf(number) : new Uint32Array(),
     });
@@ -268,7 +279,7 @@ export class View {
     item.mesh.visible = item.visible;
     item.mesh.position.copy(offset);
     if (item.visible && this.edgesShown && !item.edges) {
-      item.edges = new LineSegments(this.model.edges(item.mesh.geometry), this.edgeMaterial());
+      item.edges = new LineSegments(this.model.edges(item.geometry), this.edgeMaterial());
       item.edges.frustumCulled = false;
       this.root.add(item.edges);
       this.placePlane();
@@ -305,7 +316,7 @@ export class View {
     const at = this.levelOf(this.section) - offset.getComponent(axis);
     const cut = item.tetrahedra.length
       ? cutTetrahedra(this.model.nodes, this.model.tetrahedra, item.tetrahedra, axis, at)
-      : cutBoundary(this.model.vertices, item.mesh.geometry.index!.array as Uint32Array, axis, at);
+      : cutBoundary(this.model.vertices, item.geometry.index!.array as Uint32Array, axis, at);
     item.cut = cut;
     if (cut.triangles.length === 0) return;
     const listed = (numbers: number[]) => {
@@ -319,7 +330,7 @@ export class View {
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
     }));
     item.capEdges = new LineSegments(listed(cut.edges), this.edgeMaterial());
-    (item.capEdges.material as LineBasicMaterial).opacity = item.tetrahedra.length ? 0.4 : 0.8;
+    (item.capEdges.material as LineBasicMaterial).opacity = item.tetrahedra.length ? 0.22 : 0.8;
     item.capEdges.visible = item.tetrahedra.length === 0 || this.edgesShown || item.tetrahedra.length < 200_000;
     for (const object of [item.cap, item.capEdges]) {
       object.position.copy(offset);
@@ -450,8 +461,33 @@ export class View {
       marker.scale.set(size, size, size / this.exaggeration);
     }
     this.renderer.render(this.scene, this.camera);
+    this.drawnAt = performance.now();
     ++this.frames;
     this.onFrame();
+  }
+
+  /** Notes that the view moves: where pictures take long, they are simpler until it rests. */
+  private move(): void {
+    const now = performance.now();
+    if (this.moves++ > 1 && !this.quick && now - this.drawnAt > slowPicture) this.setQuick(true);
+    clearTimeout(this.rest);
+    this.rest = window.setTimeout(() => {
+      this.moves = 0;
+      if (this.quick) this.setQuick(false);
+    }, 300);
+  }
+  private setQuick(quick: boolean): void {
+    this.quick = quick;
+    const ratio = Math.min(window.devicePixelRatio, 2);
+    this.renderer.setPixelRatio(quick ? ratio / 2 : ratio);
+    const triangles = this.items.reduce((sum, i) => sum + (i.visible ? i.geometry.index!.count / 3 : 0), 0);
+    const simplify = quick && triangles > quickTriangles;
+    for (const item of this.items) {
+      if (simplify && item.visible) item.coarse ??= this.model.coarse(item.geometry, quickTriangles);
+      item.mesh.geometry = simplify && item.coarse ? item.coarse : item.geometry;
+      if (item.edges) item.edges.visible = item.visible && this.edgesShown && !simplify;
+    }
+    this.draw();
   }
 
   // ---------------------------------------------------------------------------------------- picking
@@ -464,6 +500,7 @@ export class View {
   /** Finds what is drawn at a point of the view, in pixels from its upper left corner. */
   pick(x: number, y: number): Pick | null {
     const { clientWidth: width, clientHeight: height } = this.place;
+    if (this.quick) this.setQuick(false);
     const caster = new Raycaster();
     caster.setFromCamera(new Vector2((2 * x) / width - 1, 1 - (2 * y) / height), this.camera);
     this.scene.updateMatrixWorld();
