@@ -143,6 +143,7 @@ void Page::add_filled(const FillWork& work) {
     mesh_ = SharedMesh(mesh);
     page::split_filled(scene_, work);
     page::add_fillings(findings_, work);
+    page::add_fill_plots(plots_, work);
     tables_.push_back(page::fill_table(work));
 }
 

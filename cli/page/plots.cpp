@@ -2,6 +2,7 @@
 #include <terrane/cli/page/plots.hpp>
 
 #include <algorithm>
+#include <array>
 #include <climits>
 #include <cmath>
 #include <map>
@@ -82,6 +83,16 @@ Json plot_of(const char* title, Json x, const char* counted, const std::vector<d
             {"series", Json::array()}};
 }
 
+Json line_of(const char* name, std::vector<std::array<double, 2>> points, bool dots) {
+    std::sort(points.begin(), points.end());
+    Json x = Json::array(), y = Json::array();
+    for (const auto& point : points) {
+        x.push_back(point[0]);
+        y.push_back(point[1]);
+    }
+    return {{"name", name}, {"x", x}, {"y", y}, {"dots", dots}};
+}
+
 } // namespace
 
 void add_triangle_plots(Json& plots, const Mesh& mesh, const Mesh* before) {
@@ -140,6 +151,39 @@ void add_gap_plot(Json& plots, const std::vector<FreeBorder>& borders) {
     plot["y"] = axis("length of borders", "length");
     plot["series"].push_back({{"name", "borders"}, {"values", values}});
     plots.push_back(std::move(plot));
+}
+
+void add_fill_plots(Json& plots, const FillWork& work) {
+    constexpr std::size_t most = 6;
+    std::vector<const NumberedHole*> holes;
+    for (const NumberedHole& hole : work.holes)
+        if (hole.report) holes.push_back(&hole);
+    std::stable_sort(holes.begin(), holes.end(), [](const auto* a, const auto* b) {
+        return a->report->area > b->report->area;
+    });
+    if (holes.size() > most) holes.resize(most);
+    for (const NumberedHole* hole : holes) {
+        const FillReport& r = *hole->report;
+        const auto of = fmt::format("hole {} of {}", hole->number, work.surfaces[hole->task].label);
+        if (!r.variogram.empty())
+            plots.push_back({{"title", "Variogram of " + of},
+                             {"x", axis("distance", "length")},
+                             {"y", axis("half the mean squared difference", "area")},
+                             {"lines", Json::array({line_of("data", r.variogram, true),
+                                                    line_of("model", r.variogram_model, false)})}});
+        if (r.left_out.empty()) continue;
+        auto [low, high] = std::pair(r.left_out.front()[0], r.left_out.front()[0]);
+        for (const auto& pair : r.left_out) {
+            low = std::min(low, pair[0]);
+            high = std::max(high, pair[0]);
+        }
+        plots.push_back(
+            {{"title", "Cross-validation of " + of},
+             {"x", axis("height of data that were left out", "height")},
+             {"y", axis("height as predicted", "height")},
+             {"lines", Json::array({line_of("left out", r.left_out, true),
+                                    line_of("equal", {{low, low}, {high, high}}, false)})}});
+    }
 }
 
 void add_volume_plot(Json& plots, const Model& model) {

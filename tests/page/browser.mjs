@@ -80,6 +80,10 @@ function makePages() {
   check(run("report", model("modelA2.ml"), "-o", "modelA2.html") === 0, "modelA2 is made");
   check(run("report", join(data, "arch-platform/faults.ts"), join(data, "arch-platform/mnt.ts"), "-o", "faults.html") === 0, "faults are made");
   check(run("fill", "top.asc", "-o", "top.vtp", "--report", "filled.html") === 0, "the horizon is filled");
+  writeFileSync(join(work, "huge.obj"), "v 1e300 0 0\nv -1e300 0 0\nv 0 1e300 5\nf 1 2 3\n");
+  writeFileSync(join(work, "point.obj"), "v 5 5 5\nv 5 5 5\nv 5 5 5\nf 1 2 3\n");
+  check(run("check", "huge.obj", "--report", "huge.html") === 0, "coordinates beyond single precision are shown");
+  check(run("check", "point.obj", "--report", "point.html") === 1, "a model without extent is shown");
   check(run("check", "strange.ts", "--report", "strange.html") === 0, "strange names are shown");
 }
 
@@ -353,6 +357,16 @@ async function tryAccess(page) {
   await judgeAccess(page, "Model, dark");
 }
 
+/** What was filled is an item of its own, and its variogram is drawn. */
+async function tryFilled(page) {
+  const filled = await page.evaluate(() => window.terrane.view.items.map((i) => [i.name, i.geometry.index.count]));
+  check(filled.length === 2 && filled[1][0] === "top: filled" && filled[1][1] > 0, "what was filled is apart", filled);
+  const plots = await page.evaluate(() => window.terrane.report.content.plots.filter((p) => p.lines).map((p) => [p.title, p.lines.map((l) => [l.name, l.x.length])]));
+  check(plots.length === 4 && plots.every(([, lines]) => lines.every(([, count]) => count > 1)), "each hole has a variogram and a cross-validation", plots);
+  await panel(page, "Plots");
+  check(await page.locator(".chart canvas").count() === await page.evaluate(() => window.terrane.report.content.plots.length), "all plots are drawn");
+}
+
 /** The policy allows no request and no other script. */
 async function tryPolicy(page) {
   const { ran, fetched } = await page.evaluate(async () => {
@@ -414,6 +428,18 @@ async function strange(browser) {
   await context.close();
 }
 
+/** A model that single precision cannot hold, and one without any extent. */
+async function extremes(browser) {
+  for (const name of ["huge", "point"]) {
+    const { context, page } = await open(browser, name);
+    const { drawn } = await picture(page);
+    check(name === "point" || drawn > 0.05, "the canvas is not blank", drawn);
+    const s = await state(page);
+    check([...s.camera, ...s.target].every(Number.isFinite), "the camera is somewhere", s.camera);
+    await context.close();
+  }
+}
+
 /** Refusals of the policy are console errors, which are expected here. */
 async function tryPolicyQuietly(page) {
   const flawsBefore = flaws.length;
@@ -444,10 +470,11 @@ try {
   await desktop(browser, "modelA1", [tryExplode, (page) => trySection(page, true), tryFindings, tryTables]);
   await desktop(browser, "modelA2", [(page) => trySection(page, false), tryCamera, tryPicking, tryList, tryAccess]);
   await desktop(browser, "faults", [tryFindings]);
-  await desktop(browser, "filled", []);
+  await desktop(browser, "filled", [tryFilled]);
   if (existsSync(join(work, "gfm2020.html"))) await desktop(browser, "gfm2020", [tryExplode]);
   for (const name of ["modelA1", "faults"]) await phone(browser, name);
   await strange(browser);
+  await extremes(browser);
   await prints(browser);
 } finally {
   await browser.close();

@@ -44,7 +44,7 @@ function sectionControl(view: View): HTMLElement {
     const k = "xyz".indexOf(axis.value) as Axis;
     const share = Number(place.value);
     view.cutAt({ axis: k, share, flipped });
-    const at = view.model.origin[k] + view.model.half.getComponent(k) * (1 + 2 * view.exploded) * (2 * share - 1);
+    const at = view.model.origin[k] + view.model.unit * view.model.half.getComponent(k) * (1 + 2 * view.exploded) * (2 * share - 1);
     shown.textContent = `${axis.value} ${Number(at.toPrecision(6)).toLocaleString("en", { maximumFractionDigits: 2 })}`;
   };
   axis.addEventListener("change", () => { // what is kept shows its cut to us

@@ -25,8 +25,8 @@ export interface Finding {
 export interface Axis { label: string; measure: string }
 export interface Plot {
   title: string; x: Axis; y: Axis; bounds?: number[]; names?: string[]; blocks?: number[];
-  lines?: { name: string; x: number[]; y: number[] }[];
-  series: { name: string; values: number[] }[];
+  lines?: { name: string; x: number[]; y: number[]; dots: boolean }[];
+  series?: { name: string; values: number[] }[];
 }
 export type Cell = string | number | boolean | null;
 export interface Table { title: string; columns: { title: string; measure: string }[]; rows: Cell[][] }

@@ -139,8 +139,8 @@ class Page {
 
   private choose(item: Item): void {
     if (!item.visible) this.announce(`${shortened(item.name, 60)} is hidden`);
-    const place = item.centre.clone().add(this.view.offsetOf(item)).toArray().map((c, k) => c + this.view.model.origin[k]);
-    this.view.flyTo(place as [number, number, number], item.reach * Math.max(1, this.view.exaggeration ** 0.5));
+    const { model } = this.view;
+    this.view.flyTo(model.toInput(item.centre.clone().add(this.view.offsetOf(item))), model.unit * item.reach * Math.max(1, this.view.exaggeration ** 0.5));
     this.view.mark([]);
   }
 
@@ -167,7 +167,7 @@ class Page {
   }
   flyTo(finding: Finding): void {
     this.view.flyTo(finding.place, finding.extent);
-    const extent = 2 * this.view.model.radius;
+    const extent = 2 * this.view.model.radius * this.view.model.unit;
     this.announce(`${finding.kind} at ${finding.place.map((c) => this.quantities.coordinate(c, extent)).join(", ")}`);
   }
 
@@ -244,7 +244,7 @@ class Page {
   }
   private showPicks(): void {
     const hit = this.picks[this.picks.length - 1], { item } = hit;
-    const extent = 2 * this.view.model.radius;
+    const extent = 2 * this.view.model.radius * this.view.model.unit;
     const rows: [string, Node | string][] = [];
     if (item.kind === "block") {
       const block = this.content.blocks[item.number - 1];

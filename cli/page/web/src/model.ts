@@ -12,6 +12,7 @@ export class ModelGeometry {
   readonly origin: [number, number, number]; ///< of the relative coordinates
   readonly half: Vector3;                    ///< half the size of the box round all
   readonly radius: number;
+  readonly unit: number; ///< of the relative coordinates, in units of the input: 1 for common sizes
   private readonly triangles: Uint32Array;
   private readonly segments: Uint32Array;
   private readonly regions: Uint32Array;
@@ -25,14 +26,16 @@ export class ModelGeometry {
     const size = [0, 0, 0];
     for (const list of [packed.vertices, packed.nodes])
       for (let i = 0; i < list.length; ++i) if (list[i] > size[i % 3]) size[i % 3] = list[i];
+    const extent = Math.max(...size) * step;
+    this.unit = extent > 1e8 || (extent < 1e-3 && extent > 0) ? extent / 1000 : 1; // single precision ends
     const centre = size.map((s) => Math.round(s / 2));
     const relative = (list: Uint32Array) => {
       const result = new Float32Array(list.length);
-      for (let i = 0; i < list.length; ++i) result[i] = (list[i] - centre[i % 3]) * step;
+      for (let i = 0; i < list.length; ++i) result[i] = (list[i] - centre[i % 3]) * (step / this.unit);
       return result;
     };
     this.origin = [0, 1, 2].map((k) => origin[k] + centre[k] * step) as [number, number, number];
-    this.half = new Vector3(...size.map((s) => Math.max(s * step / 2, 1e-9)));
+    this.half = new Vector3(...size.map((s) => Math.max(s * (step / this.unit) / 2, 1e-9)));
     this.radius = this.half.length();
     this.vertices = relative(packed.vertices);
     this.nodes = relative(packed.nodes);
@@ -43,6 +46,10 @@ export class ModelGeometry {
     this.position = new BufferAttribute(this.vertices, 3);
   }
 
+  /** The place of a point in the input's coordinates. */
+  toInput(point: Vector3): [number, number, number] {
+    return point.toArray().map((c, k) => c * this.unit + this.origin[k]) as [number, number, number];
+  }
   private geometry(index: Uint32Array): BufferGeometry {
     const made = new BufferGeometry();
     made.setAttribute("position", this.position);
@@ -100,7 +107,7 @@ export class ModelGeometry {
 
   /** The triangles that are left when the vertices in each cell of a grid are joined: about `most` in all. */
   coarse(geometry: BufferGeometry, most: number): BufferGeometry {
-    this.clusters ??= this.firstInCell(Math.sqrt(this.content.parts.reduce((sum, p) => sum + p.area, 0) / most));
+    this.clusters ??= this.firstInCell(Math.sqrt(this.content.parts.reduce((sum, p) => sum + p.area, 0) / most) / this.unit);
     const first = this.clusters, index = geometry.index!.array as Uint32Array;
     const kept = new Uint32Array(index.length);
     let at = 0;

@@ -24,8 +24,8 @@ export function overlay(view: View, quantities: Quantities): HTMLElement {
   view.onFrame = () => {
     const pixels = 120, unit = view.unitsPerPixel();
     if (!Number.isFinite(unit) || unit <= 0) return;
-    const length = round(pixels * unit);
-    bar.style.width = `${length / unit}px`;
+    const input = unit * view.model.unit, length = round(pixels * input);
+    bar.style.width = `${length / input}px`;
     const stretched = view.exaggeration !== 1 ? `, z × ${view.exaggeration}` : "";
     text.textContent = `${quantities.text(length, "length", 1)}${view.isPerspective ? " at the centre" : ""}${stretched}`;
     compass.replaceChildren();

@@ -21,14 +21,26 @@ export class Plots {
     }
   }
 
+  /** Lists the values of a plot; of points at most the first 500. */
   private numbers(plot: Plot): HTMLElement {
     const body = element("tbody");
-    const rows = plot.series[0]?.values.length ?? 0;
+    if (plot.lines) {
+      for (const line of plot.lines)
+        for (let i = 0; i < Math.min(line.x.length, 500); ++i)
+          body.append(element("tr", {}, element("td", {}, line.name), element("td", {}, plain(line.x[i], 6)), element("td", {}, plain(line.y[i], 6))));
+      return this.hidden(plot, element("tr", {}, ...["", this.quantities.label(plot.x.label, plot.x.measure),
+        this.quantities.label(plot.y.label, plot.y.measure)].map((t) => element("th", {}, t || "of"))), body);
+    }
+    const series = plot.series ?? [];
+    const rows = series[0]?.values.length ?? 0;
     for (let i = 0; i < rows; ++i)
       body.append(element("tr", {}, element("td", {}, this.name(plot, i)),
-        ...plot.series.map((s) => element("td", {}, this.quantities.text(s.values[i], plot.y.measure)))));
+        ...series.map((s) => element("td", {}, this.quantities.text(s.values[i], plot.y.measure)))));
     const head = element("tr", {}, element("th", {}, this.quantities.label(plot.x.label, plot.x.measure)),
-      ...plot.series.map((s) => element("th", {}, s.name)));
+      ...series.map((s) => element("th", {}, s.name)));
+    return this.hidden(plot, head, body);
+  }
+  private hidden(plot: Plot, head: HTMLElement, body: HTMLElement): HTMLElement {
     return element("details", {}, element("summary", {}, "Numbers"),
       element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": plot.title }, element("table", {}, element("thead", {}, head), body)));
   }
@@ -41,26 +53,49 @@ export class Plots {
       entry.chart?.destroy();
       entry.chart = null;
       const width = entry.place.clientWidth;
-      if (width > 0) entry.chart = this.chart(entry.plot, entry.place, width);
+      if (width > 0) entry.chart = entry.plot.lines ? this.lines(entry.plot, entry.place, width) : this.bars(entry.plot, entry.place, width);
     }
   }
 
-  private chart(plot: Plot, place: HTMLElement, width: number): uPlot {
+  /** Points and lines, such as a variogram. */
+  private lines(plot: Plot, place: HTMLElement, width: number): uPlot {
+    const style = getComputedStyle(document.documentElement);
+    const ink = style.getPropertyValue("--ink").trim(), grid = { stroke: style.getPropertyValue("--line").trim(), width: 1 };
+    const axis = { stroke: ink, grid, ticks: grid, font: "12px system-ui", labelFont: "12px system-ui" };
+    const lines = plot.lines!;
+    const all = uPlot.join(lines.map((line) => { // equal x are told apart by less than can be seen
+      const step = (Math.max(...line.x) - Math.min(...line.x)) * 1e-9;
+      return [line.x.map((x, i) => x + i * step), line.y];
+    }));
+    const write = (_: uPlot, values: number[]) => values.map(short);
+    return new uPlot({
+      width, height: 230, legend: { live: false }, cursor: { drag: { x: false, y: false } }, scales: { x: { time: false } },
+      axes: [{ ...axis, label: this.quantities.label(plot.x.label, plot.x.measure), labelSize: 22, size: 28, values: write },
+        { ...axis, label: this.quantities.label(plot.y.label, plot.y.measure), labelSize: 20, size: 58, values: write }],
+      series: [{}, ...lines.map((line) => ({
+        label: line.name, stroke: line.dots ? seriesColours[1] : ink, width: line.dots ? 0 : 1.5, spanGaps: true,
+        paths: line.dots ? () => null : uPlot.paths.linear!(), points: { show: line.dots, size: 5, fill: seriesColours[1] },
+      }))],
+    }, all, place);
+  }
+
+  private bars(plot: Plot, place: HTMLElement, width: number): uPlot {
+    const series = plot.series!;
     const style = getComputedStyle(document.documentElement);
     const ink = style.getPropertyValue("--ink").trim(), grid = style.getPropertyValue("--line").trim();
-    const count = plot.series[0].values.length;
-    const y = this.quantities.axis(plot.y.label, plot.y.measure, Math.max(...plot.series.flatMap((s) => s.values)));
+    const count = series[0].values.length;
+    const y = this.quantities.axis(plot.y.label, plot.y.measure, Math.max(...series.flatMap((s) => s.values)));
     const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid }, font: "12px system-ui", labelFont: "12px system-ui" };
     const at = Array.from({ length: count }, (_, i) => i + 0.5);
     const bars = (k: number) => uPlot.paths.bars!({
-      size: [plot.series.length > 1 ? 0.42 : 0.86], align: plot.series.length > 1 ? (k === 0 ? -1 : 1) : 0,
+      size: [series.length > 1 ? 0.42 : 0.86], align: series.length > 1 ? (k === 0 ? -1 : 1) : 0,
     });
     const ends = plot.names ? at : Array.from({ length: count + 1 }, (_, i) => i);
     const most = Math.max(2, Math.floor((width - 70) / 52));
     const step = Math.ceil(ends.length / most);
     const label = (v: number) => plot.names ? plot.names[Math.round(v - 0.5)] : plain(plot.bounds![Math.round(v)], 3);
     return new uPlot({
-      width, height: 210, legend: { show: plot.series.length > 1, live: false }, cursor: { drag: { x: false, y: false } },
+      width, height: 210, legend: { show: series.length > 1, live: false }, cursor: { drag: { x: false, y: false } },
       scales: { x: { time: false, range: [0, count] }, y: { range: (_, __, top) => [0, top > 0 ? top * 1.06 : 1] } },
       axes: [
         { ...axis, label: this.quantities.label(plot.x.label, plot.x.measure), labelSize: 22, size: 28,
@@ -68,11 +103,11 @@ export class Plots {
         { ...axis, label: y.label, labelSize: 20, size: 58,
           values: (_, list) => list.map((v) => short(v / y.factor)) },
       ],
-      series: [{}, ...plot.series.map((s, k) => ({
-        label: s.name, fill: seriesColours[plot.series.length > 1 ? k : 1], stroke: seriesColours[plot.series.length > 1 ? k : 1],
+      series: [{}, ...series.map((s, k) => ({
+        label: s.name, fill: seriesColours[series.length > 1 ? k : 1], stroke: seriesColours[series.length > 1 ? k : 1],
         width: 0, paths: bars(k), points: { show: false },
       }))],
-    }, [at, ...plot.series.map((s) => s.values)], place);
+    }, [at, ...series.map((s) => s.values)], place);
   }
 }
 

@@ -25,7 +25,7 @@ export class Quantities {
   }
   /** Returns "length (m)", or the label alone where no unit is known. */
   label(label: string, measure: string): string {
-    const power = { length: 1, area: 2, volume: 3 }[measure] ?? 0;
+    const power = { length: 1, height: 1, area: 2, volume: 3 }[measure] ?? 0;
     if (measure === "angle") return `${label} (°)`;
     return power > 0 && this.unit ? `${label} (${this.unit}${sup(power)})` : label;
   }

@@ -115,13 +115,13 @@ export class View {
   private defaultExaggeration(): number {
     const { x, y, z } = this.model.half;
     const flat = Math.max(x, y) / Math.max(z, 1e-12);
-    return flat > 12 ? Math.min(10, Math.round(flat / 6)) : 1;
+    return flat > 12 && flat < 1000 ? Math.min(10, Math.round(flat / 6)) : 1;
   }
 
   private addItems(): void {
     const { surfaces, blocks } = this.report.content;
     const { x, y, z } = this.model.half;
-    const filled = blocks.reduce((sum, b) => sum + b.volume, 0) / (8 * x * y * z);
+    const filled = blocks.reduce((sum, b) => sum + b.volume / this.model.unit ** 3, 0) / (8 * x * y * z);
     const hasBlocks = filled > 0.15; // else blocks are accidents between surfaces
     surfaces.forEach((surface, s) => {
       for (const filled of [false, true]) {
@@ -359,7 +359,7 @@ export class View {
     const target = this.toScene(place);
     const direction = this.camera.position.clone().sub(this.controls.target).normalize();
     const least = this.model.radius * 2e-4;
-    this.aim(target, direction, Math.min(Math.max(extent, least), this.bounds().radius));
+    this.aim(target, direction, Math.min(Math.max(extent / this.model.unit, least), this.bounds().radius));
     this.mark([place], true);
   }
 
@@ -493,7 +493,7 @@ export class View {
   // ---------------------------------------------------------------------------------------- picking
 
   toScene(place: [number, number, number]): Vector3 {
-    const [x, y, z] = place.map((c, k) => c - this.model.origin[k]);
+    const [x, y, z] = place.map((c, k) => (c - this.model.origin[k]) / this.model.unit);
     return new Vector3(x, y, z * this.exaggeration);
   }
 
@@ -522,8 +522,7 @@ export class View {
     const local = best.point.clone();
     local.z /= this.exaggeration;
     local.sub(this.offsetOf(best.item));
-    const place = local.toArray().map((c, k) => c + this.model.origin[k]) as [number, number, number];
-    return { item: best.item, place, point: best.point, tetrahedron: best.tetrahedron };
+    return { item: best.item, place: this.model.toInput(local), point: best.point, tetrahedron: best.tetrahedron };
   }
 
   /** Marks places; a finding stays visible through what is before it. */
