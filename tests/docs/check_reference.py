@@ -231,7 +231,7 @@ def write_json_files(program, folder):
         statistics.append("tetrahedra.json")
     if has_pages(program):
         run("report", *model, *box, "-o", "report.html")
-        run("fill", "fold.ts", "-o", "p.vtp", "--report", "filled.html")
+        run("fill", "--depth", "seabed.asc", "-o", "p.vtp", "--report", "filled.html")
         unpack_page(folder / "report.html"), unpack_page(folder / "filled.html")
     return {"report.md": sorted(str(p) for p in folder.glob("*.content.json")),
             "report.md, run": sorted(str(p) for p in folder.glob("*.run.json")), "statistics.md": statistics, "model.md": ["open/model.json", "sealed/model.json"],
