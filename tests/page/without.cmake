@@ -18,7 +18,7 @@ endif()
     set(on OFF)
   endif()
   execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK} -B ${WORK}/build -DTERRANE_REPORT=${on}
-                          -DCMAKE_FIND_USE_SYSTEM_ENVIRONMENT_PATH=OFF -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF
+                          -DCMAKE_MAKE_PROGRAM=${CMAKE_COMMAND} -DCMAKE_FIND_USE_SYSTEM_ENVIRONMENT_PATH=OFF -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF
                   RESULT_VARIABLE failed OUTPUT_VARIABLE said ERROR_VARIABLE error)
   if(failed OR NOT said MATCHES "-- ${reason}: no report pages")
     message(FATAL_ERROR "${reason} is not said: ${said}${error}")
