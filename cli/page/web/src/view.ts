@@ -10,56 +10,17 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
-import { cutBoundary, cutTetrahedra, type Axis, type Cut } from "./caps";
+import { cutBoundary, cutTetrahedra, type Axis } from "./caps";
 import { colourOf, colourOfRole, lineColours } from "./colours";
 import type { Report } from "./data";
+import { needed, type Item, type Pick, type Section, type ViewName } from "./items";
 import { ModelGeometry } from "./model";
 
-/** A surface or block as it is drawn. */
-export interface Item {
-  kind: "surface" | "block";
-  number: number;
-  name: string;
-  mesh: Mesh<BufferGeometry, MeshLambertMaterial>;
-  geometry: BufferGeometry;      ///< all triangles; the mesh may have fewer while it turns
-  coarse: BufferGeometry | null; ///< made when it is needed
-  edges: LineSegments | null;
-  cap: Mesh<BufferGeometry, MeshLambertMaterial> | null;
-  capEdges: LineSegments | null;
-  cut: Cut | null;
-  centre: Vector3;
-  reach: number;
-  visible: boolean;
-  colour: Color;
-  opacity: number;
-  tetrahedra: Uint32Array;
-}
-export interface Pick { item: Item; place: [number, number, number]; point: Vector3; tetrahedron: number }
-export interface Section { axis: Axis; share: number; flipped: boolean }
-export type ViewName = "perspective" | "top" | "north" | "east";
+export type { Item, Pick, ViewName };
 
 const edgeOpacity = 0.28;
 const slowPicture = 70;        ///< milliseconds between two pictures above which they become simpler
 const quickTriangles = 100_000; ///< drawn at most then, about
-const margin = 1.12; ///< round a model that is shown as a whole
-
-/**
- * How far a camera must be to see a box round its target from `direction`, and how high, halved, the
- * picture must be without perspective. `slope` is the tangent of half the field of view.
- */
-function needed(half: Vector3, direction: Vector3, slope: number, aspect: number): { distance: number; height: number } {
-  const right = new Vector3(0, 0, 1).cross(direction).normalize();
-  const up = direction.clone().cross(right);
-  let distance = 0, height = 0;
-  for (let corner = 0; corner < 8; ++corner) {
-    const p = new Vector3(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, corner & 4 ? half.z : -half.z);
-    const span = Math.max(Math.abs(p.dot(up)), Math.abs(p.dot(right)) / aspect) * margin;
-    distance = Math.max(distance, span / slope + p.dot(direction));
-    height = Math.max(height, span);
-  }
-  return { distance, height };
-}
-
 export class View {
   readonly model: ModelGeometry;
   readonly items: Item[] = [];
