@@ -31,7 +31,8 @@ input or usage, cannot read or write, interrupted; 3 internal, out of memory. Wh
 written completely, it is not written at all.
 
 Start here:
-  terrane arrange horizons.ts faults.ts -o model.vtp   (look at it in ParaView)
+  terrane report horizons.ts faults.ts -o model.html   (look at it in a browser)
+  terrane arrange horizons.ts faults.ts -o model.vtp
   terrane COMMAND --help)";
 
 constexpr auto licence =
@@ -74,11 +75,11 @@ ExitStatus run(int argc, char** argv) {
     program.footer(main_footer);
     const std::array commands{
         // as --help lists them: what people use most comes first
-        arrange_command(program), volume_command(program), tetrahedralize_command(program),
-        improve_command(program), build_command(program),  check_command(program),
-        fill_command(program),    layer_command(program),  convert_command(program),
-        verify_command(program),  bench_command(program),  completion_command(program),
-        manual_command(program)};
+        arrange_command(program), volume_command(program),     tetrahedralize_command(program),
+        improve_command(program), build_command(program),      check_command(program),
+        fill_command(program),    layer_command(program),      report_command(program),
+        view_command(program),    convert_command(program),    verify_command(program),
+        bench_command(program),   completion_command(program), manual_command(program)};
     for (const Command& command : commands) offer_output_options(*command.options);
     try {
         program.parse(argc, argv);

@@ -17,7 +17,10 @@ packages=(
     python3-vtk9 python3-meshio gmsh # these read the written files back, in tests only
     python3-yaml                     # reads recipes of packages, in tests only
     gappa                            # checks the proofs of error bounds, in tests only
+    chromium                         # opens report pages, in tests only
 )
+# Report pages are bundled with npm, whichever there is; Debian's brings some hundred packages along.
+command -v npm >/dev/null || packages+=(nodejs npm)
 
 is_installed() {
     [[ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]

@@ -16,6 +16,7 @@
 #include <terrane/cli/commands/build_help.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/volume_options.hpp>
+#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
 #include <terrane/cli/reports/pair_report.hpp>
@@ -44,6 +45,7 @@ namespace {
 struct BuildCommand {
     std::string project;             ///< the file
     std::string folder;              ///< empty: the folder that the project names
+    FileOptions page;                ///< --report, and what the page says of the inputs
     std::optional<unsigned> threads; ///< none: the number that the project names
     PairCheckOptions check{PairCheck::bounds, SIZE_MAX};
     bool strict = false; ///< warnings about the inputs are errors
@@ -56,8 +58,8 @@ constexpr const char* tetrahedra_certificate = "certificate_tetrahedra.json";
 /// Runs one project, from reading its file to publishing the folder of results.
 class Build {
 public:
-    Build(const Project& project, const BuildCommand& command, Session& session) :
-        project_(project), source_(command.project),
+    Build(const Project& project, const BuildCommand& command, Page page, Session& session) :
+        project_(project), page_(std::move(page)), source_(command.project),
         folder_(command.folder.empty() ? project.folder : fs::path(command.folder)),
         strict_(command.strict), session_(session) {
         if (command.resume && !folder_.empty()) kept_.emplace(folder_);
@@ -86,11 +88,13 @@ private:
             return refuse(violations_text(built_.filled->report) + complaint("nothing written"));
         if (doubts_) return *doubts_;
         if (auto done = write(); !done) return done.error();
+        if (auto done = page_.write(statistics_, journal_.seconds()); !done) return done.error();
         return ExitStatus::done;
     }
 
-    static ExitStatus refuse(const std::string& reason) {
+    Result<ExitStatus> refuse(const std::string& reason) {
         print(stderr, reason);
+        if (auto done = page_.write(statistics_, journal_.seconds()); !done) return done.error();
         return ExitStatus::negative;
     }
 
@@ -133,6 +137,10 @@ private:
         inputs_.vertices = read_.vertices;
         inputs_.triangles = read_.triangles;
         inputs_.strict = strict_;
+        for (std::size_t f = 0; f < read_.surfaces_of_entry.size(); ++f)
+            inputs_.files.insert(inputs_.files.end(), read_.surfaces_of_entry[f],
+                                 project_.surfaces[f].file.string());
+        if (auto added = page_.add_inputs(inputs_); !added) return added;
         timer.stop();
         statistics_ = statistics_of(inputs_, session_.times());
         statistics_["resumed"] = Json::array();
@@ -200,6 +208,7 @@ private:
             inputs_.labels = built.labels;
             add_statistics(statistics_, built.arranged, inputs_, session_.times());
             journal_.say(summary(inputs_, built.arranged));
+            page_.add_arranged(inputs_, built.arranged);
             if (!built.arranged.rounded.conforming)
                 refused_ = offending_pairs(inputs_, built.arranged) +
                            complaint("no blocks without a conforming mesh; nothing written");
@@ -207,14 +216,17 @@ private:
         case BuildStage::improve:
             add_statistics(statistics_, *built.improved, session_.times());
             if (!keeps_volumes(*built.improved, strict_)) refused_ = complaint("nothing written");
+            page_.add_improved(inputs_, *built.improved, built.arranged.rounded.mesh);
             return journal_.say(improve_text(*built.improved, inputs_));
         case BuildStage::blocks:
             add_statistics(statistics_, *built.model, session_.times());
             if (auto judged = judge_leaks(built.arranged, *built.model, session_)) leaks_ = *judged;
             journal_.say(model_text(inputs_, *built.model, leaks_));
+            page_.add_model(inputs_, *built.model, leaks_);
             return doubt(*built.model);
         case BuildStage::tetrahedra:
             add_statistics(statistics_, *built.filled, session_.times());
+            page_.add_tetrahedra(*built.filled);
             return journal_.say(filled_text(*built.filled, inputs_.unit));
         }
     }
@@ -407,6 +419,7 @@ private:
     }
 
     const Project& project_;
+    Page page_;
     std::string source_; ///< the project file
     fs::path folder_;
     bool strict_; ///< warnings about the inputs are errors
@@ -429,7 +442,12 @@ Result<ExitStatus> build(const BuildCommand& command) {
     if (!project) return project.error();
     project.value().check = command.check;
     Session session(command.threads.value_or(project.value().threads));
-    return Build(project.value(), command, session)();
+    FileOptions page_files = command.page;
+    for (const ProjectSurfaces& entry : project.value().surfaces)
+        page_files.inputs.push_back(entry.file.string());
+    auto page = Page::plan(page_files);
+    if (!page) return page.error();
+    return Build(project.value(), command, std::move(*page), session)();
 }
 
 } // namespace
@@ -450,6 +468,7 @@ Command build_command(CLI::App& program) {
         ->check(CLI::Range(0U, most_threads).description(""))
         ->type_name("N");
     add_check(*app, command->check);
+    add_report(*app, command->page);
     app->add_flag("--strict", command->strict, "Stop with status 2 at warnings about the inputs");
     app->add_flag("--resume", command->resume,
                   "Keep finished stages in DIR.stages until the run ends well, and take those that "

@@ -3,8 +3,10 @@
 
 #include <memory>
 
+#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/files.hpp>
+#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/reports/check_report.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
 
@@ -30,10 +32,14 @@ Examples:
   terrane check horizons.ts faults.ts --json > findings.json)";
 
 Result<ExitStatus> check_files(const CheckCommand& command, Session& session) {
+    Stopwatch total;
     const auto nothing = plan_outputs(command.files, OutputKind::surfaces);
     if (!nothing) return nothing.error();
+    auto page = Page::plan(command.files);
+    if (!page) return page.error();
     const auto inputs = read_inputs(command.files, session);
     if (!inputs) return inputs.error();
+    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
     Json warnings;
     if (const auto sound = examine(inputs.value(), {}, warnings); !sound) return sound.error();
     session.begin("check", Phase::computing);
@@ -45,7 +51,8 @@ Result<ExitStatus> check_files(const CheckCommand& command, Session& session) {
         print(stdout, text_of(json_of(r, inputs.value())));
     else
         say(stdout, report_text(r, inputs.value(), name_of_inputs(command.files), command.all));
-    return r.clean() ? ExitStatus::done : ExitStatus::negative;
+    if (const auto drawn = page->add_check(*inputs, r, session.run()); !drawn) return drawn.error();
+    return write_run(*page, json_of(r, *inputs), command.files, total.lap(), r.clean());
 }
 
 } // namespace
@@ -57,6 +64,7 @@ Command check_command(CLI::App& program) {
     app->add_flag("--json", options->json, "All findings as JSON on standard output");
     app->add_flag("--all", options->all, "List all findings, not only the first of each kind");
     add_threads(*app, options->files);
+    add_report(*app, options->files);
     app->footer(check_footer);
     return {app, [options] {
                 Session session(options->files.threads);

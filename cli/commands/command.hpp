@@ -26,8 +26,10 @@ Command fill_command(CLI::App& program);
 Command improve_command(CLI::App& program);
 Command layer_command(CLI::App& program);
 Command manual_command(CLI::App& program);
+Command report_command(CLI::App& program);
 Command tetrahedralize_command(CLI::App& program);
 Command verify_command(CLI::App& program);
+Command view_command(CLI::App& program);
 Command volume_command(CLI::App& program);
 
 } // namespace terrane::cli

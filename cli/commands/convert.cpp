@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <memory>
 
+#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/files.hpp>
+#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
 
 namespace terrane::cli {
@@ -36,14 +38,18 @@ bool loses_digits(const Mesh& mesh) {
 }
 
 Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session) {
+    Stopwatch total;
     FileOptions files = command.files;
     files.inputs = {command.input};
     files.outputs = {command.output};
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
+    auto page = Page::plan(files);
+    if (!page) return page.error();
     const auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
-    Json statistics; // none are written
+    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
+    Json statistics = statistics_of(*inputs, session.times()); // for the page alone
     if (const auto sound = examine(inputs.value(), {}, statistics); !sound) return sound.error();
     const Mesh mesh = concatenate(inputs.value().surfaces);
     const Output& output = outputs.value().front();
@@ -54,7 +60,8 @@ Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session)
     if (output.format == Format::stl && !files.ascii && loses_digits(mesh))
         warn(output.path + ": coordinates were rounded to float32, all that binary STL holds; "
                            "--ascii or another format keeps them");
-    return ExitStatus::done;
+    page->add_mesh(*inputs, mesh);
+    return write_run(*page, statistics, files, total.lap(), true);
 }
 
 } // namespace
@@ -79,6 +86,7 @@ Command convert_command(CLI::App& program) {
     add_strict(*app, options->files);
     add_msh(*app, options->files);
     app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
+    add_report(*app, options->files);
     app->footer(convert_footer);
     return {app, [options] {
                 Session session(1);

@@ -20,10 +20,10 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Options that name files or folders to write; all others of the type FILE name inputs.
-constexpr std::array<std::string_view, 14> output_options{
-    "--gocad",  "--lines",       "--cells",     "--output",       "OUT",
-    "--stats",  "--certificate", "--exact",     "--histogram",    "--map",
-    "--points", "--seal-plot",   "--relations", "--juxtaposition"};
+constexpr std::array<std::string_view, 15> output_options{
+    "--gocad",  "--lines",       "--cells",     "--output",        "OUT",
+    "--stats",  "--certificate", "--exact",     "--histogram",     "--map",
+    "--points", "--seal-plot",   "--relations", "--juxtaposition", "--report"};
 
 /// Options that write surfaces or tetrahedra, which may take the place of what was read.
 constexpr std::array<std::string_view, 2> replacing_options{"--output", "OUT"};

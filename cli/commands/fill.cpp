@@ -13,6 +13,7 @@
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
+#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
@@ -191,8 +192,11 @@ Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
     Stopwatch total;
     const auto outputs = plan(command);
     if (!outputs) return outputs.error();
+    auto page = Page::plan(command.files);
+    if (!page) return page.error();
     const auto inputs = read_certified_inputs(command.proof.certificate, command.files, session);
     if (!inputs) return inputs.error();
+    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
     Json statistics = statistics_of(inputs.value(), session.times());
     if (const auto sound = examine(inputs.value(), {}, statistics); !sound) return sound.error();
     session.begin("holes", Phase::computing);
@@ -213,9 +217,14 @@ Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
         whole = filled.value();
     }
     add_statistics(statistics, work.value());
-    if (const auto done = write_statistics(statistics, command.files.stats, total.lap()); !done)
-        return done.error();
-    return whole ? ExitStatus::done : ExitStatus::negative;
+    page->add_filled(*work);
+    page->set_verdict(command.list ? "Holes are listed, and none is filled."
+                      : whole      ? "All chosen holes are filled; the new triangles meet others "
+                                     "properly, by an exact check."
+                                   : "Not all chosen holes could be filled.",
+                      whole);
+    page->add_certificate(command.proof.certificate);
+    return write_run(*page, statistics, command.files, total.lap(), whole);
 }
 
 void add_choice(CLI::App& app, FillCommand& command) {
@@ -284,6 +293,7 @@ Command fill_command(CLI::App& program) {
     add_certificate(*app, options->proof.certificate);
     add_threads(*app, options->files);
     add_stats(*app, options->files);
+    add_report(*app, options->files);
     app->footer(fill_footer);
     return {app, [app, options] {
                 if (const auto good = refuse_for_rbf(*app, *options); !good)

@@ -16,6 +16,7 @@
 #include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/outputs.hpp>
@@ -167,8 +168,11 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
     if (const auto sound = check_improve(command); !sound) return sound.error();
+    auto page = Page::plan(files);
+    if (!page) return page.error();
     auto inputs = read_certified_inputs(command.proof.certificate, files, session);
     if (!inputs) return inputs.error();
+    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
     ImproveOptions options = command.options;
     options.check = check_of(command.settings.check, inputs.value());
     if (const auto set = set_lengths(command, inputs.value(), options); !set) return set.error();
@@ -180,6 +184,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     if (!options.edge_length_of.empty()) // the boundary of a volume of interest added surfaces
         options.edge_length_of.resize(inputs.value().labels.size());
     say(summary_stream(files), summary(inputs.value(), arranged.value()));
+    page->add_arranged(*inputs, *arranged);
     bool clean = arranged.value().rounded.report.clean;
     if (!clean) {
         print(stderr, offending_pairs(inputs.value(), arranged.value()));
@@ -192,6 +197,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         if (!measured) return measured.error();
         add_statistics(statistics, measured.value(), session.times());
         say(summary_stream(files), improve_text(measured.value(), inputs.value()));
+        page->add_improved(*inputs, *measured, arranged->rounded.mesh);
         const Mesh& mesh = measured.value().improved.mesh;
         const auto narrow = stl_is_conforming(mesh, files, outputs.value(), session);
         if (!narrow) return narrow.error();
@@ -215,9 +221,8 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         }
         statistics["seconds"]["write"] = writing.lap();
     }
-    const auto status = write_statistics(statistics, files.stats, total.lap());
-    if (!status) return status.error();
-    return clean ? ExitStatus::done : ExitStatus::negative;
+    page->add_certificate(command.proof.certificate);
+    return write_run(*page, statistics, files, total.lap(), clean);
 }
 
 void add_lengths(CLI::App& app, ImproveCommand& command) {
@@ -302,6 +307,7 @@ Command improve_command(CLI::App& program) {
     add_certificate(*app, command->proof.certificate);
     add_threads(*app, command->files);
     add_stats(*app, command->files);
+    add_report(*app, command->files);
     app->footer(improve_footer);
     return {app, [command, app] {
                 if (const auto good = check_numbers(*command, *app); !good)

@@ -16,6 +16,7 @@
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/max_move.hpp>
 #include <terrane/cli/options/statistics.hpp>
+#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/layer_stage.hpp>
@@ -129,8 +130,11 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
     if (const auto possible = check_certificate(command); !possible) return possible.error();
+    auto page = Page::plan(files);
+    if (!page) return page.error();
     const auto inputs = read_certified_inputs(command.proof.certificate, files, session);
     if (!inputs) return inputs.error();
+    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
     Json statistics = statistics_of(inputs.value(), session.times());
     if (const auto sound = examine(inputs.value(), {}, statistics); !sound) return sound.error();
     const auto order = order_of(command, inputs.value());
@@ -144,6 +148,7 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
     if (!layered) return layered.error();
     const RoundedMesh& rounded = layered.value().rounded;
     const bool is_stack = layered->is_stack();
+    page->add_mesh(*inputs, rounded.mesh);
     say(summary_stream(files),
         text_of(inputs.value(), layered->reports, rounded.report,
                 is_stack ? std::optional(layered->step_width) : std::nullopt));
@@ -159,9 +164,8 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
                                       order.value(), layered.value(), session);
         if (!proved) return proved.error();
     }
-    const auto status = write_statistics(statistics, files.stats, total.lap());
-    if (!status) return status.error();
-    return is_stack ? ExitStatus::done : ExitStatus::negative;
+    page->add_certificate(command.proof.certificate);
+    return write_run(*page, statistics, files, total.lap(), is_stack);
 }
 
 } // namespace
@@ -191,6 +195,7 @@ Command layer_command(CLI::App& program) {
     add_certificate(*app, command->proof.certificate);
     add_threads(*app, command->files);
     add_stats(*app, command->files);
+    add_report(*app, command->files);
     app->footer(layer_footer);
     return {app, [command] {
                 if (const auto planned = plan_inputs(*command); !planned)

@@ -19,6 +19,7 @@
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/column.hpp>
 #include <terrane/cli/options/roles.hpp>
+#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
 #include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
@@ -154,22 +155,24 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     const auto outputs = plan_outputs(files, OutputKind::tetrahedra);
     if (!outputs) return outputs.error();
     if (const auto sound = check_call(command); !sound) return sound.error();
+    auto page = Page::plan(files);
+    if (!page) return page.error();
     auto inputs = read_certified_inputs(command.certificate, files, session);
     if (!inputs) return inputs.error();
+    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
     const auto roles = roles_of(inputs.value());
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
     const auto naming = naming_of(command.column, *inputs);
     if (!naming) return naming.error();
     Json statistics = statistics_of(inputs.value(), session.times());
     const auto finish = [&](bool good) -> Result<ExitStatus> {
-        const auto status = write_statistics(statistics, files.stats, total.lap());
-        if (!status) return status.error();
-        return good ? ExitStatus::done : ExitStatus::negative;
+        return write_run(*page, statistics, files, total.lap(), good);
     };
 
     auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
     say(summary_stream(files), summary(inputs.value(), arranged.value()));
+    page->add_arranged(*inputs, *arranged);
     if (!arranged.value().rounded.report.clean) {
         print(stderr, offending_pairs(inputs.value(), arranged.value()));
         print(stderr, complaint("no tetrahedra without a conforming mesh; nothing written"));
@@ -181,8 +184,11 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
                                   session.run(), *naming);
     if (!model) return model.error();
     if (const auto sound = examine(*model, *inputs, true, statistics); !sound) return sound.error();
+    page->add_model(*inputs, *model, std::nullopt);
     const auto filled = fill(model.value(), wishes.value(), session, statistics);
     if (!filled) return filled.error();
+    page->add_tetrahedra(*filled);
+    page->add_certificate(command.certificate);
     say(summary_stream(files), filled_text(filled.value(), inputs->unit));
     const TetrahedraReport& report = filled.value().report;
     const bool good = report.violations.empty();
@@ -274,6 +280,7 @@ Command tetrahedralize_command(CLI::App& program) {
     add_settings(*app, command->settings);
     add_threads(*app, command->files);
     add_stats(*app, command->files);
+    add_report(*app, command->files);
     command->settings.blocks = true;
     app->footer(tetrahedralize_footer);
     return {app, [command] {

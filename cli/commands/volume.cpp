@@ -10,6 +10,7 @@
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/column.hpp>
 #include <terrane/cli/options/roles.hpp>
+#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/reports/relation_report.hpp>
 #include <terrane/cli/reports/seal_plot.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
@@ -232,8 +233,11 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
     if (command.suggests) return suggest_seal(command, session);
     const auto grid = read_grid(command.cells);
     if (!grid) return grid.error();
+    auto page = Page::plan(files);
+    if (!page) return page.error();
     auto inputs = read_certified_inputs(command.certificate, files, session);
     if (!inputs) return inputs.error();
+    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
     const auto roles = roles_of(inputs.value());
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
     const auto naming = naming_of(command.column, *inputs);
@@ -243,6 +247,7 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
     auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
     say(summary_stream(files), summary(inputs.value(), arranged.value()));
+    page->add_arranged(*inputs, *arranged);
     const bool clean = arranged.value().rounded.report.clean;
     if (!clean) {
         print(stderr, offending_pairs(inputs.value(), arranged.value()));
@@ -253,6 +258,7 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         const auto leaks = judge_leaks(*arranged, *model, session);
         if (!leaks) return leaks.error();
         say(summary_stream(files), model_text(*inputs, *model, *leaks));
+        page->add_model(*inputs, *model, *leaks);
         if (const auto sound = examine(*model, *inputs, true, statistics); !sound)
             return sound.error();
         Stopwatch writing;
@@ -275,9 +281,8 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         }
         statistics["seconds"]["write"] = writing.lap();
     }
-    const auto status = write_statistics(statistics, files.stats, total.lap());
-    if (!status) return status.error();
-    return clean ? ExitStatus::done : ExitStatus::negative;
+    page->add_certificate(command.certificate);
+    return write_run(*page, statistics, files, total.lap(), clean);
 }
 
 } // namespace
@@ -318,6 +323,7 @@ Command volume_command(CLI::App& program) {
     add_settings(*app, command->settings);
     add_threads(*app, command->files);
     add_stats(*app, command->files);
+    add_report(*app, command->files);
     command->settings.blocks = true;
     app->footer(volume_footer);
     return {app, [command] {

@@ -52,7 +52,8 @@ Status check_streams(const FileOptions& options) {
         return std::count(names.begin(), names.end(), "-");
     };
     if (dashes(options.inputs) > 1) return usage("standard input can be read only once");
-    if (dashes(options.outputs) + (options.stats == "-" ? 1 : 0) > 1)
+    if (dashes(options.outputs) + (options.stats == "-" ? 1 : 0) + (options.report == "-" ? 1 : 0) >
+        1)
         return usage("standard output can take only one file");
     if (dashes(options.inputs) == 1 && options.format.empty() && options.input_format.empty())
         return usage("the format must be given: --format FORMAT", "standard input");
@@ -174,6 +175,13 @@ void add_stats(CLI::App& command, FileOptions& options) {
         ->type_name("FILE.json");
 }
 
+void add_report(CLI::App& command, FileOptions& options) {
+    options.app = &command;
+    command
+        .add_option("--report", options.report, "Write a page to look at: the model and its flaws")
+        ->type_name("FILE.html");
+}
+
 Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind kind) {
     if (const auto status = check_streams(options); !status) return status.error();
     std::vector<Output> outputs;
@@ -262,8 +270,8 @@ std::string wrote(const Output& output) {
 
 std::FILE* summary_stream(const FileOptions& options) {
     const auto& names = options.outputs;
-    const bool taken =
-        options.stats == "-" || std::find(names.begin(), names.end(), "-") != names.end();
+    const bool taken = options.stats == "-" || options.report == "-" ||
+                       std::find(names.begin(), names.end(), "-") != names.end();
     return taken ? stderr : stdout;
 }
 

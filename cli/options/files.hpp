@@ -22,15 +22,17 @@ namespace terrane::cli {
 struct FileOptions {
     std::vector<std::string> inputs;
     std::vector<std::string> outputs;
-    std::string format;        ///< format of every "-"
-    std::string input_format;  ///< format of the inputs, whatever their extensions
-    std::string output_format; ///< format of the outputs, whatever their extensions
-    ReadOptions read;          ///< how to read grids and points
-    std::string stats;         ///< path of the statistics; empty: none
-    unsigned threads = 0;      ///< 0: all cores
-    bool ascii = false;        ///< STL as text
-    bool strict = false;       ///< warnings about the inputs are errors
-    std::string msh = "4.1";   ///< version of MSH, or 2.2
+    std::string format;            ///< format of every "-"
+    std::string input_format;      ///< format of the inputs, whatever their extensions
+    std::string output_format;     ///< format of the outputs, whatever their extensions
+    ReadOptions read;              ///< how to read grids and points
+    std::string stats;             ///< path of the statistics; empty: none
+    std::string report;            ///< path of the report page; empty: none
+    const CLI::App* app = nullptr; ///< the command, for the page's list of options
+    unsigned threads = 0;          ///< 0: all cores
+    bool ascii = false;            ///< STL as text
+    bool strict = false;           ///< warnings about the inputs are errors
+    std::string msh = "4.1";       ///< version of MSH, or 2.2
 };
 
 void add_inputs(CLI::App& command, FileOptions& options);
@@ -42,6 +44,8 @@ void add_output(CLI::App& command, FileOptions& options, const char* help);
 void add_msh(CLI::App& command, FileOptions& options);
 void add_threads(CLI::App& command, FileOptions& options);
 void add_stats(CLI::App& command, FileOptions& options);
+/// Adds --report, and notes the command.
+void add_report(CLI::App& command, FileOptions& options);
 
 struct Output {
     std::string path;

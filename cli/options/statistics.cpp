@@ -10,16 +10,13 @@
 #include <terrane/io/atomic/atomic_file.hpp>
 
 namespace terrane::cli {
-namespace {
 
-/// Returns the peak resident memory in MiB; getrusage counts in KiB on Linux.
+// getrusage counts in KiB on Linux.
 double peak_memory() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<double>(usage.ru_maxrss) / 1024;
 }
-
-} // namespace
 
 Json statistics_of(const Inputs& inputs, const StageTimes& times) {
     Json json;

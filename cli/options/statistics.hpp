@@ -38,6 +38,9 @@ void add_constants(Json& json, const char* stage, std::span<const NamedConstant>
 /// path.
 Status write_statistics(Json json, const std::string& path, double total_seconds);
 
+/// Returns the peak resident memory of the process in MiB.
+double peak_memory();
+
 /// Returns indented text; bytes that are not UTF-8 become U+FFFD, and control characters are escaped.
 std::string text_of(const Json& json);
 

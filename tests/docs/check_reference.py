@@ -9,6 +9,8 @@ check_reference.py build/release/cli/terrane
 - error codes, verification rules and names of formats
 - the folders of the sources, in docs/explanation/architecture.md
 """
+import base64
+import gzip
 import json
 import pathlib
 import re
@@ -227,9 +229,32 @@ def write_json_files(program, folder):
     if has_tetgen(program):
         run("tetrahedralize", *model, *box, "-o", "t.vtu", "--stats", "tetrahedra.json")
         statistics.append("tetrahedra.json")
-    return {"statistics.md": statistics, "model.md": ["open/model.json", "sealed/model.json"],
+    if has_pages(program):
+        run("report", *model, *box, "-o", "report.html")
+        run("fill", "--depth", "seabed.asc", "-o", "p.vtp", "--report", "filled.html")
+        unpack_page(folder / "report.html"), unpack_page(folder / "filled.html")
+    return {"report.md": sorted(str(p) for p in folder.glob("*.content.json")),
+            "report.md, run": sorted(str(p) for p in folder.glob("*.run.json")), "statistics.md": statistics, "model.md": ["open/model.json", "sealed/model.json"],
             "certificate.md": certificates, "check": ["check.json"],
             "verdict": ["valid.json", "blocks.json", "valid_improved.json", "refuted.json"]}
+
+
+def unpack_page(page):
+    """Writes the two documents of a report page beside it; statistics.md lists what is in `statistics`."""
+    data = re.search(r'id="terrane-data">([^<]*)<', page.read_text()).group(1)
+    raw = gzip.decompress(base64.b64decode(data))
+    content = json.loads(raw[4:4 + int.from_bytes(raw[:4], "little")])
+    content["statistics"] = {}
+    page.with_suffix(".content.json").write_text(json.dumps(content))
+    run = json.loads(re.search(r'id="terrane-run">([^<]*)<', page.read_text()).group(1))
+    run["seconds"] = {}
+    page.with_suffix(".run.json").write_text(json.dumps(run))
+
+
+def has_pages(program):
+    """Whether the program was built with npm, and makes report pages."""
+    said = subprocess.run([program, "report", "none.ts", "-o", "none.html"], capture_output=True, text=True, check=False)
+    return "built without" not in said.stderr
 
 
 def check_json(program, findings):
@@ -246,6 +271,11 @@ def check_json(program, findings):
              "certificate.md": documented_keys("certificate.md", lambda a: a != "verdict-of-verify"),
              "check": documented_keys("statistics.md", lambda a: a == "findings-of-check"),
              "verdict": documented_keys("certificate.md", lambda a: a == "verdict-of-verify")}
+    if has_pages(program):
+        pages["report.md"] = documented_keys("report.md", lambda a: a == "keys-of-terrane-data")
+        pages["report.md, run"] = documented_keys("report.md", lambda a: a == "keys-of-terrane-run")
+    else:
+        print("skipped: keys of reports: the program was built without npm")
     optional = set()
     if not has_tetgen(program):
         print("skipped: keys of tetrahedra: the program does not find TetGen's helper")

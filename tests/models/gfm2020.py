@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Finds the blocks of the Geological Framework Model of southern California without a distance.
 
-    tests/models/gfm2020.py build/release/cli/terrane [FOLDER]
+    tests/models/gfm2020.py build/release/cli/terrane [FOLDER [PAGE.html]]
 
 The 20 boundaries of blocks and the Moho of GFM 2020 (SCEC; no licence is stated, so that the files are not in this
 repository) are cut by a box of 930 x 830 km from -45 to -6 km and sealed by `--seal auto`; slivers are merged. The
 volumes of the blocks must be those below, which agree with the model that SCEC made by hand where its boundaries are
-among the files. FOLDER has the collection of data (default: ../shared/data beside the repository). The exit status is
+among the files. FOLDER has the collection of data (default: ../shared/data beside the repository); PAGE.html gets the report page. The exit status is
 77 if the model is not there.
 """
 import json
@@ -30,7 +30,7 @@ VOLUMES = (  # in cubic metres, the largest first
 
 def main():
     program = pathlib.Path(sys.argv[1]).resolve()
-    archive = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else ROOT.parent / "shared/data") / ARCHIVE
+    archive = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 and sys.argv[2] else ROOT.parent / "shared/data") / ARCHIVE
     if not archive.exists():
         print(f"skipped: there is no {archive}")
         return 77
@@ -39,8 +39,9 @@ def main():
         with tarfile.open(archive) as files:
             files.extractall(folder)
         inputs = sorted((folder / "fault_boundaries").glob("*.ts")) + [folder / "moho_extended_crop.ts"]
+        page = ["--report", sys.argv[3]] if len(sys.argv) > 3 else []
         subprocess.run([program, "volume", *inputs, BOX, "-o", folder / "model", "--seal", "auto",
-                        "--min-volume", "auto", "--stats", folder / "stats.json"], check=True,
+                        "--min-volume", "auto", "--stats", folder / "stats.json", *page], check=True,
                        stdout=subprocess.DEVNULL)
         model = json.loads((folder / "model/model.json").read_text())
         stats = json.loads((folder / "stats.json").read_text())

@@ -3,6 +3,7 @@
 // The result of filling a hole, whatever the method.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -21,6 +22,13 @@ struct FillReport {
     double validated_error = 0;   ///< root mean square error at data that were left out and
                                   ///< predicted from the others; NaN if not computed
     std::string model;            ///< the fitted model and its parameters, in a sentence
+    std::vector<std::array<double, 2>>
+        variogram{}; ///< of kriging, without the trend: mean distance, half the mean squared
+                     ///< difference of heights; ascending; empty: there is none
+    std::vector<std::array<double, 2>> variogram_model{}; ///< the fitted one, likewise
+    std::vector<std::array<double, 2>>
+        left_out{}; ///< height of a datum, and as the data outside of its block predict it, for
+                    ///< validated_error; empty: not recorded
 };
 
 /// A surface that fills a hole.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -14,6 +16,7 @@
 #include <terrane/algorithms/reconstruction/kriging/detail/choice.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/direction_doubt.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/kriging.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/system.hpp>
 #include <terrane/algorithms/reconstruction/kriging/flat_hole.hpp>
 
 namespace terrane {
@@ -55,6 +58,51 @@ std::vector<Point3> thinned(const std::vector<Point3>& all, std::size_t border) 
     return kept;
 }
 
+/// Records the experimental variogram of what the trend leaves of the data, in classes of the
+/// model's distance, and the model at distances up to theirs.
+void record_variogram(std::span<const Point3> data, const Variogram& model, unsigned degree,
+                      FillReport& report) {
+    constexpr std::size_t classes = 15, steps = 60;
+    const TrendTerms trend(data, degree);
+    const Eigen::MatrixXd terms = trend.matrix(data);
+    Eigen::VectorXd heights(static_cast<Eigen::Index>(data.size()));
+    for (std::size_t i = 0; i < data.size(); ++i) heights(static_cast<Eigen::Index>(i)) = data[i].z;
+    const Eigen::VectorXd left = heights - terms * terms.colPivHouseholderQr().solve(heights);
+    std::vector<Point3> residuals(data.begin(), data.end());
+    Point3 least = data.front(), largest = data.front();
+    for (std::size_t i = 0; i < data.size(); ++i) {
+        const Point3& p = data[i];
+        residuals[i].z = left(static_cast<Eigen::Index>(i));
+        least = {std::min(least.x, p.x), std::min(least.y, p.y), 0};
+        largest = {std::max(largest.x, p.x), std::max(largest.y, p.y), 0};
+    }
+    const double longest = std::hypot(largest.x - least.x, largest.y - least.y) / 2;
+    if (!(longest > 0)) return;
+    struct Class {
+        double distance = 0, gamma = 0, pairs = 0;
+    };
+    const auto bins = experimental_variogram(residuals, {}, longest);
+    double farthest = 0;
+    for (const VariogramBin& bin : bins)
+        farthest = std::max(farthest, model.distance(bin.dx, bin.dy));
+    if (!(farthest > 0)) return;
+    std::array<Class, classes> sums{};
+    for (const VariogramBin& bin : bins) {
+        const double distance = model.distance(bin.dx, bin.dy);
+        const auto at = static_cast<std::size_t>(classes * distance / farthest);
+        Class& sum = sums[std::min(at, classes - 1)];
+        const auto pairs = static_cast<double>(bin.pairs);
+        sum = {sum.distance + pairs * distance, sum.gamma + pairs * bin.gamma, sum.pairs + pairs};
+    }
+    for (const Class& sum : sums)
+        if (sum.pairs > 0)
+            report.variogram.push_back({sum.distance / sum.pairs, sum.gamma / sum.pairs});
+    for (std::size_t i = 1; i <= steps; ++i) {
+        const double distance = farthest * static_cast<double>(i) / steps;
+        report.variogram_model.push_back({distance, model.at(distance)});
+    }
+}
+
 FittedModel model_of(const FlatHole& hole, const KrigingOptions& options, FillReport& report,
                      const Run& run) {
     const auto& data = hole.data();
@@ -65,6 +113,8 @@ FittedModel model_of(const FlatHole& hole, const KrigingOptions& options, FillRe
         DirectionDoubt(error_data(data, hole.border(), choice.variogram), choice, run),
         choice.determined, rounding_of(data, choice.degree)};
     report.data = data.size();
+    record_variogram(data, choice.variogram, choice.degree, report);
+    report.left_out = choice.validation.left_out;
     report.validated_error = choice.validation.blocks > 0
                                  ? choice.validation.error
                                  : std::numeric_limits<double>::quiet_NaN();
@@ -104,6 +154,9 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
         filling->report.data = report.data;
         filling->report.validated_error = report.validated_error;
         filling->report.model = report.model;
+        filling->report.variogram = std::move(report.variogram);
+        filling->report.variogram_model = std::move(report.variogram_model);
+        filling->report.left_out = std::move(report.left_out);
         return filling;
     });
 }

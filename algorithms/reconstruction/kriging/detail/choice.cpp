@@ -248,6 +248,10 @@ BlockValidation validate(const DataAroundHole& around, const Variogram& variogra
         ratios += square / expected;
         count += block.size();
         ++result.blocks;
+        for (std::size_t i = 0; i < block.size(); ++i) {
+            const double height = data[static_cast<std::size_t>(block[i])].z;
+            result.left_out.push_back({height, height - errors(static_cast<Eigen::Index>(i))});
+        }
     }
     if (count == 0) return result;
     result.error = std::sqrt(squares / static_cast<double>(count));

@@ -23,6 +23,7 @@ struct BlockValidation {
                             ///< included
     double noise_share = 1; ///< of the nugget that is noise
     double most = 0;        ///< largest square of that ratio of a block
+    std::vector<std::array<double, 2>> left_out{}; ///< height of a datum, and as predicted
 };
 
 struct ModelChoice {

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <unistd.h>
+
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/column.hpp>
+#include <terrane/cli/options/roles.hpp>
+#include <terrane/cli/page/page.hpp>
+#include <terrane/cli/stages/blocks.hpp>
+#include <terrane/cli/stages/pipeline.hpp>
+#include <terrane/cli/stages/plausibility.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
+
+namespace terrane::cli {
+namespace {
+
+struct ReportCommand {
+    FileOptions files;
+    ArrangeSettings settings;
+    std::vector<std::string> roles; ///< NAME=ROLE
+    std::string column;             ///< file; empty: none
+};
+
+constexpr auto report_footer =
+    R"(Arranges the surfaces and finds the blocks as `terrane volume` does, and writes nothing but one
+HTML file: the model to turn and to cut, its blocks and surfaces, what is wrong and where, plots and
+tables. It opens in any browser, from disk, and asks no network for anything.
+
+Where no conforming mesh of doubles was found, the page shows the contacts in the way, and the exit
+status is 1. --report of the other commands writes the page of what they make.
+
+Examples:
+  terrane report horizons.ts faults.ts -o model.html
+  terrane report model.ml -o model.html --box 0,0,-3000,10000,10000,500)";
+
+constexpr auto view_footer =
+    R"(Makes the page of `terrane report` in a new folder for temporary files and opens it; a page that is
+there already, FILE.html, is opened as it is. The program that opens it is that of the environment
+variable BROWSER, or else xdg-open. The folder stays, as the browser reads it later.
+
+Examples:
+  terrane view horizons.ts faults.ts
+  terrane view model.html)";
+
+Result<ExitStatus> report_files(const ReportCommand& command, Session& session) {
+    Stopwatch total;
+    const FileOptions& files = command.files;
+    if (const auto planned = plan_outputs(files, OutputKind::surfaces); !planned)
+        return planned.error();
+    if (const auto sound = check_volume_options(command.settings.volume); !sound)
+        return sound.error();
+    auto page = Page::plan(files);
+    if (!page) return page.error();
+    auto inputs = read_inputs(files, session);
+    if (!inputs) return inputs.error();
+    if (const auto set = set_roles(command.roles, *inputs); !set) return set.error();
+    const auto naming = naming_of(command.column, *inputs);
+    if (!naming) return naming.error();
+    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
+    if (const auto found = page->add_holes(*inputs, session.run()); !found) return found.error();
+    Json statistics = statistics_of(*inputs, session.times());
+
+    auto arranged = arrange_and_round(*inputs, command.settings, session, statistics);
+    if (!arranged) return arranged.error();
+    print(summary_stream(files), summary(*inputs, *arranged));
+    page->add_arranged(*inputs, *arranged);
+    const bool clean = arranged->rounded.report.clean;
+    if (!clean) {
+        print(stderr, offending_pairs(*inputs, *arranged));
+    } else {
+        const auto model = find_model(*arranged, *naming, session, statistics);
+        if (!model) return model.error();
+        const auto leaks = judge_leaks(*arranged, *model, session);
+        if (!leaks) return leaks.error();
+        print(summary_stream(files), model_text(*inputs, *model, *leaks));
+        page->add_model(*inputs, *model, *leaks);
+        if (const auto sound = examine(*model, *inputs, false, statistics); !sound)
+            return sound.error();
+    }
+    return write_run(*page, statistics, files, total.lap(), clean);
+}
+
+/// Starts the program that opens a page, and does not wait for it.
+Status open_page(const std::string& path) {
+    const char* const named = std::getenv("BROWSER");
+    std::string program = named != nullptr && *named != '\0' ? named : "xdg-open", page = path;
+    std::array<char*, 3> words{program.data(), page.data(), nullptr};
+    pid_t child = 0;
+    const int failed =
+        ::posix_spawnp(&child, program.c_str(), nullptr, nullptr, words.data(), environ);
+    if (failed == 0) return Done{};
+    return Error{ErrorCode::cannot_open,
+                 fmt::format("{} cannot open it ({}); set BROWSER, or open the page by hand",
+                             program, std::strerror(failed)),
+                 path};
+}
+
+bool is_page(const std::string& path) {
+    return std::filesystem::path(path).extension() == ".html";
+}
+
+/// Makes a folder for a page, and returns the path of the page in it.
+Result<std::string> temporary_page(const FileOptions& files) {
+    std::error_code failed;
+    std::string folder = std::filesystem::temp_directory_path(failed) / "terrane-view-XXXXXX";
+    if (failed || ::mkdtemp(folder.data()) == nullptr)
+        return Error{ErrorCode::cannot_open, "no folder can be made here", folder};
+    const auto stem = std::filesystem::path(files.inputs.front()).stem().string();
+    return folder + "/" + (stem.empty() || stem == "-" ? "report" : stem) + ".html";
+}
+
+Result<ExitStatus> view_files(ReportCommand& command) {
+    const auto& inputs = command.files.inputs;
+    if (inputs.size() == 1 && is_page(inputs.front())) {
+        if (const auto page = read_file(inputs.front()); !page) return page.error();
+        if (const auto opened = open_page(inputs.front()); !opened) return opened.error();
+        return ExitStatus::done;
+    }
+    auto page = temporary_page(command.files);
+    if (!page) return page.error();
+    command.files.report = *page;
+    Session session(command.files.threads);
+    const auto status = report_files(command, session);
+    if (status)
+        when_written([path = *page] {
+            if (const auto opened = open_page(path); !opened) warn(opened.error().message());
+        });
+    else
+        std::filesystem::remove(std::filesystem::path(*page).parent_path());
+    return status;
+}
+
+/// Adds the options that `report` and `view` share.
+void add_model_options(CLI::App& app, ReportCommand& command) {
+    add_inputs(app, command.files);
+    command.files.app = &app;
+    add_roles(app, command.roles);
+    add_column(app, command.column);
+    add_settings(app, command.settings);
+    add_threads(app, command.files);
+    add_stats(app, command.files);
+}
+
+} // namespace
+
+Command view_command(CLI::App& program) {
+    auto command = std::make_shared<ReportCommand>();
+    auto* app = program.add_subcommand("view", "Look at surfaces, or at a report, in a browser");
+    add_model_options(*app, *command);
+    app->footer(view_footer);
+    return {app, [command] {
+                const auto status = view_files(*command);
+                return status ? status.value() : fail(status.error());
+            }};
+}
+
+Command report_command(CLI::App& program) {
+    auto command = std::make_shared<ReportCommand>();
+    auto* app =
+        program.add_subcommand("report", "Show a model, and what is wrong with it, in a page");
+    add_model_options(*app, *command);
+    app->add_option("-o,--output", command->files.report, "The page; - is standard output")
+        ->required()
+        ->type_name("FILE.html");
+    app->footer(report_footer);
+    return {app, [command] {
+                Session session(command->files.threads);
+                const auto status = report_files(*command, session);
+                return status ? status.value() : fail(status.error());
+            }};
+}
+
+} // namespace terrane::cli

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Numbers with units, and small helpers for elements. All text from files is set as text, never as
+// HTML.
+
+export class Quantities {
+  constructor(private readonly unit: string) {}
+
+  /** Writes a value of a measure with its unit: "length", "area", "volume", "angle", or none. */
+  text(value: number | null, measure: string, digits = 4): string {
+    if (value === null || !Number.isFinite(value)) return "–";
+    if (measure === "count") return value.toLocaleString("en");
+    if (measure === "angle") return `${plain(value, digits)}°`;
+    const power = { length: 1, area: 2, volume: 3 }[measure] ?? 0;
+    if (power === 0) return plain(value, digits);
+    if (this.unit === "m" && Math.abs(value) >= [0, 1e4, 1e5, 1e8][power])
+      return `${plain(value / 1000 ** power, digits)} km${sup(power)}`;
+    return `${plain(value, digits)}${this.unit ? " " + this.unit + sup(power) : ""}`;
+  }
+  /** Returns the unit for an axis on which `most` is the largest value, and how many base units it has. */
+  axis(label: string, measure: string, most: number): { label: string; factor: number } {
+    const power = { length: 1, area: 2, volume: 3 }[measure] ?? 0;
+    const large = power > 0 && this.unit === "m" && most >= [0, 1e4, 1e5, 1e8][power];
+    return large ? { label: `${label} (km${sup(power)})`, factor: 1000 ** power } : { label: this.label(label, measure), factor: 1 };
+  }
+  /** Returns "length (m)", or the label alone where no unit is known. */
+  label(label: string, measure: string): string {
+    const power = { length: 1, height: 1, area: 2, volume: 3 }[measure] ?? 0;
+    if (measure === "angle") return `${label} (°)`;
+    return power > 0 && this.unit ? `${label} (${this.unit}${sup(power)})` : label;
+  }
+  /** Writes a coordinate with all digits that mean something in a model of this extent. */
+  coordinate(value: number, extent: number): string {
+    const decimals = Math.max(0, Math.min(9, 5 - Math.floor(Math.log10(Math.max(extent, 1e-9)))));
+    return value.toFixed(decimals);
+  }
+}
+
+function sup(power: number): string {
+  return ["", "", "²", "³"][power];
+}
+
+export function plain(value: number, digits: number): string {
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e7 || size < 1e-4) return value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e");
+  return Number(value.toPrecision(digits)).toLocaleString("en", { maximumSignificantDigits: digits });
+}
+
+type Attributes = Record<string, string | number | boolean>;
+
+/** Makes an element with attributes, and children that are elements or text. */
+export function element<K extends keyof HTMLElementTagNameMap>(
+  tag: K, attributes: Attributes = {}, ...children: (Node | string)[]): HTMLElementTagNameMap[K] {
+  const made = document.createElement(tag);
+  for (const [key, value] of Object.entries(attributes))
+    if (value !== false) made.setAttribute(key, value === true ? "" : String(value));
+  made.append(...children);
+  return made;
+}
+
+/** Makes a button that does something. */
+export function button(text: string, label: string, act: () => void, attributes: Attributes = {}): HTMLButtonElement {
+  const name = label.toLowerCase().includes(text.toLowerCase()) ? label : `${text}: ${label}`; // holds what is seen
+  const made = element("button", { type: "button", title: label, "aria-label": name, ...attributes }, text);
+  made.addEventListener("click", act);
+  return made;
+}
+
+/** Shortens what no line can hold; the whole name is in the tooltip. */
+export function shortened(name: string, most = 120): string {
+  return name.length > most ? name.slice(0, most - 1) + "…" : name;
+}
+
+/** An element with a name from a file, in its own direction of writing. */
+export function named(name: string, most = 120): HTMLElement {
+  return element("bdi", { title: shortened(name, 2000), class: name.length > 40 ? "name long" : "name" }, shortened(name, most));
+}
+
+export function download(name: string, type: string, text: string): void {
+  const address = URL.createObjectURL(new Blob([text], { type }));
+  element("a", { href: address, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(address), 1000);
+}
