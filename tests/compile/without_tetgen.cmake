@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# Configures the project with its tests but without TetGen, and checks that no source that is compiled
-# then includes TetGen's header, or the header with tests of filled meshes. Nothing is built.
+# Configures the project with its tests but without TetGen, and without report pages, whose source is made while building,
+# and checks that no source that is compiled then includes TetGen's header, or the header with tests of filled
+# meshes. Nothing is built.
 #   cmake -DSOURCE=... -DWORK=... -DCOMPILER=... -P without_tetgen.cmake
 file(REMOVE_RECURSE ${WORK})
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK} -G Ninja -DCMAKE_CXX_COMPILER=${COMPILER}
-                -DTERRANE_TETGEN=OFF -DTERRANE_TESTS=ON
+                -DTERRANE_TETGEN=OFF -DTERRANE_REPORT=OFF -DTERRANE_TESTS=ON
                 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 file(READ ${WORK}/compile_commands.json commands)
 string(REGEX MATCHALL "\"file\": \"[^\"]+\"" files "${commands}")
