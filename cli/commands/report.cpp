@@ -132,7 +132,7 @@ Result<ExitStatus> view_files(ReportCommand& command) {
     if (!page) return page.error();
     command.files.report = *page;
     Session session(command.files.threads);
-    const auto status = report_files(command, session);
+    auto status = report_files(command, session);
     if (status)
         when_written([path = *page] {
             if (const auto opened = open_page(path); !opened) warn(opened.error().message());

@@ -38,8 +38,7 @@ Status Page::add_inputs(const Inputs& inputs) {
     if (!wanted()) return Done{};
     unit_ = inputs.unit;
     sources_ = inputs.files;
-    for (std::size_t f = 0; f < files_.inputs.size(); ++f) {
-        const std::string& path = files_.inputs[f];
+    for (const std::string& path : files_.inputs) {
         if (path == "-") {
             inputs_.push_back({"standard input", nullptr, nullptr});
             continue;

@@ -19,6 +19,7 @@
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/page/findings.hpp>
 #include <terrane/cli/page/scene.hpp>
+#include <terrane/cli/session/console.hpp>
 
 namespace terrane::cli {
 

@@ -32,8 +32,8 @@ void add_values(Json& rows, const std::string& path, const Json& value) {
         std::size_t i = 0;
         for (const auto& [key, entry] : value.items()) {
             const std::string name = value.is_array() ? fmt::format("[{}]", i++) : key;
-            add_values(rows, path.empty() || value.is_array() ? path + name : path + "." + name,
-                       entry);
+            const char* const dot = path.empty() || value.is_array() ? "" : ".";
+            add_values(rows, fmt::format("{}{}{}", path, dot, name), entry);
         }
     } else if (value.is_array()) {
         rows.push_back({path, fmt::format("{} entries", value.size())});
