@@ -129,9 +129,9 @@ private:
     /// round those that are still far from it. Returns the number of changes.
     Result<std::size_t> improve_all() {
         const Permission permission{options_.may_grow, floor_};
-        const auto cells = improve_cells(permission);
+        auto cells = improve_cells(permission);
         if (!cells) return cells;
-        const auto vertices = move_vertices(permission);
+        auto vertices = move_vertices(permission);
         if (!vertices) return vertices;
         return *cells + *vertices;
     }
@@ -224,11 +224,9 @@ private:
                 credit_ -= static_cast<double>(proposed[i].effort);
                 if (!is_wanted(batch[i])) continue;
                 auto& change = proposed[i].change;
-                if (!change) {
-                    failed(batch[i], time);
-                } else if (!is_unchanged(*change, time)) {
+                if (change && !is_unchanged(*change, time)) {
                     queue.again(batch[i]);
-                } else if (make_and_count(*change)) {
+                } else if (change && make_and_count(*change)) {
                     ++changes;
                     credit_ += static_cast<double>(constants.effort_per_change);
                 } else {

@@ -117,8 +117,8 @@ std::vector<std::uint32_t> Cells::star(std::uint32_t v) const {
         found.push_back(c);
     };
     seen[found[0] >> 6 & 3] = std::uint64_t{1} << (found[0] & 63);
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        const std::uint32_t c = found[i];
+    for (std::size_t next = 0; next < found.size();) { // more are found on the way
+        const std::uint32_t c = found[next++];
         for (unsigned k = 0; k < 4; ++k)
             if (cells_[c][k] != v && beside_[c][k] != none) add(beside_[c][k]);
     }
