@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Makes the Debian packages of a build tree, unpacks them into an empty folder, and uses them there.
+"""Makes the Debian packages of a build tree, unpacks and installs them, and uses them.
 
     packages.py --build BUILD --source SOURCE --work FOLDER
 
@@ -8,7 +8,10 @@
 (2) The program arranges surfaces and, where terrane-tetgen was made, fills them with tetrahedra by it.
 (3) The example in C compiles against the headers and the shared library alone, by pkg-config and by CMake.
 (4) The Python package is imported, and finds the helper, too.
-Nothing is installed into the system; scripts/packages.sh does that in a root of its own.
+This is done in a folder into which the packages are unpacked, and then
+(5) as users have them: dpkg installs them into a root of its own, a copy of the machine's that is written to memory,
+    with their dependencies checked; they are used there without any path being named, and removed without a trace.
+Nothing is installed into the machine. scripts/packages.sh does (5) in a Debian that has nothing else.
 """
 import argparse
 import os
@@ -110,6 +113,52 @@ def use_python(root, data):
         sys.exit(f"another module was used: {printed}")
 
 
+INSTALL = """
+mount -t tmpfs tmpfs "$1"
+mkdir "$1/upper" "$1/work" "$1/root"
+mount -t overlay overlay -o "lowerdir=/,upperdir=$1/upper,workdir=$1/work" "$1/root"
+mount --rbind /dev "$1/root/dev"
+mkdir -p "$1/root/made"
+mount --bind "$2" "$1/root/made"
+mkdir -p "$1/root/project"
+mount --bind "$3" "$1/root/project"
+echo "the root is made"
+exec env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 chroot "$1/root" sh -euc "$4"
+"""
+IN_ROOT = """
+! find /usr -name '*terrane*' | grep . || { echo 'Terrane is installed on this machine'; exit 1; }
+dpkg --install /made/packages/*.deb >/made/dpkg.log
+dpkg --verify '*terrane*'
+cd /project/docs/data
+terrane arrange top.ts fault.ts -o /made/installed.vtp >/dev/null
+if [ -e /usr/libexec/terrane/terrane-tetgen ]; then terrane tetrahedralize body.ts -o /made/installed.vtu >/dev/null; fi
+if pkg-config --exists terrane_c; then
+    cc -std=c11 ../examples/c/blocks.c $(pkg-config --cflags --libs terrane_c) -o /made/installed
+    /made/installed top.ts base.ts fault.ts | grep -q 'is in block 2'
+fi
+if [ -e /usr/lib/python3/dist-packages/terrane ]; then
+    /usr/bin/python3 -c 'import terrane; assert len(terrane.model(terrane.read("body.ts")).blocks) > 0'
+fi
+dpkg --purge $(dpkg-query --show --showformat '${Package} ' '*terrane*') >>/made/dpkg.log
+! find /usr /etc /var/lib/dpkg/info -name '*terrane*' | grep . || { echo 'these files stay'; exit 1; }
+"""
+
+
+def install_in_root(work, source):
+    """Returns what was done. A machine that lets nobody mount, as some containers do, has only what was unpacked."""
+    (work / "memory").mkdir()
+    why = ""
+    for unshare in (("unshare", "--mount"), ("unshare", "--mount", "--user", "--map-root-user")):
+        done = subprocess.run([*unshare, "sh", "-euc", INSTALL, "sh", work / "memory", work, source, IN_ROOT],
+                              capture_output=True, text=True)
+        if "the root is made" in done.stdout:
+            if done.returncode != 0:
+                sys.exit(f"in a root of its own: status {done.returncode}\n{done.stdout}{done.stderr}")
+            return "installed by dpkg, used and removed"
+        why = done.stderr.strip().splitlines()[-1] if done.stderr.strip() else f"status {done.returncode}"
+    return f"unpacked and used; not installed, as no root of its own can be made here ({why})"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     for name in ("build", "source", "work"):
@@ -130,9 +179,10 @@ def main():
         use_c(work / "root", source, work)
     if "python3-terrane" in names:
         use_python(work / "root", source / "docs/data")
+    how = install_in_root(work, source)
     for flaw in flaws:
         print(f"packages: {flaw}", file=sys.stderr)
-    print(f"{len(packages)} packages: {', '.join(sorted(names))}")
+    print(f"{len(packages)} packages {how}: {', '.join(sorted(names))}")
     return 1 if flaws else 0
 
 

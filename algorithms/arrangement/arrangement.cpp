@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <utility>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
@@ -15,6 +16,7 @@
 #include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
+#include <terrane/algorithms/intersection/pencils.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/kernel/fraction.hpp>
 
@@ -72,10 +74,8 @@ InjectivePatches patches_of_faces(InjectivePatches of_soup,
     return patches;
 }
 
-/// Returns the near pairs of which at least one triangle has a constructed point, as input
-/// triangles.
-std::vector<CandidatePair> neighbours_of_divided(const Soup& soup, const Retriangulation& division,
-                                                 const Run& run) {
+/// Tells for each triangle of the soup whether one of its parts has a constructed point.
+std::vector<char> divided_faces(const Soup& soup, const Retriangulation& division, const Run& run) {
     std::vector<char> has_constructed(soup.triangles.size(), 0);
     const auto inputs = static_cast<PointIndex>(division.points.input_count());
     for_ranges(division.triangles.size(), run, [&](std::size_t first, std::size_t last) {
@@ -86,11 +86,26 @@ std::vector<CandidatePair> neighbours_of_divided(const Soup& soup, const Retrian
                 std::atomic_ref(has_constructed[f]).store(1, std::memory_order_relaxed);
         }
     });
-    std::vector<CandidatePair> neighbours;
+    return has_constructed;
+}
+
+/// Finds the near pairs of which at least one triangle has a constructed point, as input triangles,
+/// and the triangles of which the search for candidates leaves pairs out.
+void find_neighbours_of_divided(const Soup& soup, const Retriangulation& division,
+                                const Pencils& pencils, ExactState& state, const Run& run) {
+    const auto has_constructed = divided_faces(soup, division, run);
     for (const CandidatePair& p : division.near)
         if (has_constructed[p.first] != 0 || has_constructed[p.second] != 0)
-            neighbours.push_back({soup.input_of[p.first], soup.input_of[p.second]});
-    return neighbours;
+            state.neighbours.push_back({soup.input_of[p.first], soup.input_of[p.second]});
+    const auto crowded = crowded_vertices(division.points.input_count(), soup.triangles);
+    if (crowded.empty() && pencils.of.empty()) return;
+    const auto is_crowded = [&](std::uint32_t f) {
+        const Triangle& t = soup.triangles[f];
+        return (!pencils.of.empty() && pencils.of[f] != no_group) ||
+               (!crowded.empty() && (crowded[t[0]] || crowded[t[1]] || crowded[t[2]]));
+    };
+    for (std::uint32_t f = 0; f < soup.triangles.size(); ++f)
+        if (has_constructed[f] != 0 && is_crowded(f)) state.crowded.push_back(soup.input_of[f]);
 }
 
 /// Labels triangles by patch, and those without a patch by surface.
@@ -135,6 +150,25 @@ std::vector<std::uint32_t> name_vertices(Arrangement& a, const PointStore& point
     return vertex_of;
 }
 
+/// Finds the pairs of triangles that are to be tested, and the pencils among those that are not.
+std::vector<CandidatePair> find_candidates(const Soup& soup, std::span<const std::uint32_t> patches,
+                                           Search method, Pencils& pencils, const Run& run) {
+    const TriangleSoup all{soup.points, soup.triangles};
+    const auto find_crowds = [&](std::span<const std::uint32_t> busy) {
+        pencils = find_pencils(all, busy, run);
+        return pencils.of;
+    };
+    auto candidates =
+        candidate_pairs({soup.points, soup.triangles}, patches, method, run, find_crowds);
+    if (pencils.list.empty()) return candidates;
+    const auto coplanar = coplanar_pairs(all, pencils, patches, run);
+    std::vector<CandidatePair> both_kinds;
+    both_kinds.reserve(candidates.size() + coplanar.size());
+    std::set_union(candidates.begin(), candidates.end(), coplanar.begin(), coplanar.end(),
+                   std::back_inserter(both_kinds));
+    return both_kinds;
+}
+
 Error interrupted() {
     return {ErrorCode::interrupted, "stopped on request", ""};
 }
@@ -164,13 +198,13 @@ ArrangeStatistics statistics_of(std::size_t candidates, const Retriangulation& d
 
 /// Makes one mesh of the triangles after division, with what later stages ask of it.
 void assemble(Arrangement& a, Soup soup, InjectivePatches patches, Retriangulation division,
-              const Run& run) {
+              const Pencils& pencils, const Run& run) {
     a.inputs = {soup.first_input_triangle, soup.first_input_vertex, soup.duplicates};
     a.degenerate = soup.degenerate;
     const auto state = std::make_shared<ExactState>();
     a.state = state;
     state->corners = std::move(soup.input_corners);
-    state->neighbours = neighbours_of_divided(soup, division, run);
+    find_neighbours_of_divided(soup, division, pencils, *state, run);
     state->has_pools = division.has_pools;
     const Labels labels = labels_of(soup, patches, run);
     std::vector<std::uint32_t> vertex_of;
@@ -211,7 +245,8 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     // (b) candidate pairs
     step.next("search");
     const Search used = method_used(options.search, soup.triangles.size());
-    const auto candidates = candidate_pairs({soup.points, soup.triangles}, patches.of, used, run);
+    Pencils pencils;
+    const auto candidates = find_candidates(soup, patches.of, used, pencils, run);
     TERRANE_ASSERT_PARANOID(is_sorted_unique(candidates));
     step.stop();
     report(0.3);
@@ -219,14 +254,14 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
 
     // (c) contacts, (d) equal points, (e) triangulation of the faces with contacts
     Retriangulation division = retriangulate(std::move(soup.points), soup.triangles, candidates,
-                                             part_of_stage(run, "arrange", 0.3, 0.85));
+                                             pencils, part_of_stage(run, "arrange", 0.3, 0.85));
     if (run.stop.stop_requested()) return interrupted();
     a.statistics = statistics_of(candidates.size(), division);
     a.statistics.search = used;
 
     // (f) one mesh
     step.next("assemble");
-    assemble(a, std::move(soup), std::move(patches), std::move(division), run);
+    assemble(a, std::move(soup), std::move(patches), std::move(division), pencils, run);
     a.statistics.triangles = a.triangles.size();
     a.statistics.vertices = a.vertices.size();
     step.stop();

@@ -30,6 +30,9 @@ struct ExactState {
                                            ///< points are rounded to nearest doubles. At least one
                                            ///< has constructed points; they are not both in one
                                            ///< patch. No duplicates; sorted
+    std::vector<std::uint32_t> crowded;    ///< input triangles of which `neighbours` leaves pairs
+                                           ///< out: those with constructed points at a vertex
+                                           ///< that very many share; ascending
     Adjacency adjacency;                   ///< that of the triangles
     bool whole = true;                     ///< false if triangles were removed, see restricted.hpp
     bool has_pools = false;                ///< whether `neighbours` leaves pairs out, since many

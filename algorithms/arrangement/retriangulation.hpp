@@ -39,16 +39,17 @@ struct Retriangulation {
                                      ///< undivided and the only face there; else UINT32_MAX
     std::vector<CandidatePair> near; ///< candidates whose parts may meet when their points are
                                      ///< rounded to nearest doubles; the others stay apart, but
-                                     ///< for those within a pool
+                                     ///< for those within a pool or a pencil
     bool has_pools = false;          ///< whether there are pools, whose pairs `near` leaves out
     RetriangulationStatistics statistics;
 };
 
 /// Retriangulates a soup; points and triangles are those of a TriangleSoup. `candidates` must
-/// contain all pairs that meet improperly. Check run.stop afterwards: a stopped run leaves the
+/// contain all pairs that meet improperly but for those in different planes of a pencil. Check run.stop afterwards: a stopped run leaves the
 /// result unfinished. Throws std::logic_error if an assertion fails. Times: intersect, triangulate
 /// and stitch.
 Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triangle> triangles,
-                              std::span<const CandidatePair> candidates, const Run& run);
+                              std::span<const CandidatePair> candidates, const Pencils& pencils,
+                              const Run& run);
 
 } // namespace terrane

@@ -27,6 +27,15 @@ inline Error error_within_memory(ErrorCode code, std::string_view sentence, std:
     return error;
 }
 
+/// Whether a thread could not be started: by the standard library, or by TBB, which has no type of
+/// its own for that.
+inline bool is_lack_of_threads(const std::runtime_error& refused) {
+    if (const auto* error = dynamic_cast<const std::system_error*>(&refused))
+        return error->code() == std::errc::resource_unavailable_try_again ||
+               error->code() == std::errc::not_enough_memory;
+    return std::string_view(refused.what()).starts_with("pthread_create has failed");
+}
+
 /// Calls `work` and returns its Result. Lack of memory, arrays beyond the largest possible length
 /// and threads that cannot be started become out_of_memory at `place`, whatever memory is left. The
 /// work has StandardArithmetic.
@@ -39,10 +48,8 @@ auto guard_memory(std::string_view place, const Work& work,
         return work();
     } catch (const std::bad_alloc&) {
     } catch (const std::length_error&) {
-    } catch (const std::system_error& refused) {
-        if (refused.code() != std::errc::resource_unavailable_try_again &&
-            refused.code() != std::errc::not_enough_memory)
-            throw;
+    } catch (const std::runtime_error& refused) {
+        if (!is_lack_of_threads(refused)) throw;
     }
     return error_within_memory(ErrorCode::out_of_memory, sentence, more, place);
 }

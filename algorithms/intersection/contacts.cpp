@@ -11,6 +11,7 @@
 #include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/intersection/detail/construction_table.hpp>
 #include <terrane/algorithms/intersection/detail/equal_points.hpp>
+#include <terrane/algorithms/intersection/pencils.hpp>
 #include <terrane/kernel/separation_filter.hpp>
 
 namespace terrane {
@@ -227,13 +228,21 @@ bool FaceConstraint::is_inner_segment() const {
 }
 
 Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
-                       std::span<const CandidatePair> candidates, const Run& run) {
+                       std::span<const CandidatePair> candidates, const Pencils& pencils,
+                       const Run& run) {
     Contacts contacts;
     contacts.candidates = candidates.size();
     contacts.overlapped.assign(soup.triangles.size(), false);
     contacts.pools = find_plane_pools(soup, candidates, run);
     contacts.points = PointStore(std::move(points));
     Collector collector(soup, contacts, run);
+    for (const Pencil& pencil : pencils.list) {
+        PencilContacts found = contacts_of(soup, pencil);
+        PairBlock block;
+        block.points = std::move(found.points);
+        block.pieces[1] = std::move(found.pieces);
+        collector.add(block);
+    }
     constexpr std::size_t wave = 65536; // pairs whose contacts are in memory at a time
     for (std::size_t start = 0; start < candidates.size(); start += wave) {
         const auto pairs = candidates.subspan(start, std::min(wave, candidates.size() - start));

@@ -78,9 +78,12 @@ struct Contacts {
                                          ///< nearest doubles
     std::size_t candidates = 0;          ///< number of candidate pairs
     std::size_t improper = 0;            ///< number of pairs with an improper contact, without
-                                         ///< pairs within a pool, which are not tested
+                                         ///< pairs within a pool or in different planes of a
+                                         ///< pencil, which are not tested
     PredicateCounts predicates;
 };
+
+struct Pencils;
 
 /// Returns a function with which PointStore::append distributes its work over the run's threads.
 PointStore::Share sharing(const Run& run);
@@ -91,10 +94,11 @@ PlanePools find_plane_pools(const TriangleSoup& soup, std::span<const CandidateP
 
 /// Performs steps (b) and (c): tests all candidates and collects the points and segments that must
 /// appear in each triangle. `points` are the soup's points; the store of the result takes them
-/// over. Equal points and, in triangles with many, equal segments are merged as they come. So the
+/// over. Pairs of triangles in different planes of one pencil need not be candidates. Equal points and, in triangles with many, equal segments are merged as they come. So the
 /// memory follows the distinct ones.
 Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
-                       std::span<const CandidatePair> candidates, const Run& run);
+                       std::span<const CandidatePair> candidates, const Pencils& pencils,
+                       const Run& run);
 
 /// Merges collinear segments that overlap: in pools, whose edges become segments, and in triangles
 /// with many segments on few lines. Fills `crossings` with the points that lie on merged segments.

@@ -93,6 +93,23 @@ Pairs mixed_pairs(std::span<const Box> boxes, std::span<const std::uint32_t> gro
     return pairs;
 }
 
+Pairs pairs_by(Search method, std::span<const Box> boxes, std::span<const std::uint32_t> groups) {
+    switch (method) {
+    case Search::grid:
+        return all_pairs<search::CellGrid>(boxes, groups);
+    case Search::ab:
+        return all_pairs<search::AbTree>(boxes, groups);
+    case Search::ab_balanced:
+        return all_pairs<search::BalancedAbTree>(boxes, groups);
+    case Search::ab_median:
+        return all_pairs<search::MedianAbTree>(boxes, groups);
+    case Search::mixed:
+        return mixed_pairs(boxes, groups);
+    default:
+        return pairs_one_by_one<search::Brute>(boxes, groups);
+    }
+}
+
 } // namespace
 
 std::string_view name_of(Search method) {
@@ -117,24 +134,17 @@ Search method_used(Search method, std::size_t boxes) {
 
 std::vector<CandidatePair> candidate_pairs(const BoxSource& source,
                                            std::span<const std::uint32_t> groups, Search method,
-                                           const Run& run) {
+                                           const Run& run, const CrowdFinder& find_crowds) {
     method = method_used(method, source.size());
-    if (method == Search::bvh) return search::bvh_pairs(source, groups, run);
-    const std::vector<Box> boxes = source.listed();
-    switch (method) {
-    case Search::grid:
-        return all_pairs<search::CellGrid>(boxes, groups);
-    case Search::ab:
-        return all_pairs<search::AbTree>(boxes, groups);
-    case Search::ab_balanced:
-        return all_pairs<search::BalancedAbTree>(boxes, groups);
-    case Search::ab_median:
-        return all_pairs<search::MedianAbTree>(boxes, groups);
-    case Search::mixed:
-        return mixed_pairs(boxes, groups);
-    default:
-        return pairs_one_by_one<search::Brute>(boxes, groups);
-    }
+    if (method == Search::bvh) return search::bvh_pairs(source, groups, run, find_crowds);
+    Pairs pairs = pairs_by(method, source.listed(), groups);
+    if (!find_crowds) return pairs;
+    const auto crowds = search::crowds_of_busy(source, groups, run, find_crowds);
+    if (!crowds.empty())
+        std::erase_if(pairs, [&](const CandidatePair& p) {
+            return crowds[p.first] != no_group && crowds[p.first] == crowds[p.second];
+        });
+    return pairs;
 }
 
 std::vector<CandidatePair> candidate_pairs_of(const BoxSource& boxes,

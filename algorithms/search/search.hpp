@@ -45,6 +45,9 @@ public:
 
     [[nodiscard]] std::size_t size() const { return boxes_.size() + triangles_.size(); }
     [[nodiscard]] bool empty() const { return size() == 0; }
+    /// Return the points and triangles; empty for a list of boxes.
+    [[nodiscard]] std::span<const Point3> points() const { return points_; }
+    [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
     [[nodiscard]] Box operator[](std::size_t i) const {
         return triangles_.empty() ? boxes_[i] : box_of(points_, triangles_[i]);
     }
@@ -72,19 +75,31 @@ struct CandidatePair {
 /// The group of boxes that are paired with all others.
 constexpr std::uint32_t no_group = UINT32_MAX;
 
+/// Tells for each vertex whether it is crowded: whether so many triangles have it that a test of
+/// all their pairs could cost more than all else. Empty if no vertex is. Cost: linear.
+std::vector<bool> crowded_vertices(std::size_t vertex_count, std::span<const Triangle> triangles);
+
+/// Returns for each box a crowd or no_group; or an empty list. Pairs within one crowd are left out:
+/// what they share can be found together. `busy`: some of the boxes that overlap very many others,
+/// ascending.
+using CrowdFinder = std::function<std::vector<std::uint32_t>(std::span<const std::uint32_t> busy)>;
+
 /// Returns all pairs of overlapping boxes except those within one group; sorted, unique.
 /// groups: per box, or empty for no_group throughout. Boxes of one group are known not to meet (or
-/// need no test).
+/// need no test). With Search::bvh, pairs of triangles with a crowded vertex in common are left out
+/// if they certainly meet in common corners and the edge between them only. With any method,
+/// find_crowds (if any) is called where some boxes overlap very many others, with the same ones.
 std::vector<CandidatePair> candidate_pairs(const BoxSource& boxes,
                                            std::span<const std::uint32_t> groups, Search method,
-                                           const Run& run = {});
+                                           const Run& run = {},
+                                           const CrowdFinder& find_crowds = {});
 
 /// Decides whether a pair is kept. Called from several threads, each under an UpwardRounding.
 using PairFilter = std::function<bool(const CandidatePair&)>;
 
 /// Returns all pairs of overlapping boxes of which at least one is active, except those within one
-/// group and those that the filter (if any) rejects; sorted, unique. active: ascending indices of
-/// boxes. Cost: one test per box, then that of candidate_pairs for the boxes near active ones;
+/// group, those that the filter (if any) rejects, and those at crowded vertices that candidate_pairs
+/// leaves out; sorted, unique. active: ascending indices of boxes. Cost: one test per box, then that of candidate_pairs for the boxes near active ones;
 /// rejected pairs take no memory.
 std::vector<CandidatePair> candidate_pairs_of(const BoxSource& boxes,
                                               std::span<const std::uint32_t> active,

@@ -14,6 +14,7 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
+#include <terrane/algorithms/intersection/pencils.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/rounding/detail/reports.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
@@ -122,6 +123,22 @@ void Rounding::repair(std::vector<CandidatePair>& pairs) {
     }
 }
 
+namespace {
+
+/// Adds the parts of triangles of which the arrangement's neighbours leave pairs out.
+void add_crowded_parts(const Arrangement& a, std::span<const std::uint32_t> among,
+                       std::vector<std::uint32_t>& parts) {
+    const auto& crowded = a.state->crowded;
+    if (crowded.empty()) return;
+    for (const std::uint32_t t : among)
+        if (std::any_of(a.parents_of[t].begin(), a.parents_of[t].end(), [&](std::uint32_t parent) {
+                return std::binary_search(crowded.begin(), crowded.end(), parent);
+            }))
+            parts.push_back(t);
+}
+
+} // namespace
+
 PairFilter Rounding::is_improper() const {
     return [this](const CandidatePair& p) {
         return improper_contact(state_.points, state_.triangles[p.first],
@@ -196,6 +213,7 @@ std::vector<CandidatePair> Rounding::first_contacts() {
         if (patch_of(t) != a.state->patches.of[t]) unproven.parts.push_back(t);
     for (const std::uint32_t t : unproven.ill_conditioned) // parts of one patch meet properly
         if (patch_of(t) == no_group) unproven.parts.push_back(t);
+    add_crowded_parts(a, dirty, unproven.parts);
     const bool counts = options_.check.counts(arrangement_.triangles.size());
     if (unproven.parts.empty() && !counts) return pairs;
     sort_unique(unproven.parts);
@@ -241,7 +259,7 @@ bool Rounding::divide_again(std::size_t most_pairs) {
     if (pairs.empty()) return true;
     Run quiet = run_; // the share of one round says nothing about the others
     quiet.progress = nullptr;
-    Retriangulation division = retriangulate(state_.points, state_.triangles, pairs, quiet);
+    Retriangulation division = retriangulate(state_.points, state_.triangles, pairs, {}, quiet);
     if (run_.stop.stop_requested()) return true;
     const auto first_new = static_cast<std::uint32_t>(state_.points.size());
     std::vector<std::uint32_t> name_of(division.points.size());

@@ -5,6 +5,7 @@
 
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/search/detail/packed_tree.hpp>
+#include <terrane/algorithms/search/detail/stars.hpp>
 
 namespace terrane::search {
 namespace {
@@ -19,8 +20,16 @@ constexpr std::size_t leaves_per_block = 256;
 struct Task {
     const BoxSource& boxes;
     std::span<const std::uint32_t> groups;
-    const PairFilter& filter; ///< may be empty
+    std::span<const std::uint32_t> crowds; ///< per box: pairs within a crowd are left out; or empty
+    const PairFilter& filter;              ///< may be empty
     const Run& run;
+
+    [[nodiscard]] bool are_of_one_group(std::uint32_t i, std::uint32_t j) const {
+        return !groups.empty() && groups[i] != no_group && groups[i] == groups[j];
+    }
+    [[nodiscard]] bool are_of_one_crowd(std::uint32_t i, std::uint32_t j) const {
+        return !crowds.empty() && crowds[i] != no_group && crowds[i] == crowds[j];
+    }
 };
 
 /// Joins the leaves of one tree with another and adds the pairs that keep(i, j) and the filter
@@ -36,7 +45,8 @@ void join(const PackedTree& a, const PackedTree& b, const Task& task, PairBlocks
             for (; l < end; ++l)
                 a.join(static_cast<std::uint32_t>(l), b,
                        [&](std::uint32_t i, std::uint32_t j, bool inside) {
-                           if (!keep(i, j) || !(inside || boxes[i].overlaps(boxes[j]))) return;
+                           if (!keep(i, j) || task.are_of_one_crowd(i, j)) return;
+                           if (!inside && !boxes[i].overlaps(boxes[j])) return;
                            const CandidatePair pair{std::min(i, j), std::max(i, j)};
                            if (!filter || filter(pair)) pairs.push_back(pair);
                        });
@@ -69,32 +79,123 @@ std::vector<Selection> by_group(const Selection& all, std::span<const std::uint3
     return parts;
 }
 
-PairBlocks join_groups(const std::vector<Selection>& parts, const Task& task) {
+/// Adds the pairs within a tree.
+void join_itself(const PackedTree& tree, const Task& task, PairBlocks& blocks) {
+    if (task.groups.empty())
+        join(tree, tree, task, blocks, [](std::uint32_t, std::uint32_t) { return true; });
+    else
+        join(tree, tree, task, blocks,
+             [&](std::uint32_t i, std::uint32_t j) { return !task.are_of_one_group(i, j); });
+}
+
+/// The pairs of a range of leaves, as far as no leaf has too many.
+struct LimitedPairs {
+    Pairs pairs;
+    std::vector<std::uint32_t> busy; ///< boxes of leaves with too many
+};
+
+/// Joins a tree with itself, but ends the search of each leaf after `most` pairs.
+std::vector<LimitedPairs> join_limited(const PackedTree& tree, const Task& task, std::size_t most) {
+    struct Report {
+        const Task& task;
+        Pairs& pairs;
+        std::size_t end;
+
+        void operator()(std::uint32_t i, std::uint32_t j, bool inside) const {
+            if (task.are_of_one_group(i, j) || task.are_of_one_crowd(i, j)) return;
+            if (!inside && !task.boxes[i].overlaps(task.boxes[j])) return;
+            pairs.push_back({std::min(i, j), std::max(i, j)});
+        }
+        [[nodiscard]] bool is_full() const { return pairs.size() > end; }
+    };
+    return for_blocks<LimitedPairs>(
+        tree.leaf_count(), leaves_per_block, task.run, [&](std::size_t l, std::size_t end) {
+            LimitedPairs found;
+            for (; l < end; ++l) {
+                const auto leaf = static_cast<std::uint32_t>(l);
+                const Report report{task, found.pairs, found.pairs.size() + most};
+                tree.join(leaf, tree, report);
+                if (!report.is_full()) continue;
+                const auto busy = tree.indices_of(leaf);
+                found.busy.insert(found.busy.end(), busy.begin(), busy.end());
+            }
+            return found;
+        });
+}
+
+/// Returns the crowds of a task and, for boxes without, those that were found.
+std::vector<std::uint32_t> with_crowds(const Task& task, const std::vector<std::uint32_t>& found) {
+    std::vector<std::uint32_t> crowds(task.crowds.begin(), task.crowds.end());
+    crowds.resize(task.boxes.size(), no_group);
+    std::uint32_t next = 0;
+    for (const std::uint32_t c : crowds) next = std::max(next, c + 1); // no_group + 1 wraps to 0
+    for (std::size_t i = 0; i < found.size(); ++i)
+        if (crowds[i] == no_group && found[i] != no_group) crowds[i] = next + found[i];
+    return crowds;
+}
+
+/// Adds the pairs within a selection. Where some boxes have very many, find_crowds (if any) is
+/// asked first; what is done before that is linear in the boxes, whatever they are.
+void join_itself(const Selection& selection, const PackedTree& tree, const Task& task,
+                 const CrowdFinder& find_crowds, PairBlocks& blocks) {
+    if (!find_crowds) return join_itself(tree, task, blocks);
+    constexpr std::size_t most_per_leaf = std::size_t{8} * 256;
+    std::vector<std::uint32_t> busy;
+    auto parts = join_limited(tree, task, most_per_leaf);
+    for (const LimitedPairs& part : parts)
+        busy.insert(busy.end(), part.busy.begin(), part.busy.end());
+    if (busy.empty()) {
+        for (LimitedPairs& part : parts) blocks.push_back(std::move(part.pairs));
+        return;
+    }
+    parts.clear();
+    std::sort(busy.begin(), busy.end());
+    const auto crowds = with_crowds(task, find_crowds(busy));
+    join_itself(PackedTree(selection, crowds),
+                {task.boxes, task.groups, crowds, task.filter, task.run}, blocks);
+}
+
+PairBlocks join_groups(const std::vector<Selection>& parts, const Task& task,
+                       const CrowdFinder& find_crowds = {}) {
     const auto trees =
-        for_blocks<PackedTree>(parts.size(), 1, task.run,
-                               [&](std::size_t k, std::size_t) { return PackedTree(parts[k]); });
+        for_blocks<PackedTree>(parts.size(), 1, task.run, [&](std::size_t k, std::size_t) {
+            return PackedTree(parts[k], task.crowds);
+        });
     PairBlocks blocks;
     const auto all = [](std::uint32_t, std::uint32_t) { return true; };
     for (std::size_t a = 0; a < trees.size(); ++a) {
         if (task.groups[parts[a].indices[0]] == no_group)
-            join(trees[a], trees[a], task, blocks, all);
+            join_itself(parts[a], trees[a], task, find_crowds, blocks);
         for (std::size_t b = a + 1; b < trees.size(); ++b)
             join(trees[a], trees[b], task, blocks, all);
     }
     return blocks;
 }
 
-PairBlocks join_all(const Selection& selection, const Task& task) {
-    const auto groups = task.groups;
-    const PackedTree tree(selection);
+PairBlocks join_all(const Selection& selection, const Task& task,
+                    const CrowdFinder& find_crowds = {}) {
     PairBlocks blocks;
-    if (groups.empty())
-        join(tree, tree, task, blocks, [](std::uint32_t, std::uint32_t) { return true; });
-    else
-        join(tree, tree, task, blocks, [&](std::uint32_t i, std::uint32_t j) {
-            return groups[i] == no_group || groups[i] != groups[j];
-        });
+    join_itself(selection, PackedTree(selection, task.crowds), task, find_crowds, blocks);
     return blocks;
+}
+
+/// Adds the pairs within the stars that keep() and the filter accept.
+template <class Keep>
+void add_pairs_of_stars(const Stars& stars, const Task& task, PairBlocks& blocks,
+                        const Keep& keep) {
+    for (std::size_t s = 0; s < stars.vertices.size(); ++s) {
+        if (task.run.stop.stop_requested()) return;
+        const Pairs pairs = pairs_of_star(task.boxes, stars, s, task.groups, task.run);
+        auto kept = for_blocks<Pairs>(
+            pairs.size(), 4096, task.run, [&](std::size_t first, std::size_t last) {
+                Pairs part;
+                for (; first < last; ++first)
+                    if (keep(pairs[first]) && (!task.filter || task.filter(pairs[first])))
+                        part.push_back(pairs[first]);
+                return part;
+            });
+        std::move(kept.begin(), kept.end(), std::back_inserter(blocks));
+    }
 }
 
 } // namespace
@@ -126,15 +227,28 @@ std::vector<CandidatePair> sorted(const PairBlocks& blocks, std::size_t count) {
 }
 
 std::vector<CandidatePair> bvh_pairs(const BoxSource& boxes, std::span<const std::uint32_t> groups,
-                                     const Run& run) {
+                                     const Run& run, const CrowdFinder& find_crowds) {
     const PairFilter none;
-    if (groups.empty())
-        return sorted(join_all(select_all(boxes), {boxes, groups, none, run}), boxes.size());
-    const Selection selection = select_meeting(boxes, groups, run);
-    const auto parts = by_group(selection, groups);
-    return sorted(parts.empty() ? join_all(selection, {boxes, groups, none, run})
-                                : join_groups(parts, {boxes, groups, none, run}),
-                  boxes.size());
+    const Selection selection =
+        groups.empty() ? select_all(boxes) : select_meeting(boxes, groups, run);
+    const Stars stars = find_stars(boxes, selection.indices);
+    const Task task{boxes, groups, stars.of, none, run};
+    const auto parts = groups.empty() ? std::vector<Selection>{} : by_group(selection, groups);
+    PairBlocks blocks = parts.empty() ? join_all(selection, task, find_crowds)
+                                      : join_groups(parts, task, find_crowds);
+    add_pairs_of_stars(stars, task, blocks, [](const CandidatePair&) { return true; });
+    return sorted(blocks, boxes.size());
+}
+
+std::vector<std::uint32_t> crowds_of_busy(const BoxSource& boxes,
+                                          std::span<const std::uint32_t> groups, const Run& run,
+                                          const CrowdFinder& find_crowds) {
+    std::vector<std::uint32_t> crowds;
+    bvh_pairs(boxes, groups, run, [&](std::span<const std::uint32_t> busy) {
+        crowds = find_crowds(busy);
+        return crowds;
+    });
+    return crowds;
 }
 
 std::vector<CandidatePair> active_pairs(const BoxSource& boxes,
@@ -142,7 +256,8 @@ std::vector<CandidatePair> active_pairs(const BoxSource& boxes,
                                         std::span<const std::uint32_t> groups,
                                         const PairFilter& filter, const Run& run) {
     const Selection selection = select_near(boxes, active, run);
-    const Task task{boxes, groups, filter, run};
+    const Stars stars = find_stars(boxes, selection.indices);
+    const Task task{boxes, groups, stars.of, filter, run};
     Selection chosen, others;
     auto next = active.begin();
     for (std::size_t k = 0; k < selection.indices.size(); ++k) {
@@ -153,10 +268,25 @@ std::vector<CandidatePair> active_pairs(const BoxSource& boxes,
     const auto parts = groups.empty() ? std::vector<Selection>{} : by_group(chosen, groups);
     PairBlocks blocks = parts.empty() ? join_all(chosen, task) : join_groups(parts, task);
     const auto keep = [&](std::uint32_t i, std::uint32_t j) {
-        return groups.empty() || groups[i] == no_group || groups[i] != groups[j];
+        return !task.are_of_one_group(i, j);
     };
-    join(PackedTree(chosen), PackedTree(others), task, blocks, keep);
+    join(PackedTree(chosen, stars.of), PackedTree(others, stars.of), task, blocks, keep);
+    const auto is_active = [&](std::uint32_t i) {
+        return std::binary_search(active.begin(), active.end(), i);
+    };
+    add_pairs_of_stars(stars, task, blocks, [&](const CandidatePair& p) {
+        return is_active(p.first) || is_active(p.second);
+    });
     return sorted(blocks, boxes.size());
+}
+
+std::vector<CandidatePair> pairs_of_crowds(std::span<const Box> boxes,
+                                           std::span<const std::uint32_t> groups,
+                                           std::span<const std::uint32_t> crowds, const Run& run) {
+    const PairFilter none;
+    const BoxSource source(boxes);
+    const Task task{source, groups, crowds, none, run};
+    return concatenated(join_all(select_all(source), task));
 }
 
 std::array<std::uint64_t, pair_classes> bvh_counts(const BoxSource& boxes,

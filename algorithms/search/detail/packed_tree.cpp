@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/search/detail/packed_tree.hpp>
 
+#include <algorithm>
 #include <bit>
-#include <span>
 #include <utility>
 
 namespace terrane::search {
@@ -106,12 +106,16 @@ std::vector<EightBoxes> boxes_of_eight(std::span<const EightBoxes> boxes, std::s
 
 } // namespace
 
-PackedTree::PackedTree(const Selection& selection) {
+PackedTree::PackedTree(const Selection& selection, std::span<const std::uint32_t> crowd_of) {
     const std::size_t n = selection.boxes.size();
     const Curve curve(selection);
     std::vector<Keyed> order(n);
     for (std::uint32_t i = 0; i < n; ++i) order[i] = {curve.key(selection.boxes[i]), i};
     sort_by_key(order);
+    if (!crowd_of.empty()) {
+        for (Keyed& k : order) k.key = crowd_of[selection.indices[k.position]];
+        sort_by_key(order);
+    }
     indices_.reserve(n);
     auto& boxes = levels_.emplace_back((n + 7) / 8);
     for (std::size_t i = 0; i < n; ++i) {
@@ -124,6 +128,23 @@ PackedTree::PackedTree(const Selection& selection) {
         levels_.push_back(boxes_of_eight(levels_.back(), count));
         count = (count + 7) / 8;
     } while (count > 8);
+    if (!crowd_of.empty()) find_crowds(crowd_of);
+}
+
+void PackedTree::find_crowds(std::span<const std::uint32_t> crowd_of) {
+    std::vector<std::uint32_t> below(indices_.size());
+    for (std::size_t i = 0; i < below.size(); ++i) below[i] = crowd_of[indices_[i]];
+    for (const auto& level : levels_) {
+        std::vector<std::uint32_t> here(level.size(), no_group);
+        for (std::size_t e = 0; 8 * e < below.size(); ++e) {
+            const auto children =
+                std::span(below).subspan(8 * e, std::min<std::size_t>(8, below.size() - 8 * e));
+            const auto is_first = [&](std::uint32_t c) { return c == children.front(); };
+            if (std::all_of(children.begin(), children.end(), is_first)) here[e] = children.front();
+        }
+        below = here;
+        crowds_.push_back(std::move(here));
+    }
 }
 
 } // namespace terrane::search
