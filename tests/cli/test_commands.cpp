@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
+#include "support/effort.hpp"
 
 using namespace program_test;
 
@@ -308,7 +309,9 @@ TEST_CASE("cli: tetrahedralize finds the regions that the models state", "[cli]"
         return json["tetrahedra"]["regions"].get<int>();
     };
     CHECK(regions("modelA1") == 5);
+#ifndef TERRANE_SANITIZED // another model on the same way
     CHECK(regions("modelA2") == 13);
+#endif
 }
 
 TEST_CASE("cli: tetrahedralize with a box, and what it refuses", "[cli]") {

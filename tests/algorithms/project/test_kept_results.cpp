@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/effort.hpp"
 #include "support/work_count.hpp"
 #include <terrane/algorithms/check/conforming.hpp>
 #include <terrane/algorithms/project/build.hpp>
@@ -158,8 +159,9 @@ TEST_CASE("kept results: changed tetrahedra are made again, not believed", "[kep
     const auto first = memory.build(project);
     REQUIRE(first);
     std::mt19937 random(6);
-    std::size_t made_again = 0;
-    for (int k = 0; k < 12; ++k) {
+    int made_again = 0;
+    const int count = std::max(3, cases(12));
+    for (int k = 0; k < count; ++k) {
         Memory forged = memory;
         for (auto& [key, bytes] : forged.kept) {
             if (key.first != BuildStage::tetrahedra) continue;
@@ -176,7 +178,7 @@ TEST_CASE("kept results: changed tetrahedra are made again, not believed", "[kep
         REQUIRE(again->filled->report.violations.empty());
         if (forged.taken.size() == 1) ++made_again;
     }
-    CHECK(made_again >= 8); // a moved vertex may be inside a block, and nothing wrong
+    CHECK(3 * made_again >= 2 * count); // a moved vertex may be inside a block, and nothing wrong
 }
 
 #endif

@@ -24,7 +24,7 @@ void check_accepted(const Filled& f) {
 
 void check_refused(const Filled& sound, const std::vector<Damage>& damage) {
     const bool whole = sound.tetrahedra.surfaces.size() > sound.mesh.surfaces.size();
-    for (std::size_t i = 0; i < damage.size(); i += effort_divisor == 1 ? 1 : 3) {
+    for (std::size_t i = 0; i < damage.size(); i += effort_divisor == 1 ? 1 : 6) {
         const Damage& kind = damage[i];
         if (kind.needs_outside && !whole) continue;
         INFO(kind.name);
