@@ -16,10 +16,10 @@
 #include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/cli/commands/command.hpp>
-#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/outputs.hpp>
+#include <terrane/cli/stages/page_output.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 
@@ -168,11 +168,11 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
     if (const auto sound = check_improve(command); !sound) return sound.error();
-    auto page = Page::plan(files);
+    auto page = plan_page(files);
     if (!page) return page.error();
     auto inputs = read_certified_inputs(command.proof.certificate, files, session);
     if (!inputs) return inputs.error();
-    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
+    if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
     ImproveOptions options = command.options;
     options.check = check_of(command.settings.check, inputs.value());
     if (const auto set = set_lengths(command, inputs.value(), options); !set) return set.error();
@@ -184,7 +184,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     if (!options.edge_length_of.empty()) // the boundary of a volume of interest added surfaces
         options.edge_length_of.resize(inputs.value().labels.size());
     say(summary_stream(files), summary(inputs.value(), arranged.value()));
-    page->add_arranged(*inputs, *arranged);
+    page->add_arranged(*arranged);
     bool clean = arranged.value().rounded.report.clean;
     if (!clean) {
         print(stderr, offending_pairs(inputs.value(), arranged.value()));
@@ -197,7 +197,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         if (!measured) return measured.error();
         add_statistics(statistics, measured.value(), session.times());
         say(summary_stream(files), improve_text(measured.value(), inputs.value()));
-        page->add_improved(*inputs, *measured, arranged->rounded.mesh);
+        page->add_improved(measured->improved.mesh, arranged->rounded.mesh);
         const Mesh& mesh = measured.value().improved.mesh;
         const auto narrow = stl_is_conforming(mesh, files, outputs.value(), session);
         if (!narrow) return narrow.error();
@@ -221,7 +221,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         }
         statistics["seconds"]["write"] = writing.lap();
     }
-    page->add_certificate(command.proof.certificate);
+    add_page_certificate(*page, files, command.proof.certificate, clean, session);
     return write_run(*page, statistics, files, total.lap(), clean);
 }
 

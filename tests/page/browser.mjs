@@ -5,7 +5,7 @@
 //
 //   node tests/page/browser.mjs TERRANE PACKAGES WORK [--record]
 //
-// PACKAGES is the folder in which npm installed the packages of cli/page/web. WORK gets the pages and
+// PACKAGES is the folder in which npm installed the packages of io/page/web. WORK gets the pages and
 // their screenshots; pages that other tests left there are opened, too. --record writes
 // reference.json anew, the pictures in 16 x 9 mean colours. The exit status is 77 without Chromium.
 import { execFileSync } from "node:child_process";

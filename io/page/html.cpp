@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/cli/page/html.hpp>
+#include <terrane/io/page/html.hpp>
 
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/sha256.hpp>
 
-namespace terrane::cli::page {
+namespace terrane::page {
 namespace {
 
 /// Returns the hash of an element's content as a Content-Security-Policy names it.
@@ -60,4 +60,4 @@ std::string html_of(const Json& content, const Arrays& arrays, const Json& run,
     return page;
 }
 
-} // namespace terrane::cli::page
+} // namespace terrane::page

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/cli/page/scene.hpp>
+#include <terrane/io/page/scene.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 
-namespace terrane::cli::page {
+namespace terrane::page {
 namespace {
 
 double area_of(const std::vector<Point3>& vertices, const Triangle& t) {
@@ -144,4 +144,4 @@ void add_tetrahedra(Scene& scene, const TetrahedralMesh& mesh, std::size_t most)
     }
 }
 
-} // namespace terrane::cli::page
+} // namespace terrane::page

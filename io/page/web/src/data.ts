@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The content of a report: JSON and arrays in one compressed block. cli/page/html.cpp and
-// cli/page/arrays.cpp write it; docs/reference/report.md lists the keys.
+// The content of a report: JSON and arrays in one compressed block. io/page/html.cpp and
+// io/page/arrays.cpp write it; docs/reference/report.md lists the keys.
 
 export interface ArrayPlace { at: number; count: number; stride: number }
 export interface Part {

@@ -3,9 +3,9 @@
 
 #include <string_view>
 
-namespace terrane::cli::page {
+namespace terrane::page {
 
-/// The program and the style of all pages, as cli/page/web/build.mjs bundles them.
+/// The program and the style of all pages, as io/page/web/build.mjs bundles them.
 struct Bundle {
     std::string_view script; ///< JavaScript; holds no "</script"
     std::string_view style;  ///< CSS; holds no "</style"
@@ -14,4 +14,7 @@ struct Bundle {
 /// Returns the bundle; null in a build without npm.
 const Bundle* bundle();
 
-} // namespace terrane::cli::page
+/// Returns why there is no bundle: what the build lacked; empty if there is one.
+std::string_view bundle_missing();
+
+} // namespace terrane::page

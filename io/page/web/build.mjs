@@ -3,7 +3,7 @@
 // Bundles the page: node build.mjs PACKAGES SOURCES OUT.cpp [SCRIPT.js STYLE.css]
 //
 // PACKAGES is a folder in which `npm ci` was run, SOURCES the folder of this file. OUT.cpp defines
-// terrane::cli::page::bundle(). The licences of all packages in the bundle go into the script.
+// terrane::page::bundle(). The licences of all packages in the bundle go into the script.
 import { createRequire } from "node:module";
 import { mkdirSync, readFileSync, readdirSync, writeFileSync, rmSync, cpSync } from "node:fs";
 import { join, resolve } from "node:path";
@@ -71,10 +71,10 @@ for (const text of [script, style])
   if (/[^\x09\x0a\x20-\x7e]/.test(text)) throw new Error("the bundle is not plain ASCII");
 
 writeFileSync(target, `// SPDX-License-Identifier: LGPL-3.0-or-later
-// Made by cli/page/web/build.mjs.
-#include <terrane/cli/page/page_bundle.hpp>
+// Made by io/page/web/build.mjs.
+#include <terrane/io/page/page_bundle.hpp>
 
-namespace terrane::cli::page {
+namespace terrane::page {
 namespace {
 
 constexpr char page_script[] =
@@ -89,7 +89,11 @@ const Bundle* bundle() {
     return &page_bundle;
 }
 
-} // namespace terrane::cli::page
+std::string_view bundle_missing() {
+    return "";
+}
+
+} // namespace terrane::page
 `);
 if (scriptFile) writeFileSync(scriptFile, script);
 if (styleFile) writeFileSync(styleFile, style);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/cli/page/plots.hpp>
+#include <terrane/io/page/plots.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 
 #include <terrane/algorithms/quality/quality.hpp>
 
-namespace terrane::cli::page {
+namespace terrane::page {
 namespace {
 
 /// The measures of a mesh that are drawn.
@@ -209,4 +209,4 @@ void add_volume_plot(Json& plots, const Model& model) {
                      {"series", Json::array({{{"name", "volume"}, {"values", values}}})}});
 }
 
-} // namespace terrane::cli::page
+} // namespace terrane::page

@@ -13,9 +13,9 @@
 
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/cli/page/arrays.hpp>
+#include <terrane/io/page/arrays.hpp>
 
-namespace terrane::cli::page {
+namespace terrane::page {
 
 /// Triangles of the same surfaces between the same two blocks.
 struct ScenePart {
@@ -69,4 +69,4 @@ void decimate(Scene& scene, std::size_t most);
 /// Stores the scene. Returns the keys parts, lines, view and arrays.
 Json packed(Scene scene, Arrays& arrays);
 
-} // namespace terrane::cli::page
+} // namespace terrane::page

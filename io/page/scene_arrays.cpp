@@ -7,9 +7,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include <terrane/cli/page/scene.hpp>
+#include <terrane/io/page/scene.hpp>
 
-namespace terrane::cli::page {
+namespace terrane::page {
 namespace {
 
 /// Coordinates are stored in 24 bits, which single precision holds exactly.
@@ -185,4 +185,4 @@ Json packed(Scene scene, Arrays& arrays) {
     return json;
 }
 
-} // namespace terrane::cli::page
+} // namespace terrane::page

@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include <terrane/cli/page/arrays.hpp>
-#include <terrane/cli/page/page_bundle.hpp>
+#include <terrane/io/page/arrays.hpp>
+#include <terrane/io/page/page_bundle.hpp>
 
-namespace terrane::cli::page {
+namespace terrane::page {
 
 /// Makes one HTML file that needs nothing else. `content` and the arrays become one compressed
 /// block: the length of the JSON in four bytes, the lowest first, the JSON, the arrays. `run`,
@@ -15,4 +15,4 @@ namespace terrane::cli::page {
 std::string html_of(const Json& content, const Arrays& arrays, const Json& run,
                     const Bundle& bundle);
 
-} // namespace terrane::cli::page
+} // namespace terrane::page

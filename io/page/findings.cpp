@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/cli/page/findings.hpp>
+#include <terrane/io/page/findings.hpp>
 
 #include <algorithm>
 #include <array>
@@ -9,12 +9,12 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
 #include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
-#include <terrane/cli/session/console.hpp>
 
-namespace terrane::cli::page {
+namespace terrane::page {
 namespace {
 
 constexpr std::size_t worst_listed = 20;
@@ -39,22 +39,28 @@ std::array<Point3, 3> corners_of(const std::vector<Point3>& vertices, const Tria
 /// Finds triangles of the input by their numbers through all surfaces.
 class InputTriangles {
 public:
-    InputTriangles(const CheckReport& report, const Inputs& inputs) :
-        first_(report.first_triangle), inputs_(inputs) {}
+    InputTriangles(const CheckReport& report, std::span<const Surface> surfaces) :
+        first_(report.first_triangle), surfaces_(surfaces),
+        labels_(unique_labels(infos_of(surfaces))) {}
 
     [[nodiscard]] std::array<Point3, 3> corners(std::uint32_t t) const {
-        const auto after = std::upper_bound(first_.begin(), first_.end(), t);
-        const auto s = static_cast<std::size_t>(std::distance(first_.begin(), after)) - 1;
-        const Surface& surface = inputs_.surfaces[s];
-        return corners_of(surface.vertices, surface.triangles[t - first_[s]]);
+        const auto s = surface_of(t);
+        return corners_of(surfaces_[s].vertices, surfaces_[s].triangles[t - first_[s]]);
     }
     [[nodiscard]] std::string name(std::uint32_t t) const {
-        return triangle_name(t, first_, inputs_.labels);
+        const auto s = surface_of(t);
+        return fmt::format("{} triangle {}", labels_[s], t - first_[s]);
     }
 
 private:
+    [[nodiscard]] std::size_t surface_of(std::uint32_t t) const {
+        const auto after = std::upper_bound(first_.begin(), first_.end(), t);
+        return static_cast<std::size_t>(std::distance(first_.begin(), after)) - 1;
+    }
+
     const std::vector<std::uint32_t>& first_;
-    const Inputs& inputs_;
+    std::span<const Surface> surfaces_;
+    std::vector<std::string> labels_;
 };
 
 std::string surfaces_text(const Mesh& mesh, std::uint32_t t,
@@ -87,10 +93,9 @@ std::vector<std::uint32_t> least_of(const std::vector<double>& values) {
 
 } // namespace
 
-void add_contacts(Findings& findings, const RoundedMesh& rounded,
+void add_contacts(Findings& findings, const Mesh& mesh, const RoundingReport& report,
                   const std::vector<std::string>& labels) {
-    const Mesh& mesh = rounded.mesh;
-    for (const ImproperContact& c : rounded.report.contacts) {
+    for (const ImproperContact& c : report.contacts) {
         const auto [a, b] = c.triangles;
         const double size = std::max(longest_edge(corners_of(mesh.vertices, mesh.triangles[a])),
                                      longest_edge(corners_of(mesh.vertices, mesh.triangles[b])));
@@ -102,8 +107,8 @@ void add_contacts(Findings& findings, const RoundedMesh& rounded,
     }
 }
 
-void add_flaws(Findings& findings, const CheckReport& report, const Inputs& inputs) {
-    const InputTriangles triangles(report, inputs);
+void add_flaws(Findings& findings, const CheckReport& report, std::span<const Surface> surfaces) {
+    const InputTriangles triangles(report, surfaces);
     for (const ImproperContact& c : report.contacts) {
         const double size = std::max(longest_edge(triangles.corners(c.triangles[0])),
                                      longest_edge(triangles.corners(c.triangles[1])));
@@ -127,15 +132,16 @@ void add_flaws(Findings& findings, const CheckReport& report, const Inputs& inpu
     }
 }
 
-Status add_holes(Findings& findings, const Inputs& inputs, const Run& run) {
-    for (std::size_t s = 0; s < inputs.surfaces.size(); ++s) {
-        const auto loops = find_border_loops(inputs.surfaces[s], run);
+Status add_holes(Findings& findings, std::span<const Surface> surfaces, const Run& run) {
+    const auto labels = unique_labels(infos_of(surfaces));
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+        const auto loops = find_border_loops(surfaces[s], run);
         if (!loops) return loops.error();
         for (const BorderLoop& loop : *loops) {
             if (loop.kind == LoopKind::outer) continue;
             const bool gap = loop.kind == LoopKind::fault_gap;
             findings.push_back({gap ? "fault gap" : "hole",
-                                fmt::format("in {}, border of {}", inputs.labels[s],
+                                fmt::format("in {}, border of {}", labels[s],
                                             counted(loop.vertices.size(), "edge")),
                                 loop.area, "area", loop.centre, loop.length / 2});
         }
@@ -181,24 +187,24 @@ void add_leaks(Findings& findings, const Model& model, const std::optional<LeakA
     }
 }
 
-void add_seal(Findings& findings, const Arranged& arranged,
-              const std::vector<std::string>& labels) {
-    if (arranged.sealed) {
-        for (const ClosedGap& gap : arranged.sealed->closed)
+void add_seal(Findings& findings, const std::optional<SealReport>& sealed,
+              const std::optional<BlockMerge>& merged, const std::vector<std::string>& labels) {
+    if (sealed) {
+        for (const ClosedGap& gap : sealed->closed)
             findings.push_back({"closed gap",
                                 fmt::format("{} was extended to {} across {:.3g}", labels[gap.from],
                                             labels[gap.to], gap.width),
                                 gap.length, "length", gap.place,
                                 std::max(8 * gap.width, gap.length)});
-        for (const OpenGap& gap : arranged.sealed->open)
+        for (const OpenGap& gap : sealed->open)
             findings.push_back(
                 {"open gap",
                  fmt::format("between {} and {}, up to {:.3g} wide: {}", labels[gap.from],
                              labels[gap.to], gap.width, in_words(name_of(gap.reason))),
                  gap.length, "length", gap.place, std::max(8 * gap.width, gap.length / 4)});
     }
-    if (!arranged.merged) return;
-    for (const MergedBlock& block : arranged.merged->merged)
+    if (!merged) return;
+    for (const MergedBlock& block : merged->merged)
         findings.push_back({"merged block", fmt::format("too small, {:.3g} thick", block.thickness),
                             block.volume, "volume", block.place, 4 * std::cbrt(block.volume)});
 }
@@ -297,4 +303,4 @@ Json json_of(Findings findings, std::size_t most) {
     return {{"counts", counts}, {"list", list}};
 }
 
-} // namespace terrane::cli::page
+} // namespace terrane::page

@@ -8,9 +8,9 @@
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
-#include <terrane/cli/options/statistics.hpp>
+#include <terrane/io/page/json.hpp>
 
-namespace terrane::cli::page {
+namespace terrane::page {
 
 /// The triangles' q, smallest angles and edge lengths, after and, if there was one, before. A plot
 /// is {"title", "x": {"label", "measure"}, "y": likewise, "bounds": ends of the classes,
@@ -26,4 +26,4 @@ void add_fill_plots(Json& plots, const FillWork& work);
 /// Volumes of the blocks, at most the 40 largest: "names" in place of "bounds".
 void add_volume_plot(Json& plots, const Model& model);
 
-} // namespace terrane::cli::page
+} // namespace terrane::page

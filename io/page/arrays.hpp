@@ -9,13 +9,13 @@
 #include <string>
 #include <string_view>
 
-#include <terrane/cli/options/statistics.hpp>
+#include <terrane/io/page/json.hpp>
 
-namespace terrane::cli::page {
+namespace terrane::page {
 
 /// Collects arrays of unsigned numbers. Each value is stored as its difference from the one
 /// `stride` before, with the sign in the lowest bit; then all lowest bytes follow each other, then
-/// all second ones, and so on. The page reads it back (cli/page/web/src/data.ts).
+/// all second ones, and so on. The page reads it back (io/page/web/src/data.ts).
 class Arrays {
 public:
     /// Adds an array. Returns where it is: {"at": first byte, "count": values, "stride": stride}.
@@ -33,4 +33,4 @@ std::string gzipped(std::string_view bytes);
 /// Writes bytes in base64, without line breaks.
 std::string base64_of(std::string_view bytes);
 
-} // namespace terrane::cli::page
+} // namespace terrane::page

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,9 @@
 #include <terrane/algorithms/model/leak_advice.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
-#include <terrane/cli/options/statistics.hpp>
+#include <terrane/io/page/json.hpp>
 
-namespace terrane::cli::page {
+namespace terrane::page {
 
 /// One entry of the list.
 struct Finding {
@@ -30,19 +31,20 @@ struct Finding {
 using Findings = std::vector<Finding>;
 
 /// Improper contacts that rounding left; `mesh` is the rounded one.
-void add_contacts(Findings& findings, const RoundedMesh& rounded,
+void add_contacts(Findings& findings, const Mesh& mesh, const RoundingReport& report,
                   const std::vector<std::string>& labels);
 /// Improper contacts, triangles without area and repeated ones of the surfaces as they are.
-void add_flaws(Findings& findings, const CheckReport& report, const Inputs& inputs);
+void add_flaws(Findings& findings, const CheckReport& report, std::span<const Surface> surfaces);
 /// The holes of the surfaces as they are.
-Status add_holes(Findings& findings, const Inputs& inputs, const Run& run);
+Status add_holes(Findings& findings, std::span<const Surface> surfaces, const Run& run);
 /// Holes that were filled, and those left open.
 void add_fillings(Findings& findings, const FillWork& work);
 /// Leaks between blocks, and where surfaces end near others.
 void add_leaks(Findings& findings, const Model& model, const std::optional<LeakAdvice>& advice,
                const std::vector<std::string>& labels);
 /// Gaps that sealing closed or left open, and blocks that were merged.
-void add_seal(Findings& findings, const Arranged& arranged, const std::vector<std::string>& labels);
+void add_seal(Findings& findings, const std::optional<SealReport>& sealed,
+              const std::optional<BlockMerge>& merged, const std::vector<std::string>& labels);
 /// Blocks that are thin: twice the volume by the area is below a tenth of the median edge length.
 void add_thin_blocks(Findings& findings, const Model& model);
 /// The 20 triangles with the least q.
@@ -56,4 +58,4 @@ void add_worst_tetrahedra(Findings& findings, const TetrahedralMesh& mesh,
 /// on; of a kind at most `most`, and the number of all.
 Json json_of(Findings findings, std::size_t most);
 
-} // namespace terrane::cli::page
+} // namespace terrane::page

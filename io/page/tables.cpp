@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/cli/page/tables.hpp>
+#include <terrane/io/page/tables.hpp>
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <map>
-#include <string_view>
 
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/sha256.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 
-namespace terrane::cli::page {
+namespace terrane::page {
 namespace {
-
-/// Options that change no result, so that pages of equal results are equal.
-constexpr std::array<std::string_view, 6> unlisted{"--report", "--stats",  "--threads",
-                                                   "--output", "--resume", "--help"};
 
 std::string names_of(const std::vector<std::uint32_t>& surfaces,
                      const std::vector<std::string>& labels) {
@@ -49,29 +43,6 @@ Json columns(std::initializer_list<std::pair<const char*, const char*>> titles) 
     for (const auto& [title, measure] : titles)
         json.push_back({{"title", title}, {"measure", measure}});
     return json;
-}
-
-std::string role_name(Role role) {
-    switch (role) {
-    case Role::horizon:
-        return "horizon";
-    case Role::fault:
-        return "fault";
-    case Role::boundary:
-        return "boundary";
-    case Role::unknown:
-        break;
-    }
-    return "surface";
-}
-
-std::string title_of(const FileOptions& files) {
-    if (files.inputs.empty()) return "";
-    const std::string& first = files.inputs.front();
-    const auto name =
-        first == "-" ? "standard input" : std::filesystem::path(first).filename().string();
-    return files.inputs.size() == 1 ? name
-                                    : fmt::format("{} and {} more", name, files.inputs.size() - 1);
 }
 
 Result<Json> file_row(const std::string& path) {
@@ -144,17 +115,9 @@ Json surface_table(const Json& surfaces) {
             {"rows", rows}};
 }
 
-Json option_table(const CLI::App& app) {
+Json option_table(const std::vector<std::pair<std::string, std::string>>& options) {
     Json rows = Json::array();
-    for (const CLI::Option* option : app.get_options()) {
-        if (option->count() == 0 || option->get_lnames().empty()) continue;
-        const std::string name = "--" + option->get_lnames()[0];
-        if (std::find(unlisted.begin(), unlisted.end(), name) != unlisted.end()) continue;
-        std::string values;
-        for (const std::string& value : option->results())
-            values += (values.empty() ? "" : " ") + value;
-        rows.push_back({name, values});
-    }
+    for (const auto& [name, value] : options) rows.push_back({name, value});
     return {{"title", "Options"},
             {"columns", columns({{"option", "text"}, {"value", "text"}})},
             {"rows", rows}};
@@ -209,13 +172,4 @@ void split_filled(Scene& scene, const FillWork& work) {
     scene.parts = std::move(parts);
 }
 
-Json run_json(const Json& statistics, double total_seconds, const FileOptions& files) {
-    Json run;
-    run["seconds"] = statistics.value("seconds", Json::object());
-    run["seconds"]["total"] = total_seconds;
-    run["peak_rss_mb"] = peak_memory();
-    run["threads"] = files.threads;
-    return run;
-}
-
-} // namespace terrane::cli::page
+} // namespace terrane::page

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/cli/page/arrays.hpp>
+#include <terrane/io/page/arrays.hpp>
 
 #include <algorithm>
 #include <stdexcept>
@@ -7,7 +7,7 @@
 
 #include <zlib.h>
 
-namespace terrane::cli::page {
+namespace terrane::page {
 namespace {
 
 /// Returns the difference of two numbers with its sign in the lowest bit.
@@ -72,4 +72,4 @@ std::string base64_of(std::string_view bytes) {
     return text;
 }
 
-} // namespace terrane::cli::page
+} // namespace terrane::page

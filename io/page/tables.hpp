@@ -10,20 +10,14 @@
 
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
-#include <terrane/cli/options/files.hpp>
-#include <terrane/cli/options/statistics.hpp>
-#include <terrane/cli/page/scene.hpp>
+#include <terrane/io/page/json.hpp>
+#include <terrane/io/page/scene.hpp>
 
-namespace terrane::cli::page {
+namespace terrane::page {
 
 /// Returns the columns of a table; a measure says what unit its numbers have: "text", "count",
 /// "length", "area", "volume", "number".
 Json columns(std::initializer_list<std::pair<const char*, const char*>> titles);
-
-std::string role_name(Role role);
-
-/// Returns a short title: the name of the first input file, and how many more there are.
-std::string title_of(const FileOptions& files);
 
 /// Returns the path, size and SHA-256 of a file. Errors: cannot_open.
 Result<Json> file_row(const std::string& path);
@@ -35,8 +29,8 @@ Json blocks_json(const Model& model, const std::vector<std::string>& labels);
 std::vector<Json> block_tables(const Model& model, const std::vector<std::string>& labels);
 
 Json surface_table(const Json& surfaces);
-/// The options that were given, without those that change no result: files to write, threads.
-Json option_table(const CLI::App& app);
+/// The options that were given, and their values.
+Json option_table(const std::vector<std::pair<std::string, std::string>>& options);
 /// Holes with their fillings.
 Json fill_table(const FillWork& work);
 /// Lists all single values of a document by their paths.
@@ -45,7 +39,4 @@ Json value_table(const char* title, const Json& document);
 /// Makes what was filled a part of its own behind the part of each surface.
 void split_filled(Scene& scene, const FillWork& work);
 
-/// Returns what differs from run to run: seconds by stage, memory, threads.
-Json run_json(const Json& statistics, double total_seconds, const FileOptions& files);
-
-} // namespace terrane::cli::page
+} // namespace terrane::page
