@@ -173,10 +173,7 @@ const char* verdict_on(const FillOutcome& outcome, bool listed) {
     if (listed) return "Holes are listed, and none is filled.";
     if (!outcome.written)
         return "New triangles meet others of their surface improperly. Nothing was written.";
-    return outcome.whole
-               ? "All chosen holes are filled; the new triangles meet others properly, by "
-                 "an exact check."
-               : "Not all chosen holes could be filled.";
+    return page::filling_verdict(outcome.whole);
 }
 
 Status read_smoothing(FillCommand& command) {

@@ -166,8 +166,7 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
     }
     page->set_verdict(is_stack ? "The layers are in order, and their mesh is conforming, by exact "
                                  "checks."
-                               : "The layers are not in order, or their mesh is not conforming. "
-                                 "Nothing was written.",
+                               : "The layers are not in order, or their mesh is not conforming.",
                       is_stack);
     add_page_certificate(*page, files, command.proof.certificate, is_stack, session);
     return write_run(*page, statistics, files, total.lap(), is_stack);

@@ -24,6 +24,12 @@ constexpr std::size_t most_findings = 500; ///< of each kind
 
 } // namespace
 
+const char* filling_verdict(bool all) {
+    return all ? "All chosen holes are filled; the new triangles meet others properly, by an exact "
+                 "check."
+               : "Not all chosen holes could be filled.";
+}
+
 Status check_pages() {
     if (bundle() != nullptr) return Done{};
     return Error{ErrorCode::unsupported,
@@ -79,10 +85,9 @@ void Page::add_rounded(const SharedMesh& mesh, const RoundingReport& report) {
     if (!wanted_) return;
     add_mesh(mesh);
     add_contacts(findings_, *mesh, report, labels_);
-    set_verdict(report.clean
-                    ? "The mesh is conforming, by an exact check of its doubles."
-                    : fmt::format("The mesh is not conforming: {} left. Nothing was written.",
-                                  counted(report.contacts.size(), "improper contact")),
+    set_verdict(report.clean ? "The mesh is conforming, by an exact check of its doubles."
+                             : fmt::format("The mesh is not conforming: {} left.",
+                                           counted(report.contacts.size(), "improper contact")),
                 report.clean);
 }
 
@@ -124,8 +129,7 @@ void Page::add_tetrahedra(const FilledBlocks& filled) {
     std::size_t flaws = 0;
     for (const TetrahedraViolation& v : filled.report.violations) flaws += v.count;
     if (flaws > 0)
-        set_verdict(fmt::format("The tetrahedra are not what they must be: {}. Nothing was "
-                                "written.",
+        set_verdict(fmt::format("The tetrahedra are not what they must be: {}.",
                                 counted(flaws, "violation")),
                     false);
 }

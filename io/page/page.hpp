@@ -41,6 +41,9 @@ struct CertificateVerdict {
     std::vector<std::string> lines; ///< sentences; >= 1
 };
 
+/// Returns a sentence about holes of which all, or not all, that were chosen are filled.
+const char* filling_verdict(bool all);
+
 /// Checks that this build can make pages. Errors: unsupported, with the reason.
 Status check_pages();
 

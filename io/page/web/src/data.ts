@@ -42,7 +42,7 @@ export interface Content {
   };
   arrays: Record<"vertices" | "triangles" | "segments" | "nodes" | "tetrahedra" | "regions", ArrayPlace>;
 }
-export interface RunInfo { seconds: Record<string, number>; peak_rss_mb: number; threads: number }
+export interface RunInfo { seconds: Record<string, number>; peak_rss_mb: number | null; threads: number }
 
 export interface Report {
   content: Content;
