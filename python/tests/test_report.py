@@ -14,6 +14,9 @@ import pytest
 import terrane
 from conftest import DATA, run_program, sheet, stack
 
+#: A box inside of the horizons.
+CORNERS = ((0, 0, -1100), (1000, 1000, -700))
+OPTION = "--box=0,0,-1100,1000,1000,-700"
 FILES = [DATA / "top.ts", DATA / "base.ts", DATA / "fault.ts"]
 #: What only the program knows, which reads files and measures times, and how the call was spelled.
 PROGRAMS = {"command", "title", "statistics", "tables"}
@@ -51,23 +54,11 @@ def assert_same_pages(ours, theirs, command):
     return mine
 
 
-def box_of(files):
-    """Return a box inside of the surfaces that some files hold, as two corners and as an option."""
-    low, high = zip(*(s.bounds for s in terrane.read(files)))
-    inner = [max(c) for c in zip(*low)], [min(c) for c in zip(*high)]
-    corners = ([min(c) for c in zip(*low)], [max(c) for c in zip(*high)])
-    first = [inner[0][0] + 1, inner[0][1] + 1, corners[0][2] - 10]
-    last = [inner[1][0] - 1, inner[1][1] - 1, corners[1][2] + 10]
-    return (first, last), "--box=" + ",".join(repr(float(c)) for c in first + last)
-
-
 @needs_pages
 def test_a_model_has_the_page_of_the_program():
-    horizons = FILES[:2]
-    corners, option = box_of(horizons)
-    model = terrane.model(terrane.read(FILES), box=corners)
+    model = terrane.model(terrane.read(FILES), box=CORNERS)
     model.report("python.html", threads=2)
-    status, _, said = run_program("report", *FILES, option, "-o", "program.html")
+    status, _, said = run_program("report", *FILES, OPTION, "-o", "program.html")
     assert status == 0, said
     mine = assert_same_pages("python.html", "program.html", "Model.report")
     assert len(mine["blocks"]) == len(model.blocks) > 1
@@ -132,10 +123,9 @@ def test_a_filled_surface_has_the_page_of_the_program(method):
 @needs_pages
 @pytest.mark.tetgen
 def test_tetrahedra_have_the_page_of_the_program():
-    corners, option = box_of(FILES[:2])
-    cells = terrane.model(terrane.read(FILES), box=corners).tetrahedra()
+    cells = terrane.model(terrane.read(FILES), box=CORNERS).tetrahedra()
     cells.report("python.html")
-    status, _, said = run_program("tetrahedralize", *FILES, option, "-o", "t.vtu", "--report", "program.html")
+    status, _, said = run_program("tetrahedralize", *FILES, OPTION, "-o", "t.vtu", "--report", "program.html")
     assert status == 0, said
     (mine, arrays), (wanted, others) = content_of("python.html"), content_of("program.html")
     assert arrays == others

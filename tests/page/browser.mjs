@@ -106,7 +106,7 @@ async function open(browser, name, options = {}) {
     const { view } = window.terrane;
     window.state = () => ({
       camera: view.camera.position.toArray(), target: view.controls.target.toArray(), zoom: view.camera.zoom,
-      perspective: view.isPerspective, scale: view.items[0]?.mesh.parent.scale.z, marked: view.marked,
+      perspective: view.viewpoint.isPerspective, scale: view.items[0]?.mesh.parent.scale.z, marked: view.marked,
       items: view.items.map((i) => ({
         kind: i.kind, number: i.number, visible: i.mesh.visible, at: i.mesh.position.toArray(), centre: i.centre.toArray(),
         colour: i.mesh.material.color.getHexString(), opacity: i.mesh.material.opacity, planes: i.mesh.material.clippingPlanes.map(

@@ -48,7 +48,7 @@ function sectionControl(view: View): HTMLElement {
     shown.textContent = `${axis.value} ${Number(at.toPrecision(6)).toLocaleString("en", { maximumFractionDigits: 2 })}`;
   };
   axis.addEventListener("change", () => { // what is kept shows its cut to us
-    if (axis.value !== "off") flipped = view.isBehind("xyz".indexOf(axis.value) as Axis);
+    if (axis.value !== "off") flipped = view.viewpoint.isBehind("xyz".indexOf(axis.value) as Axis);
     act();
   });
   place.addEventListener("input", act);
@@ -59,11 +59,11 @@ function sectionControl(view: View): HTMLElement {
 /** Lets keys turn, move and zoom the view while it has the focus. */
 export function keys(stage: HTMLElement, view: View, escape: () => void): void {
   const actions: Record<string, (shift: boolean) => void> = {
-    ArrowLeft: (shift) => shift ? view.pan(-1, 0) : view.turn(-6, 0),
-    ArrowRight: (shift) => shift ? view.pan(1, 0) : view.turn(6, 0),
-    ArrowUp: (shift) => shift ? view.pan(0, 1) : view.turn(0, 6),
-    ArrowDown: (shift) => shift ? view.pan(0, -1) : view.turn(0, -6),
-    "+": () => view.zoom(1.2), "=": () => view.zoom(1.2), "-": () => view.zoom(1 / 1.2),
+    ArrowLeft: (shift) => shift ? view.viewpoint.pan(-1, 0) : view.viewpoint.turn(-6, 0),
+    ArrowRight: (shift) => shift ? view.viewpoint.pan(1, 0) : view.viewpoint.turn(6, 0),
+    ArrowUp: (shift) => shift ? view.viewpoint.pan(0, 1) : view.viewpoint.turn(0, 6),
+    ArrowDown: (shift) => shift ? view.viewpoint.pan(0, -1) : view.viewpoint.turn(0, -6),
+    "+": () => view.viewpoint.zoom(1.2), "=": () => view.viewpoint.zoom(1.2), "-": () => view.viewpoint.zoom(1 / 1.2),
     "1": () => view.look("perspective"), "2": () => view.look("top"), "3": () => view.look("north"),
     "4": () => view.look("east"), "0": () => view.look("perspective"), Escape: escape,
   };

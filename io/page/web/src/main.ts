@@ -204,7 +204,7 @@ class Page {
       ["north", "N", "To the north"], ["east", "E", "To the east"]];
     return element("div", { class: "views", role: "group", "aria-label": "Views" },
       ...names.map(([name, text, label]) => button(text, label, () => this.view.look(name))),
-      button("+", "Zoom in", () => this.view.zoom(1.25)), button("−", "Zoom out", () => this.view.zoom(0.8)));
+      button("+", "Zoom in", () => this.view.viewpoint.zoom(1.25)), button("−", "Zoom out", () => this.view.viewpoint.zoom(0.8)));
   }
 
   /** Tells a click, which picks, from a drag. */

@@ -22,14 +22,14 @@ export function overlay(view: View, quantities: Quantities): HTMLElement {
   const compass = svg("svg", { viewBox: "-40 -40 80 80", class: "compass", role: "img", "aria-label": "Directions of north, east and up" });
   const made = element("div", { class: "overlay" }, element("div", { class: "scale" }, text, bar), compass as unknown as HTMLElement);
   view.onFrame = () => {
-    const pixels = 120, unit = view.unitsPerPixel();
+    const pixels = 120, unit = view.viewpoint.unitsPerPixel();
     if (!Number.isFinite(unit) || unit <= 0) return;
     const input = unit * view.model.unit, length = round(pixels * input);
     bar.style.width = `${length / input}px`;
     const stretched = view.exaggeration !== 1 ? `, z × ${view.exaggeration}` : "";
-    text.textContent = `${quantities.text(length, "length", 1)}${view.isPerspective ? " at the centre" : ""}${stretched}`;
+    text.textContent = `${quantities.text(length, "length", 1)}${view.viewpoint.isPerspective ? " at the centre" : ""}${stretched}`;
     compass.replaceChildren();
-    for (const axis of view.axes().sort((a, b) => a.z - b.z)) {
+    for (const axis of view.viewpoint.axes().sort((a, b) => a.z - b.z)) {
       const x = 26 * axis.x, y = -26 * axis.y;
       if (Math.hypot(x, y) < 3) continue;
       compass.append(svg("line", { x1: 0, y1: 0, x2: x, y2: y, class: axis.name === "N" ? "north" : "other" }));

@@ -3,18 +3,18 @@
 // The three-dimensional view. It draws only when something has changed.
 import {
   AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, FrontSide, Group,
-  LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, OrthographicCamera,
-  PerspectiveCamera, Plane, Raycaster, Scene, SphereGeometry, Vector2, Vector3, WebGLRenderer,
+  LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, Plane, Raycaster, Scene,
+  SphereGeometry, Vector2, Vector3, WebGLRenderer,
 } from "three";
-import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
-import { cutBoundary, cutTetrahedra, type Axis } from "./caps";
+import { cutBoundary, cutTetrahedra } from "./caps";
 import { colourOf, colourOfRole, lineColours } from "./colours";
 import type { Report } from "./data";
-import { needed, type Item, type Pick, type Section, type ViewName } from "./items";
+import type { Item, Pick, Section, ViewName } from "./items";
 import { ModelGeometry } from "./model";
+import { Viewpoint, type Bounds } from "./viewpoint";
 
 export type { Item, Pick, ViewName };
 
@@ -26,8 +26,7 @@ export class View {
   readonly items: Item[] = [];
   readonly lines: { kind: string; object: LineSegments2; wanted: boolean }[] = [];
   readonly renderer: WebGLRenderer;
-  readonly controls: OrbitControls;
-  camera: PerspectiveCamera | OrthographicCamera;
+  readonly viewpoint: Viewpoint;
   section: Section | null = null;
   exploded = 0;
   exaggeration = 1;
@@ -35,8 +34,6 @@ export class View {
   onFrame: () => void = () => {};
   private readonly scene = new Scene();
   private readonly root = new Group();
-  private readonly perspective = new PerspectiveCamera(32, 1, 0.1, 100);
-  private readonly orthographic = new OrthographicCamera();
   private readonly plane = new Plane(new Vector3(-1, 0, 0), 0);
   private readonly sun = new DirectionalLight(0xffffff, 1.9);
   private readonly markers = new Group();
@@ -53,10 +50,7 @@ export class View {
     this.renderer.localClippingEnabled = true;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     place.prepend(this.renderer.domElement);
-    this.camera = this.perspective;
-    for (const camera of [this.perspective, this.orthographic]) camera.up.set(0, 0, 1);
-    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
-    this.controls.zoomToCursor = true;
+    this.viewpoint = new Viewpoint(place, this.renderer.domElement, () => this.bounds(), () => this.draw());
     this.controls.addEventListener("change", () => {
       this.move();
       this.draw();
@@ -300,110 +294,31 @@ export class View {
     }
   }
 
-  // ---------------------------------------------------------------------------------------- camera
+  // ---------------------------------------------------------------------------------------- drawing
 
-  private bounds(): { radius: number } {
-    const half = this.model.half.clone();
-    half.z *= this.exaggeration;
-    return { radius: half.length() * (1 + 0.8 * this.exploded) };
+  get camera() { return this.viewpoint.camera; }
+  get controls() { return this.viewpoint.controls; }
+
+  /** The box round the model as it is drawn: moved apart and stretched. */
+  private bounds(): Bounds {
+    const { half } = this.model, { exaggeration, exploded } = this;
+    const drawn = (apart: number) => half.clone().multiplyScalar(apart).setZ(half.z * apart * exaggeration);
+    return { half: drawn(1 + exploded), radius: drawn(1).length() * (1 + 0.8 * exploded) };
   }
 
-  /** Shows all from one of the usual sides. */
   look(name: ViewName): void {
-    const direction = { perspective: [-0.62, -1, 0.62], top: [0, -1e-4, 1], north: [0, -1, 0], east: [-1, 0, 0] }[name];
-    this.use(name === "perspective" ? this.perspective : this.orthographic);
-    this.aim(new Vector3(), new Vector3(...direction).normalize(), this.bounds().radius);
+    this.viewpoint.look(name);
   }
-
-  /** Goes to a place given in the input's coordinates, and shows so much around it. */
+  /** Goes to a place given in the input's coordinates, marks it, and shows so much around it. */
   flyTo(place: [number, number, number], extent: number): void {
-    const target = this.toScene(place);
-    const direction = this.camera.position.clone().sub(this.controls.target).normalize();
-    const least = this.model.radius * 2e-4;
-    this.aim(target, direction, Math.min(Math.max(extent / this.model.unit, least), this.bounds().radius));
+    this.viewpoint.goTo(this.toScene(place), Math.max(extent / this.model.unit, this.model.radius * 2e-4));
     this.mark([place], true);
   }
-
-  /** Turns by degrees round the vertical and the horizontal axis. */
-  turn(around: number, over: number): void {
-    const arm = this.camera.position.clone().sub(this.controls.target);
-    arm.applyAxisAngle(new Vector3(0, 0, 1), (around * Math.PI) / 180);
-    const flat = Math.hypot(arm.x, arm.y), pitch = Math.atan2(arm.z, flat) + (over * Math.PI) / 180;
-    const limited = Math.min(Math.max(pitch, -1.5705), 1.5705), length = arm.length();
-    const heading = flat > 1e-9 * length ? Math.atan2(arm.y, arm.x) : -Math.PI / 2;
-    arm.set(Math.cos(limited) * Math.cos(heading), Math.cos(limited) * Math.sin(heading), Math.sin(limited)).multiplyScalar(length);
-    this.camera.position.copy(this.controls.target).add(arm);
-    this.controls.update();
-    this.draw();
-  }
-  zoom(factor: number): void {
-    if (this.camera === this.orthographic) {
-      this.orthographic.zoom *= factor;
-      this.orthographic.updateProjectionMatrix();
-    } else {
-      const arm = this.camera.position.clone().sub(this.controls.target).divideScalar(factor);
-      this.camera.position.copy(this.controls.target).add(arm);
-    }
-    this.controls.update();
-    this.draw();
-  }
-  pan(right: number, up: number): void {
-    const step = this.unitsPerPixel() * 40;
-    const move = new Vector3().setFromMatrixColumn(this.camera.matrix, 0).multiplyScalar(right * step)
-      .add(new Vector3().setFromMatrixColumn(this.camera.matrix, 1).multiplyScalar(up * step));
-    this.camera.position.add(move);
-    this.controls.target.add(move);
-    this.controls.update();
-    this.draw();
-  }
-
-  private use(camera: PerspectiveCamera | OrthographicCamera): void {
-    this.camera = camera;
-    this.controls.object = camera;
-    this.resize();
-  }
-  private aim(target: Vector3, direction: Vector3, radius: number): void {
-    const aspect = this.place.clientWidth / Math.max(this.place.clientHeight, 1);
-    const all = radius >= this.bounds().radius;
-    const whole = this.bounds().radius;
-    const half = all ? this.model.half.clone().multiplyScalar(1 + this.exploded) : new Vector3(radius, radius, radius).multiplyScalar(0.6);
-    if (all) half.z *= this.exaggeration;
-    const need = needed(half, direction, Math.tan((this.perspective.fov * Math.PI) / 360), aspect);
-    this.controls.target.copy(target);
-    this.camera.position.copy(target).addScaledVector(direction, this.camera === this.perspective ? need.distance : 4 * whole);
-    this.perspective.near = need.distance / 200;
-    this.perspective.far = need.distance + 8 * whole;
-    this.orthographic.near = 0;
-    this.orthographic.far = 10 * whole;
-    this.orthographic.zoom = this.orthographic.top / need.height;
-    for (const camera of [this.perspective, this.orthographic]) camera.updateProjectionMatrix();
-    this.controls.update();
-    this.draw();
-  }
-
-  /** Length in the scene that one pixel at the centre of the view covers. */
-  unitsPerPixel(): number {
-    const height = Math.max(this.place.clientHeight, 1);
-    if (this.camera === this.orthographic)
-      return (this.orthographic.top - this.orthographic.bottom) / this.orthographic.zoom / height;
-    const distance = this.camera.position.distanceTo(this.controls.target);
-    return (2 * distance * Math.tan((this.perspective.fov * Math.PI) / 360)) / height;
-  }
-  /** Whether the camera looks from the lower side of an axis. */
-  isBehind(axis: Axis): boolean {
-    return this.camera.position.getComponent(axis) < this.controls.target.getComponent(axis);
-  }
-  get isPerspective(): boolean { return this.camera === this.perspective; }
-
   resize(): void {
     const { clientWidth: width, clientHeight: height } = this.place;
     if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height);
-    this.perspective.aspect = width / height;
-    const half = this.bounds().radius;
-    Object.assign(this.orthographic, { left: -half * width / height, right: half * width / height, top: half, bottom: -half });
-    for (const camera of [this.perspective, this.orthographic]) camera.updateProjectionMatrix();
-    this.draw();
+    this.viewpoint.resize();
   }
 
   /** Asks for a picture before the next refresh of the screen. */
@@ -418,7 +333,7 @@ export class View {
       .add(new Vector3(0.35, -0.15, 0.9)).multiplyScalar(this.model.radius).add(this.controls.target);
     this.sun.target.position.copy(this.controls.target);
     for (const marker of this.markers.children) {
-      const size = 7 * this.unitsPerPixel();
+      const size = 7 * this.viewpoint.unitsPerPixel();
       marker.scale.set(size, size, size / this.exaggeration);
     }
     this.renderer.render(this.scene, this.camera);
@@ -500,13 +415,4 @@ export class View {
     this.draw();
   }
   get marked(): number { return this.markers.children.length; }
-
-  /** Directions of east, north and up on the screen, each to the right, upwards, and towards us. */
-  axes(): { name: string; x: number; y: number; z: number }[] {
-    const turned = this.camera.quaternion.clone().invert();
-    return [["E", 1, 0, 0], ["N", 0, 1, 0], ["Up", 0, 0, 1]].map(([name, x, y, z]) => {
-      const v = new Vector3(x as number, y as number, z as number).applyQuaternion(turned);
-      return { name: name as string, x: v.x, y: v.y, z: v.z };
-    });
-  }
 }
