@@ -15,8 +15,8 @@ import terrane
 from conftest import DATA, run_program, sheet, stack
 
 #: A box inside of the horizons.
-CORNERS = ((0, 0, -1100), (1000, 1000, -700))
-OPTION = "--box=0,0,-1100,1000,1000,-700"
+CORNERS = ((0, 0, -1700), (2000, 1500, -700))
+OPTION = "--box=0,0,-1700,2000,1500,-700"
 FILES = [DATA / "top.ts", DATA / "base.ts", DATA / "fault.ts"]
 #: What only the program knows, which reads files and measures times, and how the call was spelled.
 PROGRAMS = {"command", "title", "statistics", "tables"}
