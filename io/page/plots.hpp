@@ -12,18 +12,18 @@
 
 namespace terrane::page {
 
-/// The triangles' q, smallest angles and edge lengths, after and, if there was one, before. A plot
-/// is {"title", "x": {"label", "measure"}, "y": likewise, "bounds": ends of the classes,
+/// Adds the triangles' q, smallest angles and edge lengths; with a mesh `before`, of both. A plot is {"title", "x": {"label", "measure"}, "y": likewise, "bounds": ends of the classes,
 /// "series": [{"name", "values"}]}.
 void add_triangle_plots(Json& plots, const Mesh& mesh, const Mesh* before);
-/// Dihedral angles of tetrahedra.
+/// Adds the dihedral angles of tetrahedra, by classes.
 void add_tetrahedra_plots(Json& plots, const TetrahedraShape& shape);
-/// Lengths of free borders by their distance from the nearest surface.
+/// Adds the lengths of free borders by their distance from the nearest surface.
 void add_gap_plot(Json& plots, const std::vector<FreeBorder>& borders);
-/// The variogram and the cross-validation of filled holes, of the six largest, as points and lines:
-/// "lines" in place of "series", each with "name", "x", "y" and "dots".
+/// Adds the variogram and the cross-validation of each of the six largest filled holes, as points
+/// and lines. These plots have "lines" instead of "series", each with "name", "x", "y" and "dots".
 void add_fill_plots(Json& plots, const FillWork& work);
-/// Volumes of the blocks, at most the 40 largest: "names" in place of "bounds".
+/// Adds the volumes of the 40 largest blocks as bars. This plot has names of bars ("names") instead
+/// of classes ("bounds").
 void add_volume_plot(Json& plots, const Model& model);
 
 } // namespace terrane::page

@@ -277,7 +277,8 @@ class Model(Result):
 
     def _report(self, path: Path, command: str, tetrahedra: Optional[_core.Tetrahedra], threads: Optional[int]) -> None:
         """Write the page of the model, with the tetrahedra that fill it."""
-        made, options = self._made_by, {}
+        made = self._made_by
+        options: Dict[str, Any] = {}
         while made[0] == "improved":
             options = {**made[2], **options}
             made = made[1]
@@ -285,7 +286,7 @@ class Model(Result):
         if made[0] == "model":
             surfaces = made[1]
             options = {**made[3], **options}
-        about = facts(command, [s.name for s in surfaces] or [label for label in self.labels], options)
+        about = facts(command, [s.name for s in surfaces] or self.labels, options)
         _core.report_model(self._core, tetrahedra, parts_of_surfaces(surfaces), os.fspath(path), about, how(threads, None))
 
     def to_pyvista(self) -> Any:
