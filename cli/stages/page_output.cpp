@@ -21,8 +21,8 @@ namespace terrane::cli {
 namespace {
 
 /// Options that change no result, so that pages of equal results are equal.
-constexpr std::array<std::string_view, 6> unlisted{"--report", "--stats",  "--threads",
-                                                   "--output", "--resume", "--help"};
+constexpr std::array<std::string_view, 8> unlisted{"--report", "--stats", "--threads", "--output",
+                                                   "--resume", "--help",  "--quiet",   "--color"};
 
 /// Returns the options that were given, and their values.
 std::vector<std::pair<std::string, std::string>> given_options(const CLI::App& app) {

@@ -194,6 +194,7 @@ def check_certificates(folder):
     check(status == 0 and lines and "\n".join(["proved.json: " + lines[0], *lines[1:], ""]) == verdict, "the verdict is that of terrane verify", lines, verdict, said)
     check(content["certificates"] == [{"file": "proved.json", "valid": True, "lines": lines}], "it is in the JSON", content["certificates"])
     check(lines and lines[0].startswith("valid: "), "it says valid", lines)
+    check(rows(content, "Options") == [["--certificate", "proved.json"]], "options that change no result are not listed", rows(content, "Options"))
     run(folder, "arrange", "two.ts", "-o", "a.obj", "--report", "p.html")
     content, *_ = parts((folder / "p.html").read_text())
     check(content["certificates"] == [] and ["certificate", "None was asked for."] in rows(content, "Verdict"), "no certificate was asked for", rows(content, "Verdict"))

@@ -3,11 +3,13 @@
 // What the view draws, and from how far away it must be seen.
 import { Vector3, type BufferGeometry, type Color, type LineSegments, type Mesh, type MeshLambertMaterial } from "three";
 import type { Axis, Cut } from "./caps";
+import type { Content } from "./data";
 
 /** A surface or block as it is drawn. */
 export interface Item {
   kind: "surface" | "block";
   number: number;
+  filled: boolean; ///< of a surface: the triangles that fill its holes
   name: string;
   mesh: Mesh<BufferGeometry, MeshLambertMaterial>;
   geometry: BufferGeometry;      ///< all triangles; the mesh may have fewer while it turns
@@ -25,6 +27,12 @@ export interface Item {
 }
 export interface Pick { item: Item; place: [number, number, number]; point: Vector3; tetrahedron: number }
 export interface Section { axis: Axis; share: number; flipped: boolean }
+/** The area of a surface as far as it is drawn as this item, before decimation. */
+export function areaOf(item: Item, content: Content): number {
+  return content.parts.filter((part) => part.filled === item.filled && part.surfaces.includes(item.number))
+    .reduce((sum, part) => sum + part.area, 0);
+}
+
 export type ViewName = "perspective" | "top" | "north" | "east";
 
 const margin = 1.12; ///< round a model that is shown as a whole

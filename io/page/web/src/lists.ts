@@ -2,6 +2,7 @@
 //
 // The lists of surfaces, blocks and lines, with what shows, hides and colours them.
 import type { Content } from "./data";
+import { areaOf } from "./items";
 import { button, element, named, shortened, type Quantities } from "./text";
 import type { Item, View } from "./view";
 import { lineColours } from "./colours";
@@ -40,7 +41,7 @@ function itemRow(item: Item, content: Content, view: View, quantities: Quantitie
   name.append(named(item.name));
   const size = item.kind === "block"
     ? quantities.text(content.blocks[item.number - 1].volume, "volume", 3)
-    : quantities.text(content.surfaces[item.number].area, "area", 3);
+    : quantities.text(areaOf(item, content), "area", 3);
   return element("li", {}, shown, colour, name, element("span", { class: "size" }, size), opacity);
 }
 

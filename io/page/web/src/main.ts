@@ -3,6 +3,7 @@
 // Puts the page together: the view with its controls on one side, tabs on the other.
 import "./page.css";
 import { readReport, type Content, type Finding, type Report, type RunInfo, type Table } from "./data";
+import { areaOf } from "./items";
 import { itemList, lineList } from "./lists";
 import { Plots } from "./plots";
 import { tableOf } from "./tables";
@@ -251,7 +252,7 @@ class Page {
       rows.push([`Block ${item.number}`, named(block.name)], ["Volume", this.quantities.text(block.volume, "volume", 6)]);
       if (hit.tetrahedron >= 0) rows.push(["Tetrahedron", String(hit.tetrahedron)]);
     } else {
-      rows.push(["Surface", named(item.name)], ["Area", this.quantities.text(this.content.surfaces[item.number].area, "area", 6)]);
+      rows.push(["Surface", named(item.name)], ["Area", this.quantities.text(areaOf(item, this.content), "area", 6)]);
     }
     hit.place.forEach((c, k) => rows.push(["xyz"[k], `${this.quantities.coordinate(c, extent)}${this.content.unit ? " " + this.content.unit : ""}`]));
     const distance = this.distance();

@@ -84,13 +84,13 @@ export class View {
         if (!geometry) continue;
         const colour = filled ? new Color("#e0763a") : colourOfRole(surface.role, s);
         const name = filled ? `${surface.label}: filled` : surface.label;
-        this.addItem("surface", s, name, geometry, colour, !hasBlocks && (surface.role !== "boundary"));
+        this.addItem("surface", s, filled, name, geometry, colour, !hasBlocks && (surface.role !== "boundary"));
       }
     });
     for (const block of blocks) {
       const geometry = this.model.block(block.number);
       if (geometry.index!.count > 0)
-        this.addItem("block", block.number, block.name, geometry, colourOf(block.number - 1), hasBlocks);
+        this.addItem("block", block.number, false, block.name, geometry, colourOf(block.number - 1), hasBlocks);
     }
     if (!this.items.some((i) => i.visible)) for (const item of this.items) item.visible = true;
     for (const item of this.items) item.mesh.visible = item.visible;
@@ -112,7 +112,7 @@ export class View {
     return covered > 0.7 && below >= 0.6 * (this.report.content.surfaces.length - 1);
   }
 
-  private addItem(kind: Item["kind"], number: number, name: string, geometry: BufferGeometry,
+  private addItem(kind: Item["kind"], number: number, filled: boolean, name: string, geometry: BufferGeometry,
     colour: Color, visible: boolean): void {
     const material = new MeshLambertMaterial({
       color: colour, flatShading: true, side: kind === "block" ? FrontSide : DoubleSide,
@@ -123,7 +123,7 @@ export class View {
     this.root.add(mesh);
     const centre = this.model.centre(geometry);
     this.items.push({
-      kind, number, name, mesh, geometry, coarse: null, edges: null, cap: null, capEdges: null, cut: null, centre,
+      kind, number, filled, name, mesh, geometry, coarse: null, edges: null, cap: null, capEdges: null, cut: null, centre,
       reach: this.model.reach(geometry, centre), visible, colour: colour.clone(), opacity: 1,
       tetrahedra: kind === "block" ? this.model.tetrahedraOf(number) : new Uint32Array(),
     });

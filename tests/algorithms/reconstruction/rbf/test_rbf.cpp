@@ -324,8 +324,8 @@ TEST_CASE("rbf: data that were left out are told with what the others predict", 
             squares += (given - predicted) * (given - predicted);
         return std::sqrt(squares / static_cast<double>(report.left_out.size()));
     };
-    Surface s = punched(sheet(graph([](double x, double y) { return 700 + std::sin(x) * y; }), 0, 0,
-                              10, 10, 40, 40),
+    Surface s = punched(sheet(graph([](double x, double y) { return 700 + 0.1 * std::sin(x) * y; }),
+                              0, 0, 10, 10, 40, 40),
                         disk(5, 5, 1.5));
     for (const bool turned : {false, true}) { // heights are those of the file, whatever faces up
         if (turned)
