@@ -94,6 +94,8 @@ def test_the_page_s_examples():
     blocks = re.findall(r"```(python|text)\n(.*?)```", text, re.S)
     values, printed = {}, ""
     for i, (kind, block) in enumerate(blocks):
+        if not terrane.HAS_REPORTS:
+            block = re.sub(r".*\.report\(.*\n", "", block)
         if kind == "text":
             assert printed == block
         elif "tetrahedra(" not in block or HAS_TETGEN:
