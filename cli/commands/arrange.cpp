@@ -66,6 +66,7 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
         const auto narrow = stl_is_conforming(mesh, files, outputs.value(), session);
         if (!narrow) return narrow.error();
         clean = narrow.value();
+        if (!clean) page->set_verdict(not_conforming_in_stl, false);
     }
     if (session.stopped()) return Error{ErrorCode::interrupted, "", ""};
 

@@ -162,6 +162,24 @@ Status check_improve(const ImproveCommand& command) {
     return check_certified_names(command.proof.certificate, command.settings.volume.within);
 }
 
+/// Warns of what keeps the improved mesh from being written.
+void warn_of_changes(const ImprovedAndMeasured& measured) {
+    if (!measured.improved.report.sides_kept)
+        warn("a small piece came to lie beyond a surface near it, so the blocks would not be "
+             "the same; try a smaller --max-deviation");
+    if (!measured.is_near_back())
+        warn("not all of each surface as it was is shown to be near enough to the improved one; "
+             "try another --max-deviation");
+}
+
+/// Says why nothing is written; `narrow`: the mesh is conforming as STL would hold it.
+const char* refusal(bool narrow) {
+    return narrow
+               ? "The improved mesh may be too far from the one before, or its blocks may not be "
+                 "the same."
+               : not_conforming_in_stl;
+}
+
 Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session) {
     Stopwatch total;
     const FileOptions& files = command.files;
@@ -203,14 +221,9 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         if (!narrow) return narrow.error();
         clean = narrow.value() && measured.value().improved.report.sides_kept &&
                 measured.value().is_near_back();
-        if (!measured.value().improved.report.sides_kept)
-            warn("a small piece came to lie beyond a surface near it, so the blocks would not be "
-                 "the same; try a smaller --max-deviation");
-        if (!measured.value().is_near_back())
-            warn(
-                "not all of each surface as it was is shown to be near enough to the improved one; "
-                "try another --max-deviation");
+        warn_of_changes(*measured);
         clean = keeps_volumes(measured.value(), files.strict, options.max_volume_change) && clean;
+        if (!clean) page->set_verdict(refusal(narrow.value()), false);
         Stopwatch writing;
         if (clean) {
             const auto written = write_all(command, inputs.value(), arranged.value(),

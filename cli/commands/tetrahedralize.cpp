@@ -175,8 +175,8 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     say(summary_stream(files), summary(inputs.value(), arranged.value()));
     page->add_arranged(*arranged);
     if (!arranged.value().rounded.report.clean) {
-        print(stderr, offending_pairs(inputs.value(), arranged.value()));
-        print(stderr, complaint("no tetrahedra without a conforming mesh; nothing written"));
+        print(stderr, offending_pairs(*inputs, *arranged) +
+                          complaint("no tetrahedra without a conforming mesh; nothing written"));
         return finish(false);
     }
 
@@ -190,8 +190,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (!filled) return filled.error();
     page->add_tetrahedra(*filled);
     say(summary_stream(files), filled_text(filled.value(), inputs->unit));
-    const TetrahedraReport& report = filled.value().report;
-    const bool good = report.violations.empty();
+    const bool good = filled->report.violations.empty();
     Stopwatch writing;
     if (good) {
         const auto written = write_all(filled.value(), outputs.value(), files, session);
@@ -204,7 +203,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
             if (!proved) return proved.error();
         }
     } else {
-        print(stderr, violations_text(report) + complaint("nothing written"));
+        print(stderr, violations_text(filled->report) + complaint("nothing written"));
     }
     statistics["seconds"]["write"] = writing.lap();
     return finish(good);

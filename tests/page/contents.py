@@ -198,12 +198,18 @@ def check_certificates(folder):
     run(folder, "arrange", "two.ts", "-o", "a.obj", "--report", "p.html")
     content, *_ = parts((folder / "p.html").read_text())
     check(content["certificates"] == [] and ["certificate", "None was asked for."] in rows(content, "Verdict"), "no certificate was asked for", rows(content, "Verdict"))
-    (folder / "stale.json").write_text((folder / "proved.json").read_text())
-    status, said = run(folder, "layer", "two.ts", "--layer", "flat=1", "--layer", "steep=1", "-o", "s.obj", "--max-move", "1e-300",
-                       "--certificate", "stale.json", "--report", "s.html")
-    if (folder / "s.html").exists() and status == 1:
-        content, *_ = parts((folder / "s.html").read_text())
-        check(content["certificates"][0]["valid"] is None, "a certificate of an earlier run is not judged", content["certificates"])
+    far = square("far", 5, ((1e9, 0), (1e9 + 9, 0), (1e9 + 9, 9), (1e9, 9)))  # whose triangles have no area in float32
+    (folder / "far.ts").write_text(far)
+    check(run(folder, "improve", "far.ts", "-o", "far.obj", "--certificate", "far.json")[0] == 0, "a certificate of an earlier run")
+    status, said = run(folder, "improve", "far.ts", "-o", "far.stl", "--certificate", "far.json", "--report", "far.html")
+    content, *_ = parts((folder / "far.html").read_text())
+    check(status == 1 and content["certificates"] == [{"file": "far.json", "valid": None, "lines": ["Not written, as nothing was."]}],
+          "a certificate of an earlier run is not judged", status, content["certificates"])
+    check(not content["verdict"]["good"] and "float32" in content["verdict"]["text"], "the verdict says why", content["verdict"])
+    status, said = run(folder, "arrange", "two.ts", "-o", "a.obj", "--certificate", "-", "--report", "out.html", "--quiet")
+    if status == 0:
+        content, *_ = parts((folder / "out.html").read_text())
+        check("standard output" in content["certificates"][0]["lines"][0], "one on standard output is not judged", content["certificates"])
     project = {"format": "terrane-project 1", "surfaces": [{"file": str(model)}],
                "outputs": {"surfaces": ["obj"], "blocks": "vtp", "certificate": True}}
     (folder / "q.json").write_text(json.dumps(project))
