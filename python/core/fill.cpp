@@ -107,7 +107,7 @@ py::tuple fill(const py::sequence& surfaces, const py::dict& options,
 } // namespace
 
 void bind_fill(py::module_& module) {
-    py::class_<FillWork, WorkPointer>(module, "FillWork");
+    const py::class_<FillWork, WorkPointer> work(module, "FillWork"); // a handle for reports
     module.def("border_loops", &border_loops, "surfaces"_a, "gap_slope"_a, "how"_a);
     module.def("fill", &fill, "surfaces"_a, "options"_a, "numbers"_a, "how"_a);
 }
