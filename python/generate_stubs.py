@@ -54,7 +54,7 @@ def stub_of_class(name, cls):
             text = signature(value.__doc__, f"{name}.{key}")
             text = re.sub(r"^\(self: [^,)]*", "(self", text)
             lines.append(f"    def {key}{text}: ...")
-    return lines
+    return lines if len(lines) > 1 else [f"\nclass {name}: ..."]  # a handle without anything
 
 
 def main():

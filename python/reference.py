@@ -22,9 +22,10 @@ GROUPS = [
                 "SealChange ClosedGap OpenGap SealAdvice SealTrial Improved BorderLoop Filled FilledHole FillReport "
                 "Layered LayerReport OutOfOrder Tetrahedra RegionVolume Violation Verdict VerifiedFile RuleViolation "
                 "Built"),
-    ("Small things", "IndexLists SurfaceInfo NO_INDEX Error OutOfMemory ERROR_CODES"),
+    ("Small things", "IndexLists SurfaceInfo NO_INDEX HAS_REPORTS Error OutOfMemory ERROR_CODES"),
 ]
 CONSTANTS = {"ROLES": "The roles that a surface can have: {}.", "ERROR_CODES": "The codes of `Error.code`: {}.",
+             "HAS_REPORTS": "Whether this build can write report pages.",
              "NO_INDEX": "The index that means none, as in the corners of a closed line: {}."}
 
 HEAD = """# Python package

@@ -26,8 +26,8 @@ ORDER = (
     "algorithms/reconstruction/kriging algorithms/reconstruction/rbf algorithms/reconstruction "
     "algorithms/sealing algorithms/volume_of_interest algorithms/model algorithms/tetrahedra "
     "algorithms/optimisation algorithms/tetgen algorithms/project algorithms/verify "
-    "io/text io/atomic io/surfaces io/gocad io/grids io/points io/meshes io capi "
-    "cli/session cli/options cli/paper cli/reports cli/page cli/stages cli/commands cli"
+    "io/text io/atomic io/surfaces io/gocad io/grids io/points io/meshes io io/page capi "
+    "cli/session cli/options cli/paper cli/reports cli/stages cli/commands cli"
 ).split()
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]terrane/([^>"]+)[>"]', re.M)

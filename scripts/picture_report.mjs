@@ -43,8 +43,8 @@ await shown.evaluate(() => {
   view.look("perspective");
   set("Section axis", "y", "change");
   set("Section place", 0.3);
-  view.turn(8, 4);
-  view.zoom(1.12);
+  view.viewpoint.turn(8, 4);
+  view.viewpoint.zoom(1.12);
 });
 await shown.waitForTimeout(1500); // the view rests, and is drawn in full
 await shown.screenshot({ path: target });

@@ -37,7 +37,7 @@ const turning = await page.evaluate(() => new Promise((resolve) => {
     const now = performance.now();
     if (!start && now > warm) [start, frames] = [now, view.frames];
     if (start && now - start > 6000) return resolve(1000 * (view.frames - frames) / (now - start));
-    view.turn(3, 0);
+    view.viewpoint.turn(3, 0);
     requestAnimationFrame(() => {
       gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); // waits for the picture
       step();

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
@@ -122,10 +123,14 @@ double distance_bound(const Surface& from, const Surface& to, double tolerance, 
 std::vector<Deviation> deviations_of(const Mesh& before, const Mesh& after, const Run& run) {
     const StandardArithmetic guard;
     std::vector<Deviation> all;
+    const std::size_t count = before.triangles.size() + after.triangles.size();
+    std::size_t done = 0; // triangles; of those in several surfaces, as often
     for (std::uint32_t s = 0; s < before.surfaces.size(); ++s) {
         if (run.stop.stop_requested()) break;
         const Surface old = surface_of_mesh(before, s), now = surface_of_mesh(after, s);
         all.push_back({measured_distance(now, old, run), measured_distance(old, now, run)});
+        done += now.triangles.size() + old.triangles.size();
+        report_part(run, "measure", 0, 1, std::min(done, count), count);
     }
     return all;
 }

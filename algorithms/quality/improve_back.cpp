@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
@@ -20,6 +21,8 @@
 
 namespace terrane {
 namespace {
+
+constexpr std::uint32_t told_every = 1024; ///< triangles between two reports of progress
 
 using namespace quality::detail;
 
@@ -197,6 +200,8 @@ Result<std::vector<double>> shown(const Mesh& before, const Improved& after,
         std::vector<std::uint32_t> still_open;
         for (const std::uint32_t t : open) {
             if (run.stop.stop_requested()) return interrupted;
+            if (factor == 1 && t % told_every == 0) // most are near enough the first time
+                report_part(run, "measure", 0, 1, t, features.triangles.size());
             const auto& [a, b, c] = features.triangles[t];
             const Corners corners{before.vertices[a], before.vertices[b], before.vertices[c]};
             if ((hints[t] != none &&

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/quality/improve_back.hpp>
 
@@ -23,10 +24,13 @@ Result<ImprovedAndMeasured> improve_and_measure(const ConformingMesh& mesh,
         if (!improved) return improved.error();
         const StageTimer timer(run, "measure");
         if (run.progress) run.progress("measure", 0);
-        auto deviations = deviations_of(mesh, improved->mesh, run);
+        constexpr double samples = 0.5; // the share of measuring what was improved
+        auto deviations =
+            deviations_of(mesh, improved->mesh, part_of_stage(run, "measure", 0, samples));
         if (run.stop.stop_requested())
             return Error{ErrorCode::interrupted, "stopped on request", ""};
-        auto back = bounds_back(mesh, *improved, options, run);
+        auto back =
+            bounds_back(mesh, *improved, options, part_of_stage(run, "measure", samples, 1));
         if (!back) return back.error();
         if (run.stop.stop_requested())
             return Error{ErrorCode::interrupted, "stopped on request", ""};
@@ -34,6 +38,7 @@ Result<ImprovedAndMeasured> improve_and_measure(const ConformingMesh& mesh,
             if (deviations[s].out > improved->report.bound_of[s])
                 return Error{ErrorCode::internal, "the surface is farther away than was shown",
                              mesh->surfaces[s].name};
+        if (run.progress) run.progress("measure", 1);
         return ImprovedAndMeasured{std::move(*improved), std::move(deviations), std::move(*back)};
     });
 }

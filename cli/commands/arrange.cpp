@@ -5,9 +5,9 @@
 
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/cli/commands/command.hpp>
-#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/outputs.hpp>
+#include <terrane/cli/stages/page_output.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
 
 namespace terrane::cli {
@@ -48,17 +48,17 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
     if (const auto sound = check_volume_options(command.settings.volume); !sound)
         return sound.error();
     if (const auto possible = check_certificate(command); !possible) return possible.error();
-    auto page = Page::plan(files);
+    auto page = plan_page(files);
     if (!page) return page.error();
     auto inputs = read_certified_inputs(command.proof.certificate, files, session);
     if (!inputs) return inputs.error();
-    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
+    if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
     Json statistics = statistics_of(inputs.value(), session.times());
 
     const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
     say(summary_stream(files), summary(inputs.value(), arranged.value()));
-    page->add_arranged(*inputs, *arranged);
+    page->add_arranged(*arranged);
     const Mesh& mesh = arranged.value().rounded.mesh;
     bool clean = arranged.value().rounded.report.clean;
     if (!clean) print(stderr, offending_pairs(inputs.value(), arranged.value()));
@@ -66,6 +66,7 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
         const auto narrow = stl_is_conforming(mesh, files, outputs.value(), session);
         if (!narrow) return narrow.error();
         clean = narrow.value();
+        if (!clean) page->set_verdict(not_conforming_in_stl, false);
     }
     if (session.stopped()) return Error{ErrorCode::interrupted, "", ""};
 
@@ -86,7 +87,7 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
         write_proof(command.proof, certified, inputs.value(), arranged.value(), session);
     if (!proved) return proved.error();
     statistics["seconds"]["write"] = writing.lap();
-    page->add_certificate(command.proof.certificate);
+    add_page_certificate(*page, files, command.proof.certificate, true, session);
     return write_run(*page, statistics, files, total.lap(), clean);
 }
 

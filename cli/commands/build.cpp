@@ -16,7 +16,6 @@
 #include <terrane/cli/commands/build_help.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/volume_options.hpp>
-#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
 #include <terrane/cli/reports/pair_report.hpp>
@@ -28,6 +27,7 @@
 #include <terrane/cli/stages/kept_stages.hpp>
 #include <terrane/cli/stages/layer_stage.hpp>
 #include <terrane/cli/stages/outputs.hpp>
+#include <terrane/cli/stages/page_output.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
@@ -58,8 +58,10 @@ constexpr const char* tetrahedra_certificate = "certificate_tetrahedra.json";
 /// Runs one project, from reading its file to publishing the folder of results.
 class Build {
 public:
-    Build(const Project& project, const BuildCommand& command, Page page, Session& session) :
-        project_(project), page_(std::move(page)), source_(command.project),
+    Build(const Project& project, const BuildCommand& command, page::Page page, FileOptions files,
+          Session& session) :
+        project_(project),
+        page_(std::move(page)), page_files_(std::move(files)), source_(command.project),
         folder_(command.folder.empty() ? project.folder : fs::path(command.folder)),
         strict_(command.strict), session_(session) {
         if (command.resume && !folder_.empty()) kept_.emplace(folder_);
@@ -88,13 +90,25 @@ private:
             return refuse(violations_text(built_.filled->report) + complaint("nothing written"));
         if (doubts_) return *doubts_;
         if (auto done = write(); !done) return done.error();
-        if (auto done = page_.write(statistics_, journal_.seconds()); !done) return done.error();
+        add_certificates();
+        if (auto done = write_the_page(); !done) return done.error();
         return ExitStatus::done;
+    }
+
+    Status write_the_page() {
+        return write_page(page_, page_files_, statistics_, journal_.seconds());
+    }
+
+    /// Adds the verdicts about the certificates that are among the results.
+    void add_certificates() {
+        for (const std::string& name : written_)
+            if (name.starts_with("certificate"))
+                add_page_certificate(page_, page_files_, (folder_ / name).string(), true, session_);
     }
 
     Result<ExitStatus> refuse(const std::string& reason) {
         print(stderr, reason);
-        if (auto done = page_.write(statistics_, journal_.seconds()); !done) return done.error();
+        if (auto done = write_the_page(); !done) return done.error();
         return ExitStatus::negative;
     }
 
@@ -140,7 +154,7 @@ private:
         for (std::size_t f = 0; f < read_.surfaces_of_entry.size(); ++f)
             inputs_.files.insert(inputs_.files.end(), read_.surfaces_of_entry[f],
                                  project_.surfaces[f].file.string());
-        if (auto added = page_.add_inputs(inputs_); !added) return added;
+        if (auto added = add_page_inputs(page_, page_files_, inputs_); !added) return added;
         timer.stop();
         statistics_ = statistics_of(inputs_, session_.times());
         statistics_["resumed"] = Json::array();
@@ -208,7 +222,7 @@ private:
             inputs_.labels = built.labels;
             add_statistics(statistics_, built.arranged, inputs_, session_.times());
             journal_.say(summary(inputs_, built.arranged));
-            page_.add_arranged(inputs_, built.arranged);
+            page_.add_arranged(built.arranged);
             if (!built.arranged.rounded.conforming)
                 refused_ = offending_pairs(inputs_, built.arranged) +
                            complaint("no blocks without a conforming mesh; nothing written");
@@ -216,13 +230,13 @@ private:
         case BuildStage::improve:
             add_statistics(statistics_, *built.improved, session_.times());
             if (!keeps_volumes(*built.improved, strict_)) refused_ = complaint("nothing written");
-            page_.add_improved(inputs_, *built.improved, built.arranged.rounded.mesh);
+            page_.add_improved(built.improved->improved.mesh, built.arranged.rounded.mesh);
             return journal_.say(improve_text(*built.improved, inputs_));
         case BuildStage::blocks:
             add_statistics(statistics_, *built.model, session_.times());
             if (auto judged = judge_leaks(built.arranged, *built.model, session_)) leaks_ = *judged;
             journal_.say(model_text(inputs_, *built.model, leaks_));
-            page_.add_model(inputs_, *built.model, leaks_);
+            page_.add_model(*built.model, leaks_);
             return doubt(*built.model);
         case BuildStage::tetrahedra:
             add_statistics(statistics_, *built.filled, session_.times());
@@ -419,8 +433,9 @@ private:
     }
 
     const Project& project_;
-    Page page_;
-    std::string source_; ///< the project file
+    page::Page page_;
+    FileOptions page_files_; ///< the project's, with --report
+    std::string source_;     ///< the project file
     fs::path folder_;
     bool strict_; ///< warnings about the inputs are errors
     Session& session_;
@@ -445,9 +460,9 @@ Result<ExitStatus> build(const BuildCommand& command) {
     FileOptions page_files = command.page;
     for (const ProjectSurfaces& entry : project.value().surfaces)
         page_files.inputs.push_back(entry.file.string());
-    auto page = Page::plan(page_files);
+    auto page = plan_page(page_files);
     if (!page) return page.error();
-    return Build(project.value(), command, std::move(*page), session)();
+    return Build(project.value(), command, std::move(*page), std::move(page_files), session)();
 }
 
 } // namespace

@@ -6,8 +6,8 @@
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/files.hpp>
-#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/reports/check_report.hpp>
+#include <terrane/cli/stages/page_output.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
 
 namespace terrane::cli {
@@ -35,11 +35,12 @@ Result<ExitStatus> check_files(const CheckCommand& command, Session& session) {
     Stopwatch total;
     const auto nothing = plan_outputs(command.files, OutputKind::surfaces);
     if (!nothing) return nothing.error();
-    auto page = Page::plan(command.files);
+    auto page = plan_page(command.files);
     if (!page) return page.error();
     const auto inputs = read_inputs(command.files, session);
     if (!inputs) return inputs.error();
-    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
+    if (const auto added = add_page_inputs(*page, command.files, *inputs); !added)
+        return added.error();
     Json warnings;
     if (const auto sound = examine(inputs.value(), {}, warnings); !sound) return sound.error();
     session.begin("check", Phase::computing);
@@ -51,7 +52,8 @@ Result<ExitStatus> check_files(const CheckCommand& command, Session& session) {
         print(stdout, text_of(json_of(r, inputs.value())));
     else
         say(stdout, report_text(r, inputs.value(), name_of_inputs(command.files), command.all));
-    if (const auto drawn = page->add_check(*inputs, r, session.run()); !drawn) return drawn.error();
+    if (const auto drawn = page->add_check(inputs->surfaces, r, session.run()); !drawn)
+        return drawn.error();
     return write_run(*page, json_of(r, *inputs), command.files, total.lap(), r.clean());
 }
 

@@ -5,7 +5,7 @@
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/files.hpp>
-#include <terrane/cli/page/page.hpp>
+#include <terrane/cli/stages/page_output.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
 
 namespace terrane::cli {
@@ -44,11 +44,11 @@ Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session)
     files.outputs = {command.output};
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
-    auto page = Page::plan(files);
+    auto page = plan_page(files);
     if (!page) return page.error();
     const auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
-    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
+    if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
     Json statistics = statistics_of(*inputs, session.times()); // for the page alone
     if (const auto sound = examine(inputs.value(), {}, statistics); !sound) return sound.error();
     const Mesh mesh = concatenate(inputs.value().surfaces);
@@ -60,7 +60,7 @@ Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session)
     if (output.format == Format::stl && !files.ascii && loses_digits(mesh))
         warn(output.path + ": coordinates were rounded to float32, all that binary STL holds; "
                            "--ascii or another format keeps them");
-    page->add_mesh(*inputs, mesh);
+    page->add_mesh(mesh);
     return write_run(*page, statistics, files, total.lap(), true);
 }
 

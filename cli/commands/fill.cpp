@@ -13,9 +13,9 @@
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
-#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
+#include <terrane/cli/stages/page_output.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 
@@ -136,9 +136,15 @@ std::vector<FillTask> tasks_of(const FillCommand& command, const Inputs& inputs)
     return tasks;
 }
 
-/// Fills the chosen holes and writes the results. The value is true if no chosen hole stayed open.
-Result<bool> fill_and_write(const FillCommand& command, const std::vector<Output>& outputs,
-                            const Inputs& inputs, FillWork& work, Session& session) {
+/// What became of the chosen holes.
+struct FillOutcome {
+    bool written = false; ///< otherwise new triangles meet others improperly
+    bool whole = false;   ///< no chosen hole stayed open
+};
+
+/// Fills the chosen holes and writes the results.
+Result<FillOutcome> fill_and_write(const FillCommand& command, const std::vector<Output>& outputs,
+                                   const Inputs& inputs, FillWork& work, Session& session) {
     const auto chosen = chosen_holes(command, work);
     if (!chosen) return chosen.error();
     session.begin("fill", Phase::computing);
@@ -155,11 +161,19 @@ Result<bool> fill_and_write(const FillCommand& command, const std::vector<Output
     if (!contacts.value().empty()) {
         print(stderr, complaint("nothing written: what was invented meets other triangles") +
                           contacts_text(work, contacts.value()));
-        return false;
+        return FillOutcome{};
     }
     if (const auto done = write_all(command, outputs, inputs, work, session); !done)
         return done.error();
-    return refused.empty();
+    return FillOutcome{true, refused.empty()};
+}
+
+/// Returns a sentence about the result.
+const char* verdict_on(const FillOutcome& outcome, bool listed) {
+    if (listed) return "Holes are listed, and none is filled.";
+    if (!outcome.written)
+        return "New triangles meet others of their surface improperly. Nothing was written.";
+    return page::filling_verdict(outcome.whole);
 }
 
 Status read_smoothing(FillCommand& command) {
@@ -192,11 +206,12 @@ Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
     Stopwatch total;
     const auto outputs = plan(command);
     if (!outputs) return outputs.error();
-    auto page = Page::plan(command.files);
+    auto page = plan_page(command.files);
     if (!page) return page.error();
     const auto inputs = read_certified_inputs(command.proof.certificate, command.files, session);
     if (!inputs) return inputs.error();
-    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
+    if (const auto added = add_page_inputs(*page, command.files, *inputs); !added)
+        return added.error();
     Json statistics = statistics_of(inputs.value(), session.times());
     if (const auto sound = examine(inputs.value(), {}, statistics); !sound) return sound.error();
     session.begin("holes", Phase::computing);
@@ -209,22 +224,18 @@ Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
               borders_text(work.value()) + holes_table(work.value()));
     else
         say(summary_stream(command.files), borders_text(work.value()));
-    bool whole = true;
+    FillOutcome outcome{false, true};
     if (!command.list) {
         const auto filled =
             fill_and_write(command, outputs.value(), inputs.value(), work.value(), session);
         if (!filled) return filled.error();
-        whole = filled.value();
+        outcome = *filled;
     }
     add_statistics(statistics, work.value());
     page->add_filled(*work);
-    page->set_verdict(command.list ? "Holes are listed, and none is filled."
-                      : whole      ? "All chosen holes are filled; the new triangles meet others "
-                                     "properly, by an exact check."
-                                   : "Not all chosen holes could be filled.",
-                      whole);
-    page->add_certificate(command.proof.certificate);
-    return write_run(*page, statistics, command.files, total.lap(), whole);
+    page->set_verdict(verdict_on(outcome, command.list), outcome.whole);
+    add_page_certificate(*page, command.files, command.proof.certificate, outcome.written, session);
+    return write_run(*page, statistics, command.files, total.lap(), outcome.whole);
 }
 
 void add_choice(CLI::App& app, FillCommand& command) {

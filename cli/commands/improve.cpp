@@ -16,10 +16,10 @@
 #include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/cli/commands/command.hpp>
-#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/outputs.hpp>
+#include <terrane/cli/stages/page_output.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 
@@ -162,17 +162,35 @@ Status check_improve(const ImproveCommand& command) {
     return check_certified_names(command.proof.certificate, command.settings.volume.within);
 }
 
+/// Warns of what keeps the improved mesh from being written.
+void warn_of_changes(const ImprovedAndMeasured& measured) {
+    if (!measured.improved.report.sides_kept)
+        warn("a small piece came to lie beyond a surface near it, so the blocks would not be "
+             "the same; try a smaller --max-deviation");
+    if (!measured.is_near_back())
+        warn("not all of each surface as it was is shown to be near enough to the improved one; "
+             "try another --max-deviation");
+}
+
+/// Says why nothing is written; `narrow`: the mesh is conforming as STL would hold it.
+const char* refusal(bool narrow) {
+    return narrow
+               ? "The improved mesh may be too far from the one before, or its blocks may not be "
+                 "the same."
+               : not_conforming_in_stl;
+}
+
 Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session) {
     Stopwatch total;
     const FileOptions& files = command.files;
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
     if (const auto sound = check_improve(command); !sound) return sound.error();
-    auto page = Page::plan(files);
+    auto page = plan_page(files);
     if (!page) return page.error();
     auto inputs = read_certified_inputs(command.proof.certificate, files, session);
     if (!inputs) return inputs.error();
-    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
+    if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
     ImproveOptions options = command.options;
     options.check = check_of(command.settings.check, inputs.value());
     if (const auto set = set_lengths(command, inputs.value(), options); !set) return set.error();
@@ -184,7 +202,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     if (!options.edge_length_of.empty()) // the boundary of a volume of interest added surfaces
         options.edge_length_of.resize(inputs.value().labels.size());
     say(summary_stream(files), summary(inputs.value(), arranged.value()));
-    page->add_arranged(*inputs, *arranged);
+    page->add_arranged(*arranged);
     bool clean = arranged.value().rounded.report.clean;
     if (!clean) {
         print(stderr, offending_pairs(inputs.value(), arranged.value()));
@@ -197,20 +215,15 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         if (!measured) return measured.error();
         add_statistics(statistics, measured.value(), session.times());
         say(summary_stream(files), improve_text(measured.value(), inputs.value()));
-        page->add_improved(*inputs, *measured, arranged->rounded.mesh);
+        page->add_improved(measured->improved.mesh, arranged->rounded.mesh);
         const Mesh& mesh = measured.value().improved.mesh;
         const auto narrow = stl_is_conforming(mesh, files, outputs.value(), session);
         if (!narrow) return narrow.error();
         clean = narrow.value() && measured.value().improved.report.sides_kept &&
                 measured.value().is_near_back();
-        if (!measured.value().improved.report.sides_kept)
-            warn("a small piece came to lie beyond a surface near it, so the blocks would not be "
-                 "the same; try a smaller --max-deviation");
-        if (!measured.value().is_near_back())
-            warn(
-                "not all of each surface as it was is shown to be near enough to the improved one; "
-                "try another --max-deviation");
+        warn_of_changes(*measured);
         clean = keeps_volumes(measured.value(), files.strict, options.max_volume_change) && clean;
+        if (!clean) page->set_verdict(refusal(narrow.value()), false);
         Stopwatch writing;
         if (clean) {
             const auto written = write_all(command, inputs.value(), arranged.value(),
@@ -221,7 +234,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         }
         statistics["seconds"]["write"] = writing.lap();
     }
-    page->add_certificate(command.proof.certificate);
+    add_page_certificate(*page, files, command.proof.certificate, clean, session);
     return write_run(*page, statistics, files, total.lap(), clean);
 }
 

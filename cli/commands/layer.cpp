@@ -16,10 +16,10 @@
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/max_move.hpp>
 #include <terrane/cli/options/statistics.hpp>
-#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/layer_stage.hpp>
+#include <terrane/cli/stages/page_output.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
 
 namespace terrane::cli {
@@ -130,11 +130,11 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
     if (const auto possible = check_certificate(command); !possible) return possible.error();
-    auto page = Page::plan(files);
+    auto page = plan_page(files);
     if (!page) return page.error();
     const auto inputs = read_certified_inputs(command.proof.certificate, files, session);
     if (!inputs) return inputs.error();
-    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
+    if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
     Json statistics = statistics_of(inputs.value(), session.times());
     if (const auto sound = examine(inputs.value(), {}, statistics); !sound) return sound.error();
     const auto order = order_of(command, inputs.value());
@@ -148,7 +148,7 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
     if (!layered) return layered.error();
     const RoundedMesh& rounded = layered.value().rounded;
     const bool is_stack = layered->is_stack();
-    page->add_mesh(*inputs, rounded.mesh);
+    page->add_mesh(rounded.mesh);
     say(summary_stream(files),
         text_of(inputs.value(), layered->reports, rounded.report,
                 is_stack ? std::optional(layered->step_width) : std::nullopt));
@@ -164,7 +164,11 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
                                       order.value(), layered.value(), session);
         if (!proved) return proved.error();
     }
-    page->add_certificate(command.proof.certificate);
+    page->set_verdict(is_stack ? "The layers are in order, and their mesh is conforming, by exact "
+                                 "checks."
+                               : "The layers are not in order, or their mesh is not conforming.",
+                      is_stack);
+    add_page_certificate(*page, files, command.proof.certificate, is_stack, session);
     return write_run(*page, statistics, files, total.lap(), is_stack);
 }
 

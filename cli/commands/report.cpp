@@ -17,8 +17,8 @@
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/column.hpp>
 #include <terrane/cli/options/roles.hpp>
-#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/stages/blocks.hpp>
+#include <terrane/cli/stages/page_output.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
@@ -61,21 +61,22 @@ Result<ExitStatus> report_files(const ReportCommand& command, Session& session) 
         return planned.error();
     if (const auto sound = check_volume_options(command.settings.volume); !sound)
         return sound.error();
-    auto page = Page::plan(files);
+    auto page = plan_page(files);
     if (!page) return page.error();
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
     if (const auto set = set_roles(command.roles, *inputs); !set) return set.error();
     const auto naming = naming_of(command.column, *inputs);
     if (!naming) return naming.error();
-    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
-    if (const auto found = page->add_holes(*inputs, session.run()); !found) return found.error();
+    if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
+    if (const auto found = page->add_holes(inputs->surfaces, session.run()); !found)
+        return found.error();
     Json statistics = statistics_of(*inputs, session.times());
 
     auto arranged = arrange_and_round(*inputs, command.settings, session, statistics);
     if (!arranged) return arranged.error();
     print(summary_stream(files), summary(*inputs, *arranged));
-    page->add_arranged(*inputs, *arranged);
+    page->add_arranged(*arranged);
     const bool clean = arranged->rounded.report.clean;
     if (!clean) {
         print(stderr, offending_pairs(*inputs, *arranged));
@@ -85,7 +86,7 @@ Result<ExitStatus> report_files(const ReportCommand& command, Session& session) 
         const auto leaks = judge_leaks(*arranged, *model, session);
         if (!leaks) return leaks.error();
         print(summary_stream(files), model_text(*inputs, *model, *leaks));
-        page->add_model(*inputs, *model, *leaks);
+        page->add_model(*model, *leaks);
         if (const auto sound = examine(*model, *inputs, false, statistics); !sound)
             return sound.error();
     }

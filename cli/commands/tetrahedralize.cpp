@@ -19,10 +19,10 @@
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/column.hpp>
 #include <terrane/cli/options/roles.hpp>
-#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
 #include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
+#include <terrane/cli/stages/page_output.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
 
@@ -155,27 +155,28 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     const auto outputs = plan_outputs(files, OutputKind::tetrahedra);
     if (!outputs) return outputs.error();
     if (const auto sound = check_call(command); !sound) return sound.error();
-    auto page = Page::plan(files);
+    auto page = plan_page(files);
     if (!page) return page.error();
     auto inputs = read_certified_inputs(command.certificate, files, session);
     if (!inputs) return inputs.error();
-    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
+    if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
     const auto roles = roles_of(inputs.value());
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
     const auto naming = naming_of(command.column, *inputs);
     if (!naming) return naming.error();
     Json statistics = statistics_of(inputs.value(), session.times());
     const auto finish = [&](bool good) -> Result<ExitStatus> {
+        add_page_certificate(*page, files, command.certificate, good, session);
         return write_run(*page, statistics, files, total.lap(), good);
     };
 
     auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
     say(summary_stream(files), summary(inputs.value(), arranged.value()));
-    page->add_arranged(*inputs, *arranged);
+    page->add_arranged(*arranged);
     if (!arranged.value().rounded.report.clean) {
-        print(stderr, offending_pairs(inputs.value(), arranged.value()));
-        print(stderr, complaint("no tetrahedra without a conforming mesh; nothing written"));
+        print(stderr, offending_pairs(*inputs, *arranged) +
+                          complaint("no tetrahedra without a conforming mesh; nothing written"));
         return finish(false);
     }
 
@@ -184,14 +185,12 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
                                   session.run(), *naming);
     if (!model) return model.error();
     if (const auto sound = examine(*model, *inputs, true, statistics); !sound) return sound.error();
-    page->add_model(*inputs, *model, std::nullopt);
+    page->add_model(*model, std::nullopt);
     const auto filled = fill(model.value(), wishes.value(), session, statistics);
     if (!filled) return filled.error();
     page->add_tetrahedra(*filled);
-    page->add_certificate(command.certificate);
     say(summary_stream(files), filled_text(filled.value(), inputs->unit));
-    const TetrahedraReport& report = filled.value().report;
-    const bool good = report.violations.empty();
+    const bool good = filled->report.violations.empty();
     Stopwatch writing;
     if (good) {
         const auto written = write_all(filled.value(), outputs.value(), files, session);
@@ -204,7 +203,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
             if (!proved) return proved.error();
         }
     } else {
-        print(stderr, violations_text(report) + complaint("nothing written"));
+        print(stderr, violations_text(filled->report) + complaint("nothing written"));
     }
     statistics["seconds"]["write"] = writing.lap();
     return finish(good);

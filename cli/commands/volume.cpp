@@ -10,7 +10,6 @@
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/column.hpp>
 #include <terrane/cli/options/roles.hpp>
-#include <terrane/cli/page/page.hpp>
 #include <terrane/cli/reports/relation_report.hpp>
 #include <terrane/cli/reports/seal_plot.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
@@ -18,6 +17,7 @@
 #include <terrane/cli/stages/blocks.hpp>
 #include <terrane/cli/stages/cells.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
+#include <terrane/cli/stages/page_output.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
@@ -233,11 +233,11 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
     if (command.suggests) return suggest_seal(command, session);
     const auto grid = read_grid(command.cells);
     if (!grid) return grid.error();
-    auto page = Page::plan(files);
+    auto page = plan_page(files);
     if (!page) return page.error();
     auto inputs = read_certified_inputs(command.certificate, files, session);
     if (!inputs) return inputs.error();
-    if (const auto added = page->add_inputs(*inputs); !added) return added.error();
+    if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
     const auto roles = roles_of(inputs.value());
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
     const auto naming = naming_of(command.column, *inputs);
@@ -247,7 +247,7 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
     auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
     say(summary_stream(files), summary(inputs.value(), arranged.value()));
-    page->add_arranged(*inputs, *arranged);
+    page->add_arranged(*arranged);
     const bool clean = arranged.value().rounded.report.clean;
     if (!clean) {
         print(stderr, offending_pairs(inputs.value(), arranged.value()));
@@ -258,7 +258,7 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         const auto leaks = judge_leaks(*arranged, *model, session);
         if (!leaks) return leaks.error();
         say(summary_stream(files), model_text(*inputs, *model, *leaks));
-        page->add_model(*inputs, *model, *leaks);
+        page->add_model(*model, *leaks);
         if (const auto sound = examine(*model, *inputs, true, statistics); !sound)
             return sound.error();
         Stopwatch writing;
@@ -281,7 +281,7 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         }
         statistics["seconds"]["write"] = writing.lap();
     }
-    page->add_certificate(command.certificate);
+    add_page_certificate(*page, files, command.certificate, clean, session);
     return write_run(*page, statistics, files, total.lap(), clean);
 }
 

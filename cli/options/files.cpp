@@ -12,9 +12,9 @@
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/session/console.hpp>
-#include <terrane/cli/session/quantities.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/text/text.hpp>
+#include <terrane/io/text/units.hpp>
 
 namespace terrane::cli {
 
@@ -235,7 +235,7 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
 
 void describe(std::span<const Surface> surfaces, Inputs& inputs) {
     inputs.labels = unique_labels(infos_of(surfaces));
-    inputs.unit = common_unit(surfaces);
+    inputs.unit = detail::common_unit(surfaces);
 }
 
 std::string name_of_inputs(const FileOptions& options) {

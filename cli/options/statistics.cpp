@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/cli/options/statistics.hpp>
 
+#include <cstdint>
 #include <string>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <terrane/algorithms/triangulation/point_surface.hpp>
+#include <terrane/cli/session/text_width.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 
 namespace terrane::cli {
@@ -110,6 +112,16 @@ std::string text_of(const Json& json) {
     for (std::size_t i = 0; i < dumped.size(); ++i) {
         const auto code = static_cast<unsigned char>(dumped[i]);
         const bool is_second_set = code == 0xC2 && static_cast<unsigned char>(dumped[i + 1]) < 0xA0;
+        if (code == 0xE2) { // dump() has made it UTF-8
+            const auto second = static_cast<unsigned char>(dumped[i + 1]) & 0x3FU;
+            const auto third = static_cast<unsigned char>(dumped[i + 2]) & 0x3FU;
+            const char32_t character = 0x2000U | second << 6U | third;
+            if (reorders(character)) {
+                text += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(character));
+                i += 2;
+                continue;
+            }
+        }
         if (code == 0x7F || is_second_set) // controls that JSON allows, and terminals obey
             text += fmt::format("\\u{:04x}",
                                 is_second_set ? static_cast<unsigned char>(dumped[++i]) : code);

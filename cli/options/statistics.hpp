@@ -41,7 +41,8 @@ Status write_statistics(Json json, const std::string& path, double total_seconds
 /// Returns the peak resident memory of the process in MiB.
 double peak_memory();
 
-/// Returns indented text; bytes that are not UTF-8 become U+FFFD, and control characters are escaped.
+/// Returns indented text; bytes that are not UTF-8 become U+FFFD, and control characters, and those that
+/// change the direction of text, are escaped.
 std::string text_of(const Json& json);
 
 } // namespace terrane::cli

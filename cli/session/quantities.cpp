@@ -28,17 +28,6 @@ std::string powered(const std::string& unit, int dimension) {
 
 } // namespace
 
-std::string common_unit(std::span<const Surface> surfaces) {
-    std::string unit;
-    for (const Surface& s : surfaces)
-        for (const std::string& stated : {s.frame.horizontal_unit, s.frame.vertical_unit}) {
-            if (stated.empty()) continue;
-            if (!unit.empty() && stated != unit) return {};
-            unit = stated;
-        }
-    return unit;
-}
-
 std::string Quantities::length(double value, int digits) const {
     return with_unit(value, digits, 1);
 }

@@ -3,17 +3,10 @@
 // Lengths, areas and volumes with their units, where the unit of the coordinates is known.
 #pragma once
 
-#include <span>
 #include <string>
 #include <utility>
 
-#include <terrane/algorithms/mesh/surface.hpp>
-
 namespace terrane::cli {
-
-/// Returns the unit of x, y and z that the files of the surfaces state; empty if none does, or if
-/// two of them differ.
-std::string common_unit(std::span<const Surface> surfaces);
 
 /// Writes numbers with a unit. From 10 km on, 0.1 square kilometres and 0.1 cubic kilometres,
 /// metres become kilometres. Without a unit the number stands alone.

@@ -4,8 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <utility>
+
+#include <fmt/format.h>
+
+#include <terrane/cli/session/text_width.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -41,11 +46,34 @@ std::size_t sequence_length(std::string_view text, std::size_t at) {
     return length;
 }
 
-/// Tells whether the bytes are a control character, or one for an 8-bit terminal.
+/// Returns the code of a character of at most three bytes; 0 for longer ones.
+char32_t code_of(std::string_view bytes) {
+    const auto at = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+    switch (bytes.size()) {
+    case 1:
+        return at(0);
+    case 2:
+        return (at(0) & 0x1FU) << 6U | (at(1) & 0x3FU);
+    case 3:
+        return (at(0) & 0x0FU) << 12U | (at(1) & 0x3FU) << 6U | (at(2) & 0x3FU);
+    default:
+        return 0;
+    }
+}
+
+/// Tells whether the bytes are a control character, one for an 8-bit terminal, or one that changes
+/// the direction of what follows.
 bool is_control(std::string_view bytes) {
-    const auto first = static_cast<unsigned char>(bytes[0]);
-    if (bytes.size() == 1) return first < 0x20 || first == 0x7F || (first >= 0x80 && first < 0xA0);
-    return bytes.size() == 2 && first == 0xC2 && static_cast<unsigned char>(bytes[1]) < 0xA0;
+    const char32_t code = code_of(bytes);
+    const bool is_old = code < 0x20 || (code >= 0x7F && code < 0xA0);
+    return bytes.size() <= 2 ? is_old : reorders(code);
+}
+
+/// Writes a control character as its code, a stray byte as "\x9b".
+std::string visible(std::string_view bytes) {
+    const auto code = static_cast<std::uint32_t>(code_of(bytes));
+    const bool stray = bytes.size() == 1 && code >= 0x80;
+    return stray ? fmt::format("\\x{:02x}", code) : fmt::format("\\u{:04x}", code);
 }
 
 } // namespace
@@ -97,7 +125,7 @@ std::string rendered(std::string_view text, bool coloured) {
             if (coloured) result += sequences[static_cast<unsigned char>(c)];
             open = coloured && c != end_mark;
         } else if (c != '\n' && c != '\t' && is_control(bytes)) {
-            result += ' ';
+            result += visible(bytes);
         } else {
             if (c == '\n' && std::exchange(open, false)) result += sequences[end_mark];
             result += bytes;

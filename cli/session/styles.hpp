@@ -22,9 +22,9 @@ std::string heading(std::string_view text);  ///< of a table or list: bold
 std::string with_headings(std::string_view help);
 
 /// Returns a text as it goes to a stream: marks become colours or vanish, and control characters
-/// other than line ends and tabs become blanks, so that no name can move the cursor or choose a
-/// colour. Controls of two bytes (U+0080 to U+009F) and stray bytes that 8-bit terminals take for
-/// them are among those.
+/// other than line ends and tabs become their codes ("\u001b"), so that no name can move the cursor,
+/// choose a colour, or turn the text round. Controls of two bytes (U+0080 to U+009F), stray bytes
+/// that 8-bit terminals take for them, and what reorders() are among those.
 std::string rendered(std::string_view text, bool coloured);
 
 /// Tells whether a text is ASCII without marks and controls, so that it is rendered as it is. Texts may

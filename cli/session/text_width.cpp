@@ -32,6 +32,7 @@ public:
         wchar_t character = 0;
         const std::size_t bytes = std::mbrtowc(&character, text.data(), text.size(), &state);
         if (bytes == 0 || bytes > text.size()) return {}; // not UTF-8
+        if (reorders(static_cast<char32_t>(character))) return {bytes, code_width};
         return {bytes, static_cast<std::size_t>(std::max(wcwidth(character), 0))};
     }
 

@@ -10,6 +10,15 @@
 
 namespace terrane::cli {
 
+/// Tells whether a character of three bytes in UTF-8 changes the direction or the line of the text
+/// behind it: U+2028 to U+202E, without the marks of single characters, and U+2066 to U+2069. It is
+/// written as its code, "\u202e", which is code_width columns wide.
+constexpr bool reorders(char32_t character) {
+    return (character >= 0x2028 && character <= 0x202E) ||
+           (character >= 0x2066 && character <= 0x2069);
+}
+inline constexpr std::size_t code_width = 6;
+
 /// Names that are wider do not widen a column; they push what follows in their own row.
 inline constexpr std::size_t widest_column = 60;
 

@@ -13,6 +13,10 @@
 
 namespace terrane::cli {
 
+/// The verdict about a mesh that binary STL cannot hold.
+inline constexpr const char* not_conforming_in_stl =
+    "In float32, all that binary STL holds, the mesh is not conforming.";
+
 /// Checks the float32 coordinates that binary STL would hold, which are not the doubles that were
 /// verified. Warns and returns false if the mesh is not conforming with them.
 Result<bool> stl_is_conforming(const Mesh& mesh, const FileOptions& files,

@@ -69,4 +69,15 @@ MaybeError convert_units(Surface& surface, std::string_view unit) {
     return std::nullopt;
 }
 
+std::string common_unit(std::span<const Surface> surfaces) {
+    std::string unit;
+    for (const Surface& s : surfaces)
+        for (const std::string& stated : {s.frame.horizontal_unit, s.frame.vertical_unit}) {
+            if (stated.empty()) continue;
+            if (!unit.empty() && stated != unit) return {};
+            unit = stated;
+        }
+    return unit;
+}
+
 } // namespace terrane::detail

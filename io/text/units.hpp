@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -23,5 +24,9 @@ std::optional<double> metres_in(std::string_view unit);
 /// Converts what has a stated unit and states the new one. Errors: bad_option for a unit that is
 /// not known; unsupported if the file states such a one; bad_number if a coordinate overflows.
 MaybeError convert_units(Surface& surface, std::string_view unit);
+
+/// Returns the unit of x, y and z that the files of the surfaces state; empty if none does, or if
+/// two of them differ.
+std::string common_unit(std::span<const Surface> surfaces);
 
 } // namespace terrane::detail

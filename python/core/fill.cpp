@@ -10,6 +10,7 @@
 
 #include "handles.hpp"
 #include "surfaces.hpp"
+#include "work_handle.hpp"
 
 namespace terrane::python {
 
@@ -90,21 +91,23 @@ Result<FillWork> filled(const std::vector<Surface>& surfaces, const FillOptions&
 py::tuple fill(const py::sequence& surfaces, const py::dict& options,
                const std::optional<std::vector<std::size_t>>& numbers, const HowToRun& how) {
     auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(surfaces));
-    auto work = run_stage(how, [given, o = to_options(options), numbers](const Run& run) {
-        return filled(*given, o, numbers, run);
-    });
+    const auto work = std::make_shared<FillWork>(
+        run_stage(how, [given, o = to_options(options), numbers](const Run& run) {
+            return filled(*given, o, numbers, run);
+        }));
     py::list holes;
-    for (const NumberedHole& h : work.holes)
-        holes.append(py::make_tuple(h.number, to_tuple_of(loop_of(work, h)), to_object(h.report),
+    for (const NumberedHole& h : work->holes)
+        holes.append(py::make_tuple(h.number, to_tuple_of(loop_of(*work, h)), to_object(h.report),
                                     to_text(h.refused)));
-    HoledSurface& s = work.surfaces.at(0);
-    return py::make_tuple(from_surface(std::move(s.filled)), s.given_vertices, s.given_triangles,
-                          owned(std::move(s.deviation)), owned(std::move(s.invented)), holes);
+    const HoledSurface& s = work->surfaces.at(0); // kept as it is for reports
+    return py::make_tuple(from_surface(s.filled), s.given_vertices, s.given_triangles,
+                          owned(s.deviation), owned(s.invented), holes, work);
 }
 
 } // namespace
 
 void bind_fill(py::module_& module) {
+    const py::class_<FillWork, WorkPointer> work(module, "FillWork"); // a handle for reports
     module.def("border_loops", &border_loops, "surfaces"_a, "gap_slope"_a, "how"_a);
     module.def("fill", &fill, "surfaces"_a, "options"_a, "numbers"_a, "how"_a);
 }

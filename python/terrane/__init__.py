@@ -29,6 +29,7 @@ from ._model import Juxtaposition, Leak, Model, Relation, model
 from ._parts import Block, Blocks, Interface
 from ._project import Built, build
 from ._quality import Improved, distance, improve
+from ._report import HAS_REPORTS
 from ._sealing import (ClosedGap, OpenGap, SealAdvice, SealChange, Sealed, SealTrial, seal,
                        suggest_seal)
 from ._surface import ROLES, Frame, Surface, as_surface, as_surfaces
@@ -48,7 +49,7 @@ __version__: str = _core.version
 __all__ = [
     "Arrangement", "Block", "BlockParts", "Blocks", "BorderLoop", "Built", "CheckReport", "ClosedGap",
     "Contact", "Corner", "ERROR_CODES", "Error", "FillReport", "Filled", "FilledHole", "Frame",
-    "Improved", "IndexLists", "Interface", "InterfaceParts", "Juxtaposition", "LayerReport", "Layered",
+    "HAS_REPORTS", "Improved", "IndexLists", "Interface", "InterfaceParts", "Juxtaposition", "LayerReport", "Layered",
     "Leak", "Line", "Mesh", "Model", "NO_INDEX", "OpenBorder", "OpenGap", "OutOfMemory", "OutOfOrder",
     "Patch", "ROLES", "Region", "RegionVolume", "Regions", "Relation", "RoundedMesh", "RoundingReport",
     "RuleViolation", "SealAdvice", "SealChange", "SealTrial", "Sealed", "Structure", "Surface",

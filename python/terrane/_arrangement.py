@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from fractions import Fraction
 from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
@@ -12,6 +13,7 @@ from . import _core
 from ._arrays import Float64Array, IndexLists, Point, SurfaceInfo, UInt32Array, as_count, as_number
 from ._errors import bad_option
 from ._mesh import CheckReport, Contact, Mesh, Path, Region, Regions, mesh_of, require_conforming
+from ._report import facts
 from ._results import Result, counted
 from ._run import how
 from ._surface import Surface, as_surfaces, parts_of_surfaces, surface_of_parts
@@ -125,6 +127,30 @@ class Arrangement(Result):
         'sha256:4dbe9ddec'
         """
         return _core.digest(parts_of_surfaces(_inputs(self)), self._core, how(threads, None))
+
+    def report(self, path: Path, *, threads: Optional[int] = None) -> None:
+        """Write the page of ``terrane arrange --report``: one HTML file with the mesh of doubles, as `round` makes it.
+
+        A mesh that is not conforming is shown with its improper contacts.
+
+        Raises
+        ------
+        terrane.Error
+            ``unsupported`` in a build without report pages, which says why; those of `round`; ``cannot_open`` and
+            ``write_failed`` for the file.
+
+        Examples
+        --------
+        >>> import os, terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "top")
+        >>> if terrane.HAS_REPORTS:
+        ...     terrane.arrange([flat]).report("top.html")
+        >>> os.path.exists("top.html") == terrane.HAS_REPORTS
+        True
+        """
+        surfaces = _inputs(self)
+        _core.report_arrangement(self._core, parts_of_surfaces(surfaces), os.fspath(path),
+                                 facts("Arrangement.report", [s.name for s in surfaces], {}), how(threads, None))
 
     def to_pyvista(self) -> Any:
         """Return a ``pyvista.PolyData`` of the nearest doubles. Needs PyVista."""

@@ -4,14 +4,16 @@
 from __future__ import annotations
 
 import math
+import os
 from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _core
 from ._arrays import Float64Array, Int32Array, Point, UInt32Array, as_count, as_number
-from ._errors import bad_option
+from ._errors import Error, bad_option
 from ._mesh import Path
+from ._report import facts
 from ._results import Result, counted
 from ._run import how
 from ._surface import Surface, as_surface, parts_of_surfaces, surface_of_parts
@@ -86,10 +88,13 @@ class Filled(Result):
     holes : list of FilledHole
     """
 
-    __slots__ = ("surface", "given_vertices", "given_triangles", "expected_error", "hole_of", "holes")
+    __slots__ = ("surface", "given_vertices", "given_triangles", "expected_error", "hole_of", "holes", "_work", "_options")
 
     def __init__(self, surface: Surface, given_vertices: int, given_triangles: int,
-                 expected_error: Float64Array, hole_of: Int32Array, found: List[FilledHole]) -> None:
+                 expected_error: Float64Array, hole_of: Int32Array, found: List[FilledHole],
+                 work: Optional[_core.FillWork] = None, options: Optional[Dict[str, Any]] = None) -> None:
+        self._work = work  # for reports; a pickle has none
+        self._options = options or {}
         self.surface = surface
         self.given_vertices = given_vertices
         self.given_triangles = given_triangles
@@ -100,6 +105,32 @@ class Filled(Result):
     def save(self, path: Path, format: Optional[str] = None) -> None:
         """Write the surface."""
         self.surface.save(path, format)
+
+    def report(self, path: Path, *, threads: Optional[int] = None) -> None:
+        """Write the report page of ``terrane fill --report``: one HTML file with the filled surface and its numbers.
+
+        Raises
+        ------
+        terrane.Error
+            ``unsupported`` in a build without report pages, and of what comes from a pickle, which does not hold how
+            holes were filled; ``cannot_open`` and ``write_failed`` for the file.
+
+        Examples
+        --------
+        >>> import os, terrane
+        >>> x = [(i, j, 0.1 * i) for j in range(6) for i in range(6)]
+        >>> cells = [(i + 6 * j) for j in range(5) for i in range(5) if (i, j) != (2, 2)]
+        >>> t = [t for c in cells for t in ((c, c + 1, c + 7), (c, c + 7, c + 6))]
+        >>> if terrane.HAS_REPORTS:
+        ...     terrane.fill(terrane.Surface(x, t)).report("filled.html")
+        >>> os.path.exists("filled.html") == terrane.HAS_REPORTS
+        True
+        """
+        if self._work is None:
+            raise Error("unsupported", "what comes from a pickle has no report; fill again", os.fspath(path))
+        run = how(threads, None)
+        _core.report_filled(self._work, parts_of_surfaces([self.surface]), os.fspath(path),
+                            facts("Filled.report", [self.surface.name], self._options), run)
 
     def to_pyvista(self) -> Any:
         """Return a ``pyvista.PolyData`` with ``hole`` and ``expected_error``. Needs PyVista."""
@@ -202,4 +233,5 @@ def fill(surface: Any, *, method: str = "kriging", holes: Optional[Sequence[int]
                "isotropic": bool(isotropic), "bridge": bool(bridge_faults), "smoothing": smooth}
     numbers = None if holes is None else [as_count(h, "holes") for h in holes]
     made = _core.fill(parts_of_surfaces([as_surface(surface)]), options, numbers, how(threads, progress))
-    return Filled(surface_of_parts(made[0]), made[1], made[2], made[3], made[4], _holes_of(made[5]))
+    return Filled(surface_of_parts(made[0]), made[1], made[2], made[3], made[4], _holes_of(made[5]),
+                  made[6], options)

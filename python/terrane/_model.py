@@ -16,6 +16,7 @@ from ._blocks import Structure, Volumes
 from ._errors import Error, bad_option
 from ._mesh import Mesh, Path
 from ._parts import Block, Blocks, Interface
+from ._report import facts
 from ._results import Result, counted
 from ._run import how
 from ._surface import as_surfaces, parts_of_surfaces
@@ -245,6 +246,48 @@ class Model(Result):
         `format` is that of blocks and interfaces. The folder must not exist, or be empty.
         """
         self._core.save(os.fspath(folder), format, how(threads, None))
+
+    def report(self, path: Path, *, threads: Optional[int] = None) -> None:
+        """Write the page of ``terrane report``: one HTML file that shows the model, what is wrong with it, and its numbers.
+
+        Every browser opens it, from disk. The page has the bytes of the program's as far as both know the same: it lacks
+        input files, times and statistics.
+
+        Parameters
+        ----------
+        path : path
+            The file, which is replaced if it is there. Lengths, areas and volumes in it are in the unit of the input.
+
+        Raises
+        ------
+        terrane.Error
+            ``unsupported`` in a build without report pages, which says why; ``cannot_open`` and ``write_failed`` for
+            the file.
+
+        Examples
+        --------
+        >>> import os, terrane
+        >>> model = terrane.model(terrane.box((0, 0, 0), (1, 1, 1)))
+        >>> if terrane.HAS_REPORTS:
+        ...     model.report("model.html")
+        >>> os.path.exists("model.html") == terrane.HAS_REPORTS
+        True
+        """
+        self._report(path, "Model.report", None, threads)
+
+    def _report(self, path: Path, command: str, tetrahedra: Optional[_core.Tetrahedra], threads: Optional[int]) -> None:
+        """Write the page of the model, with the tetrahedra that fill it."""
+        made = self._made_by
+        options: Dict[str, Any] = {}
+        while made[0] == "improved":
+            options = {**made[2], **options}
+            made = made[1]
+        surfaces: List[Any] = []
+        if made[0] == "model":
+            surfaces = made[1]
+            options = {**made[3], **options}
+        about = facts(command, [s.name for s in surfaces] or self.labels, options)
+        _core.report_model(self._core, tetrahedra, parts_of_surfaces(surfaces), os.fspath(path), about, how(threads, None))
 
     def to_pyvista(self) -> Any:
         """Return a ``pyvista.MultiBlock`` of the blocks by name. Needs PyVista."""

@@ -58,10 +58,11 @@ class Tetrahedra(Result):
         By number.
     """
 
-    __slots__ = ("_core",)
+    __slots__ = ("_core", "_model")
 
-    def __init__(self, core: _core.Tetrahedra) -> None:
+    def __init__(self, core: _core.Tetrahedra, model: Optional[Model] = None) -> None:
         self._core = core
+        self._model = model  # that they fill, for reports; a pickle has none
 
     @property
     def surfaces(self) -> List[SurfaceInfo]:
@@ -163,6 +164,27 @@ class Tetrahedra(Result):
     def save(self, path: Path, format: Optional[str] = None, *, compress: bool = True) -> None:
         """Write the tetrahedra as .vtu, .msh, .inp or .mesh, as ``terrane tetrahedralize`` does."""
         _core.write_tetrahedra(self._core, os.fspath(path), format, compress, how(1, None))
+
+    def report(self, path: Path, *, threads: Optional[int] = None) -> None:
+        """Write the page of the model with its tetrahedra: one HTML file, as `Model.report`.
+
+        Raises
+        ------
+        terrane.Error
+            As `Model.report`; ``unsupported`` also of tetrahedra from a pickle or a project, which do not hold their model.
+
+        Examples
+        --------
+        >>> import os, terrane
+        >>> cells = terrane.tetrahedralize(terrane.model(terrane.box((0, 0, 0), (1, 1, 1))))
+        >>> if terrane.HAS_REPORTS:
+        ...     cells.report("cells.html")
+        >>> os.path.exists("cells.html") == terrane.HAS_REPORTS
+        True
+        """
+        if self._model is None:
+            raise Error("unsupported", "these tetrahedra do not hold their model, so they have no report", os.fspath(path))
+        self._model._report(path, "Tetrahedra.report", self._core, threads)
 
     def to_pyvista(self) -> Any:
         """Return a ``pyvista.UnstructuredGrid`` with the array ``region``. Needs PyVista."""
@@ -278,7 +300,7 @@ def tetrahedralize(model: Model, *, edge_length: Optional[float] = None,
         "size_of": {k: as_number(v, f"size_of[{k!r}]", positive=True) for k, v in (size_of or {}).items()},
         "size_in": sizes_in, "split": [split] if isinstance(split, str) else list(split),
         "outside": bool(outside), "optimise": bool(optimise)}
-    made = Tetrahedra(_core.fill_blocks(model._core, options, how(threads, progress)))
+    made = Tetrahedra(_core.fill_blocks(model._core, options, how(threads, progress)), model)
     if made.violations:
         raise Error("internal", "; ".join(v.first for v in made.violations), "tetrahedra")
     return made

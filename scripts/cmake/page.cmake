@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 #
-# Bundles the report page (cli/page/web) with npm's packages and sets page_source to the C++ file that holds it.
+# Bundles the report page (io/page/web) with npm's packages and sets page_source to the C++ file that holds it.
 # Without Node.js, npm or the packages, page_source is a file without a page, and the program says so.
 set(page_packages ${PROJECT_BINARY_DIR}/page)
-set(page_web ${PROJECT_SOURCE_DIR}/cli/page/web)
+set(page_web ${PROJECT_SOURCE_DIR}/io/page/web)
 set(page_missing "")
 if(NOT TERRANE_REPORT)
   set(page_missing "TERRANE_REPORT is off")
@@ -28,7 +28,7 @@ if(NOT page_missing)
     execute_process(COMMAND ${NPM_PROGRAM} ci --ignore-scripts --no-audit --no-fund WORKING_DIRECTORY ${page_packages}
                     RESULT_VARIABLE page_failed OUTPUT_QUIET ERROR_QUIET)
     if(page_failed)
-      set(page_missing "npm could not install the packages of cli/page/web")
+      set(page_missing "npm could not install the packages of io/page/web")
     else()
       file(WRITE ${page_packages}/installed ${page_lock})
     endif()
@@ -38,7 +38,7 @@ endif()
 if(page_missing)
   message(STATUS "${page_missing}: no report pages (terrane report, --report)")
   set(page_source ${PROJECT_BINARY_DIR}/no_page.cpp)
-  configure_file(${PROJECT_SOURCE_DIR}/cli/page/no_bundle.cpp.in ${page_source} COPYONLY)
+  configure_file(${PROJECT_SOURCE_DIR}/io/page/no_bundle.cpp.in ${page_source} @ONLY)
 else()
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page_web}/package-lock.json)
   file(GLOB page_sources CONFIGURE_DEPENDS ${page_web}/src/*)

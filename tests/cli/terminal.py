@@ -231,10 +231,15 @@ def check_names(folder):
         said = done.stdout + done.stderr
         expect(not re.search(rb"[\x00-\x08\x0b-\x1f\x7f]|\xc2[\x80-\x9f]", said), f"{words} shows no control", said)
         expect(not re.search(rb"(?<![\x80-\xf4])[\x80-\x9f]", said), f"{words} shows no 8-bit control", said)
+        expect("\u202e".encode() not in said, f"{words} lets no name turn the text round", said)
         seen = on_terminal(*words, folder=folder).text
+        expect("\u202e" not in seen, f"{words} lets no name turn the text round on a terminal", seen)
         colours = set(re.findall(r"\x1b.{0,4}", re.sub(r"\x1b\[(1|3[123]|0)m|\r\x1b\[K", "", seen)))
         expect(not colours, f"{words} sends sequences of names to a terminal", colours)
         expect(f"{ESCAPE}[31mred" not in seen, f"{words} lets a name choose its colour", seen)
+    found = in_pipes("check", "hostile.obj", "--json", folder=folder).stdout
+    names = [surface["name"] for surface in json.loads(found)["surfaces"]]
+    expect(rb"\u202e" in found and any("\u202e" in name for name in names), "JSON holds the name, with an escape", names)
 
 
 def check_tables(folder):

@@ -112,11 +112,12 @@ TEST_CASE("styles: marks become colours, or nothing") {
 }
 
 TEST_CASE("styles: no text has other control characters than ours") {
-    CHECK(rendered("a\x1b[31mb\r\b\x07\x7f\tc\n", true) == "a [31mb    \tc\n");
+    CHECK(rendered("a\x1b[31mb\r\b\x07\x7f\tc\n", true) ==
+          "a\\u001b[31mb\\u000d\\u0008\\u0007\\u007f\tc\n");
     CHECK(rendered("\xc2\x9b"
                    "31m \x9b"
                    "31m",
-                   true) == " 31m  31m");
+                   true) == "\\u009b31m \\x9b31m");
     CHECK(rendered("砂é\u200f\xf0\x9f\x8c\x8b", true) == "砂é\u200f\xf0\x9f\x8c\x8b");
     CHECK(rendered(bad("a\x05\x01z"), true) == "\033[31ma  z\033[0m");
     CHECK(rendered("a\x02z\nb", true) == "a\033[31mz\033[0m\nb"); // ends with its line
@@ -124,5 +125,14 @@ TEST_CASE("styles: no text has other control characters than ours") {
     for (const std::string_view text : {"\x1b", "\x01", "\x7f", "\r", "é"})
         CHECK_FALSE(is_plain(text));
     CHECK(rendered("\x02z", true) == "\033[31mz\033[0m");
-    CHECK(rendered("\xe7\x9b", false) == "\xe7 "); // a sequence cut short
+    CHECK(rendered("\xe7\x9b", false) == "\xe7\\x9b"); // a sequence cut short
+}
+
+TEST_CASE("styles: no name turns the text behind it round") {
+    CHECK(rendered("a\u202eb\u2066c\u2069\u2028d", true) == "a\\u202eb\\u2066c\\u2069\\u2028d");
+    for (const std::string_view kept : {"\u200e", "\u200f", "\u2027", "\u202f", "\u2065", "\u206a"})
+        CHECK(rendered(kept, true) == kept); // marks and blanks change no order but their own
+    CHECK(width_of("a\u202eb") == width_of(rendered("a\u202eb", false)));
+    CHECK(padded("\u2067", 8) == "\u2067  ");
+    CHECK(cut_to("\u2067ab", 7) == "\u2067a");
 }

@@ -230,7 +230,7 @@ def write_json_files(program, folder):
         run("tetrahedralize", *model, *box, "-o", "t.vtu", "--stats", "tetrahedra.json")
         statistics.append("tetrahedra.json")
     if has_pages(program):
-        run("report", *model, *box, "-o", "report.html")
+        run("volume", *model, *box, "-o", "reported", "--certificate", "reported.json", "--report", "report.html")
         run("fill", "--depth", "seabed.asc", "-o", "p.vtp", "--report", "filled.html")
         unpack_page(folder / "report.html"), unpack_page(folder / "filled.html")
     return {"report.md": sorted(str(p) for p in folder.glob("*.content.json")),

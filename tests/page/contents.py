@@ -10,12 +10,14 @@ import base64
 import gzip
 import hashlib
 import json
+import os
 import pathlib
 import re
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DATA = ROOT / "tests/data"
@@ -29,10 +31,15 @@ def check(holds, what, *details):
         flaws.append(what + "".join(f": {str(d)[:300]}" for d in details))
 
 
-def run(folder, *words):
+def run(folder, *words, **environment):
     """Runs the program; returns its status and messages."""
-    done = subprocess.run([PROGRAM, *map(str, words)], cwd=folder, capture_output=True, text=True)
+    done = subprocess.run([PROGRAM, *map(str, words)], cwd=folder, capture_output=True, text=True, env={**os.environ, **environment})
     return done.returncode, done.stderr
+
+
+def rows(content, title):
+    """Returns the rows of a table."""
+    return next(t["rows"] for t in content["tables"] if t["title"] == title)
 
 
 def parts(page):
@@ -165,19 +172,112 @@ def check_commands(folder):
     check(status == 2 and not (folder / "x.obj").exists(), "a missing folder is found before the work", said)
 
 
+def check_layers(folder):
+    """The page of layers has their mesh and verdict."""
+    words = ("layer", "two.ts", "--layer", "steep=2", "--layer", "flat=1", "-o", "l.obj", "--certificate", "l.json")
+    status, said = run(folder, *words, "--report", "layer.html")
+    check(status == 0, "layers are made", said)
+    content, *_ = parts((folder / "layer.html").read_text())
+    check(content["command"] == "layer" and content["verdict"]["good"] and "in order" in content["verdict"]["text"], "the verdict on layers", content["verdict"])
+    shared = [p for p in content["parts"] if len(p["surfaces"]) == 2]
+    check(len(shared) == 1 and shared[0]["count"] > 0, "where one layer replaced the other, triangles are of both", content["parts"])
+    check(content["certificates"][0]["valid"] is True, "the certificate of layers is valid", content["certificates"])
+
+
+def check_certificates(folder):
+    """The page says what `terrane verify` says, or that there is no certificate."""
+    model = DATA / "ringmesh/modelA1.ml"
+    status, said = run(folder, "volume", model, "-o", "proved", "--certificate", "proved.json", "--report", "p.html", "--quiet")
+    content, *_ = parts((folder / "p.html").read_text())
+    verdict = subprocess.run([PROGRAM, "verify", "proved.json"], cwd=folder, capture_output=True, text=True).stdout
+    lines = [row[1] for row in rows(content, "Verdict") if row[0] == "certificate proved.json"]
+    check(status == 0 and lines and "\n".join(["proved.json: " + lines[0], *lines[1:], ""]) == verdict, "the verdict is that of terrane verify", lines, verdict, said)
+    check(content["certificates"] == [{"file": "proved.json", "valid": True, "lines": lines}], "it is in the JSON", content["certificates"])
+    check(lines and lines[0].startswith("valid: "), "it says valid", lines)
+    check(rows(content, "Options") == [["--certificate", "proved.json"]], "options that change no result are not listed", rows(content, "Options"))
+    run(folder, "arrange", "two.ts", "-o", "a.obj", "--report", "p.html")
+    content, *_ = parts((folder / "p.html").read_text())
+    check(content["certificates"] == [] and ["certificate", "None was asked for."] in rows(content, "Verdict"), "no certificate was asked for", rows(content, "Verdict"))
+    far = square("far", 5, ((1e9, 0), (1e9 + 9, 0), (1e9 + 9, 9), (1e9, 9)))  # whose triangles have no area in float32
+    (folder / "far.ts").write_text(far)
+    check(run(folder, "improve", "far.ts", "-o", "far.obj", "--certificate", "far.json")[0] == 0, "a certificate of an earlier run")
+    status, said = run(folder, "improve", "far.ts", "-o", "far.stl", "--certificate", "far.json", "--report", "far.html")
+    content, *_ = parts((folder / "far.html").read_text())
+    check(status == 1 and content["certificates"] == [{"file": "far.json", "valid": None, "lines": ["Not written, as nothing was."]}],
+          "a certificate of an earlier run is not judged", status, content["certificates"])
+    check(not content["verdict"]["good"] and "float32" in content["verdict"]["text"], "the verdict says why", content["verdict"])
+    status, said = run(folder, "arrange", "two.ts", "-o", "a.obj", "--certificate", "-", "--report", "out.html", "--quiet")
+    if status == 0:
+        content, *_ = parts((folder / "out.html").read_text())
+        check("standard output" in content["certificates"][0]["lines"][0], "one on standard output is not judged", content["certificates"])
+    project = {"format": "terrane-project 1", "surfaces": [{"file": str(model)}],
+               "outputs": {"surfaces": ["obj"], "blocks": "vtp", "certificate": True}}
+    (folder / "q.json").write_text(json.dumps(project))
+    status, said = run(folder, "build", "q.json", "-o", "certified", "--report", "q.html")
+    content, *_ = parts((folder / "q.html").read_text())
+    found = {pathlib.Path(c["file"]).name: c["valid"] for c in content["certificates"]}
+    check(status == 0 and found == {"certificate.json": True, "certificate_blocks.json": True}, "those of a project", found, said, content["certificates"])
+
+
+def opener(folder, name):
+    """Writes a program that notes what it is asked to open."""
+    script = folder / name
+    script.write_text(f'#!/bin/sh\nprintf "%s\\n" "$1" > "{folder}/asked.tmp"\nmv "{folder}/asked.tmp" "{folder}/asked-{name}"\n')
+    script.chmod(0o755)
+    return script
+
+
+def asked(folder, name):
+    """Returns what the opener was asked to open; the program does not wait for it."""
+    note = folder / f"asked-{name}"
+    for _ in range(200):
+        if note.exists():
+            path = note.read_text().strip()
+            note.unlink()
+            return path
+        time.sleep(0.05)
+    return ""
+
+
+def check_view(folder):
+    """`terrane view` opens the page of surfaces, or a page, by BROWSER or xdg-open."""
+    tools, temporary = folder / "tools", folder / "temporary"
+    tools.mkdir()
+    temporary.mkdir()
+    opener(tools, "xdg-open"), opener(tools, "mine")
+    usual = {"PATH": f"{tools}:{os.environ['PATH']}", "TMPDIR": str(temporary), "BROWSER": ""}
+    status, said = run(folder, "view", "two.ts", **usual)
+    page = pathlib.Path(asked(tools, "xdg-open"))
+    check(status == 0 and page.name == "two.html" and page.parent.parent == temporary, "xdg-open gets a page in a new folder", page, said)
+    check(page.is_file() and parts(page.read_text())[0]["command"] == "view", "the page is there when it is opened")
+    status, said = run(folder, "view", "two.ts", **{**usual, "BROWSER": str(tools / "mine")})
+    second = pathlib.Path(asked(tools, "mine"))
+    check(status == 0 and second.is_file() and second.parent != page.parent, "BROWSER goes first, and each page has a folder", second, said)
+    check(not (tools / "asked-xdg-open").exists(), "only one program is asked")
+    status, said = run(folder, "view", "layer.html", **usual)
+    check(status == 0 and asked(tools, "xdg-open") == "layer.html", "a page is opened as it is", said)
+    before = sorted(temporary.iterdir())
+    check(run(folder, "view", "bad.obj", **usual)[0] == 2 and sorted(temporary.iterdir()) == before, "bad input leaves no folder")
+    check(run(folder, "view", "none.html", **usual)[0] == 2, "a page that is not there is not opened")
+    for words, wanted in ((("layer.html",), 2), (("two.ts",), 0)):
+        status, said = run(folder, "view", *words, **{**usual, "BROWSER": "no-such-browser"})
+        check(status == wanted and "no-such-browser" in said and "set BROWSER" in said, "a missing browser is named", status, said)
+
+
 def check_without(folder):
     """A build without the page says so, and writes nothing."""
     (folder / "one.ts").write_text(square("one", 1))
     for words in (("report", "one.ts", "-o", "page.html"), ("arrange", "one.ts", "-o", "one.obj", "--report", "page.html")):
         status, said = run(folder, *words)
-        check(status == 2 and "built without" in said, "the program says that it makes no pages", status, said)
+        check(status == 2 and re.search("built without report pages: (TERRANE_REPORT is off|.*npm)", said), "the program says that it makes no pages", status, said)
         check(not (folder / "page.html").exists() and not (folder / "one.obj").exists(), "nothing is written")
 
 
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        tests = (check_without,) if "--without" in sys.argv else (check_names, check_contents, check_same_bytes, check_commands)
+        tests = (check_without,) if "--without" in sys.argv else (check_names, check_contents, check_same_bytes, check_commands,
+                                                                       check_layers, check_certificates, check_view)
         for test in tests:
             test(folder)
     print("\n".join(flaws) or "pages are what they must be")

@@ -28,7 +28,8 @@ struct FillReport {
     std::vector<std::array<double, 2>> variogram_model{}; ///< the fitted one, likewise
     std::vector<std::array<double, 2>>
         left_out{}; ///< height of a datum, and as the data outside of its block predict it, for
-                    ///< validated_error; empty: not recorded
+                    ///< validated_error; empty: none were left out. Heights are along z, or, of a
+                    ///< surface that is no graph z = f(x, y), along the mean normal of the border
 };
 
 /// A surface that fills a hole.

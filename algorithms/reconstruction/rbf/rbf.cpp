@@ -139,12 +139,13 @@ Result<Surface> mesh_zero_level(const Implicit& f, const RbfData& data, const Tr
 
 /// A function whose zero level fills the hole, and what is known of it.
 struct FittedLevel {
-    Implicit f;                     ///< of a surface that is no graph
-    std::optional<HeightFit> graph; ///< none if the data are no graph
-    double precision = no_number;   ///< without errors: factor of the power function
-    RbfPolynomial polynomial;       ///< of the power function
-    double validated = no_number;   ///< root mean square error at data left out
-    std::string model;              ///< described
+    Implicit f;                                  ///< of a surface that is no graph
+    std::optional<HeightFit> graph;              ///< none if the data are no graph
+    double precision = no_number;                ///< without errors: factor of the power function
+    RbfPolynomial polynomial;                    ///< of the power function
+    std::vector<std::array<double, 2>> left_out; ///< FillReport::left_out
+    double validated = no_number;                ///< root mean square error at data left out
+    std::string model;                           ///< described
 };
 
 /// Computes how precisely the level is known at each place: its expected error, or else the power
@@ -300,6 +301,7 @@ std::optional<FittedLevel> fit_graph(const RbfData& data, const RbfOptions& opti
     FittedLevel level;
     level.model = describe(report, *fit, options.smoothing.has_value());
     level.validated = fit->validated;
+    level.left_out = fit->left_out;
     level.graph = std::move(fit);
     return level;
 }
@@ -319,6 +321,7 @@ Result<FittedLevel> fit_any(const RbfData& data, const TriangleTree& tree,
     level.precision = choice.value().expected;
     level.polynomial = form.polynomial;
     level.validated = choice.value().validated;
+    level.left_out = choice.value().left_out;
     level.model = describe(report, form, form.smoothed || options.smoothing.has_value());
     return level;
 }
@@ -355,6 +358,7 @@ Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
     filling.report.area = area_of(filling.surface);
     filling.report.expected_error = mean_over_hole(filling, tree, report.size);
     filling.report.validated_error = fitted->validated;
+    filling.report.left_out = fitted->left_out;
     filling.report.model = fitted->model;
     if (options.long_edges) filling.report.model += "; with points on long edges";
     if (run.stop.stop_requested()) return interrupted();
@@ -390,6 +394,7 @@ Result<Filling> fill_valid_graph(const Surface& surface, const BorderLoop& loop,
     report.size = hole->mesh_size();
     filling->report.data = report.data;
     filling->report.validated_error = fit->validated;
+    filling->report.left_out = fit->left_out;
     filling->report.model = describe(report, *fit, options.smoothing.has_value());
     return filling;
 }

@@ -43,9 +43,12 @@ public:
     Result<RoundedMesh> operator()() {
         to_nearest();
         if (moved_.largest == 0 && deviation() > task_.limit) return too_far();
+        tell(0.2);
         auto pairs = first_contacts();
+        tell(0.7); // on real models the shares of the time, about
         state_.only_dirty(pairs);
         find_first_regions();
+        tell(0.9);
         out_.report.naive_contacts = pairs.size();
         left_crowded_ = !even_crowded_ && pairs.size() >= rounding_tuning.many &&
                         rounding_tuning.crowded * pairs.size() > arrangement_.triangles.size();
@@ -53,6 +56,7 @@ public:
         if (run_.stop.stop_requested())
             return Error{ErrorCode::interrupted, "stopped on request", ""};
         finish(pairs);
+        tell(1);
         return std::move(out_);
     }
 
@@ -60,6 +64,9 @@ public:
     [[nodiscard]] bool left_crowded() const { return left_crowded_; }
 
 private:
+    void tell(double share) const {
+        if (run_.progress) run_.progress("round", share);
+    }
     void repair(std::vector<CandidatePair>& pairs);
     void to_nearest();
     void constructed_to_nearest(std::size_t v);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 #include <stop_token>
+#include <string_view>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -13,6 +14,7 @@
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve_back.hpp>
+#include <terrane/algorithms/quality/improve_measured.hpp>
 
 #include "support/improve_cases.hpp"
 #include "support/points.hpp"
@@ -236,6 +238,26 @@ TEST_CASE("improve: triangles that cross at random are refused, however they are
         run.threads = 2;
         CHECK(refusal(mesh, {}, run) == ErrorCode::improper_contact);
     }
+}
+
+TEST_CASE("improve: measuring tells its progress", "[improve]") {
+    const auto exact = arrange(nine_regions());
+    REQUIRE(exact);
+    const auto rounded = round_to_doubles(*exact);
+    REQUIRE(rounded);
+    REQUIRE(rounded->conforming);
+    std::vector<double> shares;
+    Run run;
+    run.progress = [&](std::string_view stage, double share) {
+        if (stage == "measure") shares.push_back(share);
+    };
+    ImproveOptions options;
+    options.edge_length = 1;
+    REQUIRE(improve_and_measure(*rounded->conforming, options, run));
+    CHECK(std::is_sorted(shares.begin(), shares.end()));
+    CHECK(std::ranges::count_if(shares, [](double s) { return s > 0 && s < 1; }) >= 2);
+    REQUIRE_FALSE(shares.empty());
+    CHECK(shares.back() == 1);
 }
 
 TEST_CASE("improve: invalid options and meshes are refused", "[improve]") {

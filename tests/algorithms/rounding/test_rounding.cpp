@@ -61,6 +61,22 @@ void check_lists(const RoundedMesh& r) {
 
 } // namespace
 
+TEST_CASE("round: progress ascends to 1", "[rounding]") {
+    const Surface flat{"flat", Role::horizon, {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}}, {{0, 1, 2}}};
+    const Surface wall{"wall", Role::fault, {{1, 1, -1}, {1, 1, 1}, {1, 5, 0}}, {{0, 1, 2}}};
+    const auto arranged = arrange(std::vector{flat, wall});
+    REQUIRE(arranged);
+    std::vector<double> shares;
+    const Run run{.threads = 1, .stop = {}, .progress = [&](auto stage, double share) {
+                      CHECK(stage == "round");
+                      shares.push_back(share);
+                  }};
+    REQUIRE(round_to_doubles(*arranged, {}, run));
+    CHECK(std::is_sorted(shares.begin(), shares.end()));
+    CHECK(shares.size() >= 3);
+    CHECK(shares.back() == 1);
+}
+
 TEST_CASE("rounding: a triangle that disappears when the input is snapped is listed") {
     const auto surfaces = read_data("regression/013-needle-in-line-as-decimals.obj");
     const auto exact = arrange(surfaces);

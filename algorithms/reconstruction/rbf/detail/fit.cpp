@@ -276,6 +276,7 @@ double rms(const std::vector<double>& values) {
 struct Trial {
     double missed = no_number; ///< root mean square; NaN if the fit failed
     double nugget = 0;
+    std::vector<std::array<double, 2>> left_out{}; ///< FillReport::left_out
 };
 
 /// The data left out, and the data that all trials share.
@@ -307,12 +308,19 @@ Result<Trial> try_form(const Trials& trials, const RbfForm& form, bool quick, co
     const auto f = quick ? fitter.quick() : fitter(false);
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
     if (!f) return Trial{};
+    Trial trial{no_number, f.value().nugget, {}};
+    const Point3 normal = axes_of(data)[2];
+    const double up = normal.z < 0 ? -1 : 1;
     std::vector<double> missed;
     for (const std::uint32_t i : trials.left.points) {
-        const double slope = length(f.value().smooth.gradient(data.points[i]));
-        missed.push_back(f.value()(data.points[i]) / std::max(slope, constants.least_slope));
+        const Point3& p = data.points[i];
+        const double slope = length(f.value().smooth.gradient(p));
+        missed.push_back(f.value()(p) / std::max(slope, constants.least_slope));
+        const double height = dot(p, normal);
+        trial.left_out.push_back({up * height, up * (height - missed.back())});
     }
-    return Trial{rms(missed), f.value().nugget};
+    trial.missed = rms(missed);
+    return trial;
 }
 
 } // namespace
@@ -429,7 +437,7 @@ bool is_graph_along(const RbfData& data, const Point3& axis) {
 
 Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, const Run& run) {
     const auto forms = forms_for(data, options);
-    RbfChoice best{forms[0], no_number, no_number};
+    RbfChoice best{forms[0], no_number, {}, no_number};
     const Trials trials(data, options);
     const RbfData& kept = trials.left.kept;
     if (kept.points.size() < constants.least_judged || trials.left.points.empty()) return best;
@@ -460,6 +468,7 @@ Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, co
         }
     }
     best.validated = least.missed;
+    best.left_out = least.left_out;
     if (!std::isfinite(best.validated)) return best;
     std::vector<Point3> places;
     for (const std::uint32_t i : trials.left.points) places.push_back(data.points[i]);

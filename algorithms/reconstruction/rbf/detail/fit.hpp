@@ -52,6 +52,7 @@ struct RbfChoice {
     RbfForm form;
     double validated = 0; ///< root mean square error at the data left out; NaN if none could be
                           ///< left out
+    std::vector<std::array<double, 2>> left_out{}; ///< FillReport::left_out
     double expected = 0; ///< factor of RbfError: error at the data left out / power function there;
                          ///< NaN if none could be left out
 };

@@ -59,12 +59,17 @@ Blocks blocks_of(std::span<const Point3> data, const HeightData& of) {
     return blocks;
 }
 
+/// Computes what is missed of a block: its heights without what the other data predict.
+VectorXd missed_of(const std::vector<Index>& block, const MatrixXd& projection,
+                   const VectorXd& weights) {
+    return projection(block, block).partialPivLu().solve(weights(block));
+}
+
 /// Computes the root mean square over blocks of what is missed of them; NaN if there are none.
 double missed_blocks(const MatrixXd& projection, const VectorXd& weights, const Blocks& blocks) {
     double squares = 0, count = 0;
     for (const auto& block : blocks) {
-        const VectorXd errors = projection(block, block).partialPivLu().solve(weights(block));
-        squares += errors.squaredNorm();
+        squares += missed_of(block, projection, weights).squaredNorm();
         count += static_cast<double>(block.size());
     }
     return std::sqrt(squares / count);
@@ -165,11 +170,25 @@ std::optional<HeightSystem> some_heights(const HeightData& data, const HeightFor
 
 /// Validates a fit by blocks of some of its data, left out in turn, and finds the share of its
 /// nugget that is noise: the weights have the covariance P if all of it is.
-void validate(const HeightData& data, double unit, HeightFit& fit) {
+/// `ground` is the height at which scaled heights are 0.
+void validate(const HeightData& data, double unit, double ground, HeightFit& fit) {
     if (!fit.some) return;
     const MatrixXd projection = fit.some->projection();
     const VectorXd weights = fit.some->weights();
-    fit.validated = unit * missed_blocks(projection, weights, blocks_of(fit.some->data(), data));
+    const double up = fit.axes[2].z == -1 ? -1 : 1; // heights along -z become those along z
+    double squares = 0, count = 0;
+    for (const auto& block : blocks_of(fit.some->data(), data)) {
+        const VectorXd errors = missed_of(block, projection, weights);
+        squares += errors.squaredNorm();
+        count += static_cast<double>(block.size());
+        for (std::size_t i = 0; i < block.size(); ++i) {
+            const double height =
+                ground + unit * fit.some->data()[static_cast<std::size_t>(block[i])].z;
+            const double error = unit * errors(static_cast<Index>(i));
+            fit.left_out.push_back({up * height, up * (height - error)});
+        }
+    }
+    fit.validated = unit * std::sqrt(squares / count);
     const double share = weights.squaredNorm() / (fit.sill * projection.trace());
     if (share < constants.least_noise_share) fit.noise_share = share;
 }
@@ -369,7 +388,7 @@ std::optional<HeightFit> fit_heights(const RbfData& data, const std::array<Point
     fit.noise = unit * std::sqrt(chosen.form.nugget * chosen.sill);
     fit.some = some_heights(centre_data, chosen.form, run);
     fit.sill = chosen.sill;
-    validate(centre_data, unit, fit);
+    validate(centre_data, unit, upright[0].z - unit * centre_data.places[0].z, fit);
     fit.known.emplace(std::move(solution->system));
     fit.rounding = rounding_of(heights);
     report.data = data.points.size();

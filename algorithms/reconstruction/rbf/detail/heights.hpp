@@ -46,6 +46,7 @@ struct HeightFit {
     double noise = 0; ///< standard deviation of single data that g leaves out
     double validated = std::numeric_limits<
         double>::quiet_NaN(); ///< root mean square error of blocks left out; NaN if there were none
+    std::vector<std::array<double, 2>> left_out; ///< FillReport::left_out
     std::optional<HeightSystem> known;   ///< of the centres, scaled, with the noise of the data
     std::optional<HeightSystem> some;    ///< the same of fewer, well-spread centres
     double sill = 0;                     ///< factor of its kernel

@@ -316,6 +316,35 @@ TEST_CASE("rbf: patches interpolate rough data and more data than centres", "[rb
     CHECK(joined.value().report.largest_step < 0.04);
 }
 
+TEST_CASE("rbf: data that were left out are told with what the others predict", "[rbf]") {
+    const auto of_pairs = [](const FillReport& report) {
+        REQUIRE(report.left_out.size() > 20);
+        double squares = 0;
+        for (const auto& [given, predicted] : report.left_out)
+            squares += (given - predicted) * (given - predicted);
+        return std::sqrt(squares / static_cast<double>(report.left_out.size()));
+    };
+    Surface s = punched(sheet(graph([](double x, double y) { return 700 + 0.1 * std::sin(x) * y; }),
+                              0, 0, 10, 10, 40, 40),
+                        disk(5, 5, 1.5));
+    for (const bool turned : {false, true}) { // heights are those of the file, whatever faces up
+        if (turned)
+            for (Triangle& t : s.triangles) std::swap(t[0], t[1]);
+        const auto filling = fill_by_rbf(s, holes_of(s).at(0));
+        REQUIRE(filling);
+        const FillReport& report = filling->report;
+        CHECK(of_pairs(report) == Approx(report.validated_error).epsilon(1e-9));
+        CHECK(report.validated_error > 1e-6);
+        for (const auto& [given, predicted] : report.left_out)
+            CHECK(std::ranges::any_of(
+                s.vertices, [z = given](const Point3& p) { return std::fabs(p.z - z) < 1e-9; }));
+    }
+    const Surface fold = fold_with_hole(400, 500, 0.5, 0.5, 0.1);
+    const auto filling = fill_by_rbf(fold, holes_of(fold).at(0), {.most_centres = 300});
+    REQUIRE(filling);
+    CHECK(of_pairs(filling->report) == Approx(filling->report.validated_error).epsilon(1e-9));
+}
+
 TEST_CASE("rbf: the result does not depend on the number of threads", "[rbf]") {
     const Surface s = punched(
         sheet(graph([](double x, double y) { return std::sin(x + y); }), 0, 0, 10, 10, 30, 30, 0.2),
