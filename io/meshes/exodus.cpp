@@ -170,7 +170,7 @@ private:
             const auto width =
                 file_.dimension(fmt::format("num_nod_per_el{}", b + 1), nodes_ ? 10 : 4);
             file_.integers(fmt::format("connect{}", b + 1), {members, width}, corners);
-            file_.describe("elem_type", nodes_ ? "TETRA10" : "TETRA4");
+            file_.describe("elem_type", nodes_ ? "TETRA10" : "TETRA");
         }
     }
 

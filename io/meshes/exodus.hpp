@@ -13,7 +13,7 @@
 
 namespace terrane {
 
-/// Writes the tetrahedra block by block, of the type TETRA4, or TETRA10 with `nodes`: node v + 1 is
+/// Writes the tetrahedra block by block, of the type TETRA, or TETRA10 with `nodes`: node v + 1 is
 /// vertex v. All parts have names of one word (names.hpp), with n surfaces:
 ///   element blocks  one per region with the number of the region, and the outside with the one
 ///                   after all others; called after region_names[r], or outside, region_1, ...

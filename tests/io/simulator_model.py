@@ -43,7 +43,7 @@ def volume(points, corners):
 def outward(points, face, corners):
     """Whether the corners of a face are counterclockwise seen from outside of its tetrahedron."""
     apex = [v for v in corners if v not in set(int(f) for f in face)]
-    return len(apex) == 1 and volume(points, np.array([*face[:3], apex[0]])) < 0
+    return len(apex) == 1 and volume(points, np.array([*face[:3], apex[0]], dtype=int)) < 0
 
 
 def word(name):

@@ -33,7 +33,7 @@ class Exodus:
             for i, name in enumerate(self.block_order):
                 corners = v[f"connect{i + 1}"]
                 kind = corners.elem_type
-                if kind != {4: "TETRA4", 10: "TETRA10"}[corners.shape[1]]:
+                if kind != {4: "TETRA", 10: "TETRA10"}[corners.shape[1]]:
                     sys.exit(f"{path}: elements {kind} with {corners.shape[1]} nodes")
                 self.elements += (corners[:, :4] - 1).tolist()
                 self.blocks[name] = corners[:, :4] - 1
@@ -49,7 +49,7 @@ class Exodus:
 
 def exodus_by_meshio(path, names):
     mesh = meshio.read(path)
-    return dict(zip(names, (np.array(block.data) for block in mesh.cells)))
+    return dict(zip(names, (np.asarray(block.data).astype(int) for block in mesh.cells)))
 
 
 def exodus_by_vtk(path):
