@@ -18,6 +18,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import simulator_readers as readers  # noqa: E402
+from simulator_examples import check_examples  # noqa: E402
 from simulator_model import LONG, Expected, check, make_model, outward  # noqa: E402
 
 
@@ -228,6 +229,7 @@ def main():
         check_abaqus(expected, os.path.join(folder, "solid.inp"))
         check_second_order(expected, folder)
         check_pylith(Expected(os.path.join(folder, "whole.vtu")), os.path.join(folder, "fault.msh"))
+        check_examples(program, folder)
         print(f"{len(expected.tetrahedra)} tetrahedra: all formats hold what was meant")
 
 
