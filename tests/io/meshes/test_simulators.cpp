@@ -77,7 +77,7 @@ TEST_CASE("PyLith: groups of tetrahedra, surfaces and edges of faults", "[io][si
     auto mesh = two_tetrahedra();
     const auto text = to_pylith(mesh).value();
     CHECK(text.find("$PhysicalNames\n5\n2 4 \"fault_co\"\n2 5 \"base\"\n2 6 \"box\"\n"
-                    "3 2 \"material-id:2\"\n3 3 \"material-id:3\"\n$End") != text.npos);
+                    "3 3 \"material-id:3\"\n3 2 \"material-id:2\"\n$End") != text.npos);
     CHECK(code_of(to_pylith(cut_tetrahedra())
                       ? Status(Done{})
                       : to_pylith(cut_tetrahedra()).error()) == ErrorCode::unsupported);
