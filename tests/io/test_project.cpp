@@ -71,6 +71,7 @@ std::vector<json> samples() {
     for (const char* key : {"unit", "improve", "fill", "layers", "min_volume"})
         all.back().erase(key);
     all.back()["outputs"]["certificate"] = true;
+    all.back()["tetrahedra"]["order"] = 1;
     all.back()["surfaces"][1]["depth"] = false;
     all.push_back(json::parse(R"({"format": "terrane-project 1", "surfaces": [{"file": "a"}],
                                   "outputs": {"blocks": "obj"}})"));
@@ -348,9 +349,11 @@ TEST_CASE("project: schema and parser give the same verdict on every change", "[
             const bool accepted = said == "no error";
             (accepted ? good : bad)++;
             // These rules go beyond the schema: a certificate is about whole surfaces as they were
-            // read, and about blocks in two formats; only the lowest unit can be without a base.
+            // read, about blocks in two formats and tetrahedra of first order; only the lowest unit
+            // can be without a base.
             for (const char* beyond : {"p.json: outputs.certificate: must be false with unit",
                                        "p.json: outputs.certificate: is about blocks as",
+                                       "p.json: outputs.certificate: is about tetrahedra",
                                        "p.json: column[0].surface: only the lowest unit"})
                 if (said.starts_with(beyond)) return;
             INFO(where << ": " << said);
