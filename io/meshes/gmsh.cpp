@@ -54,7 +54,8 @@ std::vector<MshLink> periodic_links(const std::vector<SurfaceGroup>& groups,
                                     const TetrahedralMesh& mesh, const EdgeNodes* nodes) {
     const auto tags = group_tags(groups, mesh.faces.size());
     std::map<std::pair<std::size_t, std::size_t>, std::vector<NodePair>> pairs_of;
-    for (const auto& [front, back] : mesh.twins) {
+    for (const auto& twins : mesh.twins) {
+        const auto front = twins[0], back = twins[1];
         auto& pairs = pairs_of[{tags[front], tags[back]}];
         const auto add = [&](const std::vector<Triangle>& of_faces) {
             for (std::size_t k = 0; k < 3; ++k)

@@ -77,6 +77,8 @@ def getdp(folder):
     text = (EXAMPLES / "getdp.pro").read_text()
     groups = Msh(str(folder / "model" / "tetrahedra_22.msh")).groups
     name_of = {number: name for name, (number, _) in groups.items()}
+    check(len(name_of) == len(groups) == 15, f"MSH 2.2: numbers of groups are not unique: {groups}")
+    check(groups == Msh(str(folder / "model" / "tetrahedra.msh")).groups, "MSH 4.1 has other groups than MSH 2.2")
     for number, comment in re.findall(r"= Region\[(\d+)\]; +// (.*)", text):
         check(name_of.get(int(number)) == comment, f"getdp.pro: {number} is {name_of.get(int(number))}, not {comment}")
     blocks = [int(n) for line in re.findall(r"Region\[\{([\d, ]+)\}\]", text) for n in line.split(",")]

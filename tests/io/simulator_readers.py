@@ -2,7 +2,6 @@
 """Files of simulators as libraries of other projects see them."""
 import subprocess
 import sys
-import xml.etree.ElementTree
 
 import meshio
 import netCDF4
@@ -16,8 +15,8 @@ EXODUS_SIDES = ((0, 1, 3), (1, 2, 3), (0, 3, 2), (0, 2, 1))
 
 
 def words(variable):
-    return [bytes(b for row in [line.filled(b"\0") if hasattr(line, "filled") else line] for b in b"".join(row))
-            .rstrip(b"\0").decode() for line in variable[:]]
+    """The texts of a variable of characters."""
+    return [b"".join(row).rstrip(b"\0").decode() for row in variable[:]]
 
 
 class Exodus:

@@ -13,7 +13,7 @@ namespace {
 /// Tags of the lists in the header.
 enum class List : std::uint32_t { dimensions = 10, variables = 11, attributes = 12 };
 
-constexpr std::uint64_t most_bytes = (std::uint64_t(1) << 32) - 4; ///< of a variable, in CDF-2
+constexpr std::uint64_t most_of_variable = (std::uint64_t(1) << 32) - 4; ///< bytes, in CDF-2
 
 template <class Unsigned>
 void append_bytes(std::string& out, Unsigned value) {
@@ -143,10 +143,10 @@ std::string NetcdfFile::header(std::uint64_t size_of_header) const {
 
 Result<std::string> NetcdfFile::contents() const {
     for (const Variable& v : variables_)
-        if (v.bytes.size() > most_bytes)
+        if (v.bytes.size() > most_of_variable)
             return Error{ErrorCode::unsupported,
                          fmt::format("{} has {} bytes; in this format a variable has at most {}",
-                                     v.name, v.bytes.size(), most_bytes),
+                                     v.name, v.bytes.size(), most_of_variable),
                          ""};
     auto out = header(header(0).size());
     for (const Variable& v : variables_) {
