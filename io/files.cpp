@@ -6,7 +6,9 @@
 
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/tetrahedra/edge_nodes.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/atomic/file_set.hpp>
 #include <terrane/io/gocad/gocad_curves.hpp>
 #include <terrane/io/grids/cps3.hpp>
 #include <terrane/io/grids/esri.hpp>
@@ -15,12 +17,17 @@
 #include <terrane/io/grids/irap.hpp>
 #include <terrane/io/grids/zmap.hpp>
 #include <terrane/io/meshes/abaqus.hpp>
+#include <terrane/io/meshes/exodus.hpp>
+#include <terrane/io/meshes/geos.hpp>
 #include <terrane/io/meshes/gmsh.hpp>
 #include <terrane/io/meshes/gmsh22.hpp>
 #include <terrane/io/meshes/gmsh_reader.hpp>
 #include <terrane/io/meshes/legacy_vtk.hpp>
 #include <terrane/io/meshes/medit.hpp>
+#include <terrane/io/meshes/opengeosys.hpp>
+#include <terrane/io/meshes/pflotran.hpp>
 #include <terrane/io/meshes/poly.hpp>
+#include <terrane/io/meshes/pylith.hpp>
 #include <terrane/io/meshes/vtk.hpp>
 #include <terrane/io/meshes/vtp_reader.hpp>
 #include <terrane/io/points/points.hpp>
@@ -43,7 +50,7 @@ namespace {
 /// The largest file that is read. It has at least 3 bytes per vertex, so 32-bit indices suffice.
 constexpr std::uint64_t max_bytes = 3 * (std::uint64_t(1) << 32) - 3;
 
-constexpr std::array<std::pair<std::string_view, Format>, 38> names{{
+constexpr std::array<std::pair<std::string_view, Format>, 44> names{{
     {"ts", Format::gocad},      {"ml", Format::gocad},      {"gp", Format::gocad},
     {"mx", Format::gocad},      {"gm", Format::gocad},      {"obj", Format::obj},
     {"off", Format::off},       {"stl", Format::stl},       {"ply", Format::ply},
@@ -56,7 +63,9 @@ constexpr std::array<std::pair<std::string_view, Format>, 38> names{{
     {"csv", Format::xyz},       {"txt", Format::xyz},       {"dat", Format::xyz},
     {"poi", Format::xyz},       {"pol", Format::xyz},       {"vs", Format::vset},
     {"pl", Format::pline},      {"vtk", Format::vtk},       {"dxf", Format::dxf},
-    {"grdecl", Format::grdecl}, {"sticks", Format::sticks},
+    {"grdecl", Format::grdecl}, {"sticks", Format::sticks}, {"exo", Format::exodus},
+    {"e", Format::exodus},      {"ugi", Format::ugi},       {"ogs", Format::ogs},
+    {"geos", Format::geos},     {"pylith", Format::pylith},
 }};
 
 std::string place_of(const fs::path& path, bool reading) {
@@ -190,23 +199,71 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
                  ""};
 }
 
-Result<std::string> contents_of(const TetrahedralMesh& mesh, Format format,
-                                const WriteOptions& options) {
+Result<SeveralFiles> one_file(Result<std::string> contents) {
+    if (!contents) return contents.error();
+    return SeveralFiles{{"", std::move(*contents)}};
+}
+
+/// Returns the files of tetrahedra, of second order with `nodes`.
+Result<SeveralFiles> files_of(const TetrahedralMesh& mesh, Format format, const fs::path& path,
+                              const WriteOptions& options, const EdgeNodes* nodes) {
+    const auto& regions = options.region_names;
+    const VtkFiles vtk{path.stem().string(), options.compress};
     switch (format) {
     case Format::vtu:
-        return to_vtu(mesh, options.compress, options.cells, options.region_names);
+        return one_file(to_vtu(mesh, options.compress, options.cells, regions, nodes));
     case Format::msh:
-        return to_msh(mesh, options.region_names);
+        return one_file(to_msh(mesh, regions, nodes));
     case Format::msh22:
-        return to_msh22(mesh, options.region_names);
+        return one_file(to_msh22(mesh, regions, nodes));
     case Format::inp:
-        return to_abaqus(mesh, options.region_names);
+        return one_file(to_abaqus(mesh, regions, nodes));
     case Format::medit:
-        return to_medit(mesh);
+        return one_file(to_medit(mesh));
+    case Format::exodus:
+        return one_file(to_exodus(mesh, regions, nodes));
+    case Format::pylith:
+        return one_file(to_pylith(mesh));
+    case Format::ogs:
+        return to_opengeosys(mesh, vtk, regions, nodes);
+    case Format::geos:
+        return to_geos(mesh, vtk, regions);
+    case Format::ugi:
+        return to_pflotran(mesh, vtk.stem, regions);
     default:
         break;
     }
-    return Error{ErrorCode::unsupported, "tetrahedra are written as .vtu, .msh, .inp or .mesh", ""};
+    return Error{ErrorCode::unsupported, "this format does not hold tetrahedra", ""};
+}
+
+Result<SeveralFiles> files_of(const TetrahedralMesh& mesh, Format format, const fs::path& path,
+                              const WriteOptions& options) {
+    if (options.order != 1 && options.order != 2)
+        return Error{ErrorCode::bad_option, "the order of tetrahedra is 1 or 2", ""};
+    if (path == "-" && has_several_files(format))
+        return Error{ErrorCode::bad_option,
+                     "in this format tetrahedra are several files: name the first", ""};
+    if (options.order == 1) return files_of(mesh, format, path, options, nullptr);
+    if (holds_tetrahedra(format) && !holds_second_order(format))
+        return Error{ErrorCode::unsupported, "this format has no tetrahedra of second order", ""};
+    const auto nodes = find_edge_nodes(mesh);
+    if (!nodes) return nodes.error();
+    return files_of(mesh, format, path, options, &*nodes);
+}
+
+/// Writes all files or none.
+Result<std::vector<fs::path>> write_several(const SeveralFiles& files, const fs::path& path) {
+    std::optional<FileSet> together;
+    if (files.size() > 1 && !FileSet::current()) together.emplace();
+    std::vector<fs::path> paths;
+    for (const auto& part : files) {
+        paths.push_back(part.file.empty() ? path : path.parent_path() / part.file);
+        if (auto written = write_file(paths.back(), part.contents); !written)
+            return written.error();
+    }
+    if (together)
+        if (auto published = together->publish(); !published) return published.error();
+    return paths;
 }
 
 /// Calls work(place) with the place of the file for errors, of which lack of memory is one.
@@ -218,17 +275,10 @@ auto guard_file(const fs::path& path, bool reading, const Work& work) {
     });
 }
 
-template <class AnyMesh>
-Status write(const AnyMesh& mesh, const fs::path& path, const WriteOptions& options) {
-    return guard_file(path, false, [&](const std::string& place) -> Status {
-        const auto format = choose_format(path, options.format, false);
-        if (!format) return format.error();
-        const auto contents = contents_of(mesh, format.value(), options);
-        if (contents) return write_file(path, contents.value());
-        auto error = contents.error();
-        if (error.place.empty()) error.place = place;
-        return error;
-    });
+/// Returns an error about a file as a whole with its place.
+Error at(const std::string& place, Error error) {
+    if (error.place.empty()) error.place = place;
+    return error;
 }
 
 } // namespace
@@ -257,7 +307,7 @@ bool is_read(Format format) {
 }
 
 bool holds_surfaces(Format format) {
-    return format != Format::vtu && format < Format::irap;
+    return format != Format::vtu && format < Format::exodus;
 }
 
 bool holds_outlines(Format format) {
@@ -266,7 +316,17 @@ bool holds_outlines(Format format) {
 
 bool holds_tetrahedra(Format format) {
     return format == Format::vtu || format == Format::msh || format == Format::msh22 ||
-           format == Format::inp || format == Format::medit;
+           format == Format::inp || format == Format::medit ||
+           (format >= Format::exodus && format < Format::irap);
+}
+
+bool holds_second_order(Format format) {
+    return format == Format::vtu || format == Format::msh || format == Format::msh22 ||
+           format == Format::inp || format == Format::exodus || format == Format::ogs;
+}
+
+bool has_several_files(Format format) {
+    return format == Format::ugi || format == Format::ogs || format == Format::geos;
 }
 
 std::optional<Format> format_named(std::string_view name) {
@@ -328,12 +388,32 @@ Result<std::string> format_mesh(const Mesh& mesh, Format format, const WriteOpti
 }
 
 Status write_mesh(const Mesh& mesh, const fs::path& path, const WriteOptions& options) {
-    return write(mesh, path, options);
+    return guard_file(path, false, [&](const std::string& place) -> Status {
+        const auto format = choose_format(path, options.format, false);
+        if (!format) return format.error();
+        const auto contents = contents_of(mesh, format.value(), options);
+        if (!contents) return at(place, contents.error());
+        return write_file(path, contents.value());
+    });
+}
+
+Result<std::vector<fs::path>> write_tetrahedra_files(const TetrahedralMesh& mesh,
+                                                     const fs::path& path,
+                                                     const WriteOptions& options) {
+    return guard_file(path, false, [&](const std::string& place) -> Result<std::vector<fs::path>> {
+        const auto format = choose_format(path, options.format, false);
+        if (!format) return format.error();
+        const auto files = files_of(mesh, format.value(), path, options);
+        if (!files) return at(place, files.error());
+        return write_several(files.value(), path);
+    });
 }
 
 Status write_tetrahedra(const TetrahedralMesh& mesh, const fs::path& path,
                         const WriteOptions& options) {
-    return write(mesh, path, options);
+    const auto written = write_tetrahedra_files(mesh, path, options);
+    if (!written) return written.error();
+    return Done{};
 }
 
 } // namespace terrane

@@ -37,6 +37,11 @@ enum class Format {
     poly,   ///< .poly, written only: TetGen, surfaces
     smesh,  ///< .smesh, written only: TetGen, surfaces
     vtk,    ///< .vtk: legacy VTK; written as POLYDATA
+    exodus, ///< .exo .e, written only: Exodus II, tetrahedra
+    ugi,    ///< .ugi, written only: PFLOTRAN, tetrahedra and the files of regions
+    ogs,    ///< written only: OpenGeoSys, VTU files of tetrahedra and of boundaries; by its name
+    geos,   ///< written only: GEOS, a .vtm with tetrahedra and fractures; by its name
+    pylith, ///< written only: PyLith, MSH 4.1 of tetrahedra with edges of faults; by its name
     irap,   ///< .irap .gri .fgr, read only: a grid, text or binary
     zmap,   ///< .zmap .zycor, read only: a grid
     cps3,   ///< .cps3 .cps, read only: a grid
@@ -56,6 +61,10 @@ bool is_read(Format format);
 bool holds_surfaces(Format format);
 /// Whether tetrahedra can be written in the format.
 bool holds_tetrahedra(Format format);
+/// Whether tetrahedra of second order can be written in the format (WriteOptions::order).
+bool holds_second_order(Format format);
+/// Whether tetrahedra in the format are several files, of which the user names the first.
+bool has_several_files(Format format);
 /// Whether the vertices or lines of surfaces, but not their triangles, can be written in the format.
 bool holds_outlines(Format format);
 
@@ -103,9 +112,11 @@ struct WriteOptions {
     bool compress = true;               ///< VTP and VTU only: zlib
     std::span<const CellArray> cells{}; ///< VTP and VTU only: further arrays, one value per cell
     std::span<const RegionPoint> regions{}; ///< .poly and .smesh only
-    /// VTU, MSH and .inp of tetrahedra: the name of each region; VTP: names of blocks, for the field
+    /// Tetrahedra, but not .mesh: the name of each region; VTP: names of blocks, for the field
     /// block_name; empty: none
     std::span<const std::string> region_names{};
+    /// Tetrahedra only: 2 puts a node in the middle of each edge (edge_nodes.hpp)
+    unsigned order = 1;
 };
 
 /// Returns the contents of a file with the mesh in `format`; `options.format` has no effect.
@@ -118,8 +129,17 @@ Result<std::string> format_mesh(const Mesh& mesh, Format format, const WriteOpti
 Status write_mesh(const Mesh& mesh, const std::filesystem::path& path,
                   const WriteOptions& options = {});
 
-/// Writes tetrahedra as .vtu, .msh, .inp or .mesh. Errors: those of write_mesh.
+/// Writes tetrahedra in a format that holds them. If this fails, no file is written, also in formats of
+/// several files: the others stand beside `path`, and their names begin with its stem. Errors: those
+/// of write_mesh; unsupported also for an order that the format does not have, and for split nodes
+/// where the simulator splits them itself; bad_option for several files on standard output, and for
+/// an order other than 1 and 2.
 Status write_tetrahedra(const TetrahedralMesh& mesh, const std::filesystem::path& path,
                         const WriteOptions& options = {});
+
+/// Does the same and returns the files that were written, first `path`.
+Result<std::vector<std::filesystem::path>> write_tetrahedra_files(const TetrahedralMesh& mesh,
+                                                                  const std::filesystem::path& path,
+                                                                  const WriteOptions& options = {});
 
 } // namespace terrane

@@ -11,6 +11,7 @@
 #include <terrane/io/detail/column_keys.hpp>
 #include <terrane/io/detail/json_reader.hpp>
 #include <terrane/io/detail/project_keys.hpp>
+#include <terrane/io/files.hpp>
 #include <terrane/io/text/names.hpp>
 
 namespace terrane {
@@ -77,6 +78,7 @@ private:
                 "outputs.certificate",
                 "must be false with unit, fill, layers, improve or depth: a certificate is about "
                 "whole surfaces as their files have them");
+        check_tetrahedra_formats(project);
         const std::string& parts = project.outputs.blocks;
         if (project.outputs.certificate && !parts.empty() && parts != "vtp" && parts != "obj")
             in_.fail("outputs.certificate", "is about blocks as vtp or obj only");
@@ -84,6 +86,25 @@ private:
             in_.fail("outputs.certificate",
                      "must be false with min_volume: a certificate can't show yet that only small "
                      "blocks were merged");
+    }
+
+    /// Refuses formats of tetrahedra that can't hold what is asked for.
+    void check_tetrahedra_formats(const Project& project) {
+        for (std::size_t i = 0; i < project.outputs.tetrahedra.size(); ++i) {
+            const auto format = format_named(project.outputs.tetrahedra[i]);
+            const auto path = fmt::format("outputs.tetrahedra[{}]", i);
+            if (!format) continue; // said already
+            if (project.tetrahedra.order == 2 && !holds_second_order(*format))
+                in_.fail(path, "has no tetrahedra of second order: tetrahedra.order must be 1");
+            if (*format == Format::pylith && !project.tetrahedra.split.empty())
+                in_.fail(path, "is for PyLith, which splits nodes itself: tetrahedra.split must be "
+                               "empty");
+            if (project.outputs.certificate &&
+                (project.tetrahedra.order == 2 || *format > Format::medit))
+                in_.fail(
+                    "outputs.certificate",
+                    "is about tetrahedra of first order in vtu, msh, msh22, inp and mesh only");
+        }
     }
 
     unsigned threads(const Json& value) {
@@ -290,6 +311,7 @@ private:
         if (const Json* v = in_.find(json, "outside")) t.outside = in_.truth(*v, path + ".outside");
         if (const Json* v = in_.find(json, "optimise"))
             t.optimise = in_.truth(*v, path + ".optimise");
+        if (const Json* v = in_.find(json, "order")) t.order = order(*v, path + ".order");
         if (const Json* v = in_.find(json, "time_limit"))
             t.time_limit = in_.positive(*v, path + ".time_limit");
         if (const Json* v = in_.find(json, "mesher"))
@@ -297,6 +319,12 @@ private:
                                                      in_.one_of(*v, path + ".mesher", meshers)) -
                                            meshers.begin()); // in the order of the type
         return t;
+    }
+
+    unsigned order(const Json& value, const std::string& path) {
+        if (value.is_number_integer() && (value == 1 || value == 2)) return value.get<unsigned>();
+        in_.fail(path, "must be 1 or 2");
+        return 1;
     }
 
     double quality(const Json& value, const std::string& path) {

@@ -95,6 +95,7 @@ struct ProjectTetrahedra {
     bool split_surfaces = false;         ///< triangles of surfaces may be divided for `quality`
     std::optional<double> max_volume{};  ///< of a tetrahedron, cubic unit
     bool optimise = true;                ///< whether their shapes are improved
+    unsigned order = 1;                  ///< in files: 1, or 2 with nodes on edges
     double time_limit = 600;             ///< seconds, > 0
     Mesher mesher = Mesher::automatic;   ///< who makes them
     std::vector<ProjectSize> size_of{};  ///< by surface

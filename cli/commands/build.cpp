@@ -283,7 +283,7 @@ private:
         if (!folder) return folder.error();
         const fs::path& to = folder.value().temporary();
         for (const auto step :
-             {&Build::write_surfaces, &Build::write_tetrahedra_files, &Build::write_blocks,
+             {&Build::write_surfaces, &Build::write_cells, &Build::write_blocks,
               &Build::write_gocad, &Build::write_invented, &Build::write_certificates}) {
             if (auto done = (this->*step)(to); !done) return done;
             if (session_.stopped()) return Error{ErrorCode::interrupted, "", ""};
@@ -325,17 +325,17 @@ private:
         return Done{};
     }
 
-    Status write_tetrahedra_files(const fs::path& to) {
+    Status write_cells(const fs::path& to) {
         if (!built_.filled) return Done{};
         WriteOptions options;
         options.region_names = built_.filled->block_names;
+        options.order = project_.tetrahedra.order;
         for (const std::string& format : project_.outputs.tetrahedra) {
             options.format = format_named(format);
-            written_.push_back(file_name("tetrahedra", format));
-            if (auto done =
-                    write_tetrahedra(built_.filled->tetrahedra, to / written_.back(), options);
-                !done)
-                return done;
+            const auto files = write_tetrahedra_files(
+                built_.filled->tetrahedra, to / file_name("tetrahedra", format), options);
+            if (!files) return files.error();
+            for (const fs::path& file : *files) written_.push_back(file.filename().string());
         }
         return Done{};
     }

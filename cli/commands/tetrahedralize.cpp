@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <array>
 #include <charconv>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -20,6 +21,7 @@
 #include <terrane/cli/options/column.hpp>
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
+#include <terrane/cli/session/quantities.hpp>
 #include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/page_output.hpp>
@@ -55,7 +57,9 @@ the exit status is 1. The shapes are reported: dihedral angles, ratios of circum
 edge.
 
 VTU has arrays region, surface and parent; MSH physical groups; Abaqus INP element sets, node sets
-and surfaces; MEDIT references: region and surface + 1.
+and surfaces; MEDIT references: region and surface + 1; Exodus II element blocks, side sets and node
+sets. PFLOTRAN (.ugi) and, by --output-format, OpenGeoSys (ogs), GEOS (geos) and PyLith (pylith) get
+files of their own. With --order 2 tetrahedra have 10 nodes; edges stay straight.
 
 Names of blocks are those of `terrane volume`: units of --column, regions of a GOCAD model, or "below
 top, above base, west of F1". With --split two tetrahedra at a surface share a node only where they hang together round it
@@ -72,6 +76,8 @@ Examples:
   terrane tetrahedralize model.ml -o model.msh --split fault --blocks-only
   terrane tetrahedralize faults.ts topography.ts -o model.msh --edge-length 200
   terrane tetrahedralize model.ml -o model.msh --msh 2.2 -o model.inp -o model.mesh
+  terrane tetrahedralize model.ml -o model.exo --order 2 --split fault
+  terrane tetrahedralize model.ml -o model.vtu --output-format ogs --blocks-only
   terrane tetrahedralize horizons.ts faults.ts -o model.vtu --box 0,0,-3000,10000,10000,500)";
 
 /// Parses "x0,y0,z0,x1,y1,z1".
@@ -125,20 +131,38 @@ Result<FilledBlocks> fill(const Model& model, const TetrahedraRequest& wishes, S
     return filled;
 }
 
+/// Names an output, and how many files stand beside it.
+std::string said_of(const Output& output, std::size_t files) {
+    if (output.path == "-" || files == 1) return output.path;
+    return fmt::format("{}, and {} that begin with {}_", output.path, counted(files - 1, "file"),
+                       std::filesystem::path(output.path).stem().string());
+}
+
 Status write_all(const FilledBlocks& filled, const std::vector<Output>& outputs,
                  const FileOptions& files, Session& session) {
     WriteOptions options;
     options.region_names = filled.block_names;
+    options.order = files.order;
     for (const Output& output : outputs) {
         const auto written = write_output(filled.tetrahedra, output, options, session);
         if (!written) return written.error();
-        say_written(summary_stream(files), output.path);
+        say_written(summary_stream(files), said_of(output, written->size()));
     }
     return Done{};
 }
 
 /// Checks before any work is done what can be checked then.
-Status check_call(const TetrahedralizeCommand& command) {
+Status check_call(const TetrahedralizeCommand& command, const std::vector<Output>& outputs) {
+    for (const Output& output : outputs) {
+        if (output.format == Format::pylith && !command.split.empty())
+            return Error{ErrorCode::bad_option, "PyLith splits nodes itself: leave out --split",
+                         output.path};
+        if (!command.certificate.empty() && !is_certifiable(output.format, command.files.order))
+            return Error{ErrorCode::bad_option,
+                         "a certificate is about tetrahedra of first order in .vtu, .msh, .inp or "
+                         ".mesh",
+                         output.path};
+    }
     if (auto planned = plan_certificate(command.certificate, command.files, command.settings);
         !planned)
         return planned;
@@ -154,7 +178,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (!wishes) return wishes.error();
     const auto outputs = plan_outputs(files, OutputKind::tetrahedra);
     if (!outputs) return outputs.error();
-    if (const auto sound = check_call(command); !sound) return sound.error();
+    if (const auto sound = check_call(command, *outputs); !sound) return sound.error();
     auto page = plan_page(files);
     if (!page) return page.error();
     auto inputs = read_certified_inputs(command.certificate, files, session);
@@ -270,8 +294,10 @@ Command tetrahedralize_command(CLI::App& program) {
     add_inputs(*app, command->files);
     add_output(
         *app, command->files,
-        "File for the tetrahedra, .vtu .msh .inp .mesh; - is standard output; may be repeated");
+        "File for the tetrahedra, .vtu .msh .inp .mesh .exo .ugi; - is standard output; may be "
+        "repeated");
     add_msh(*app, command->files);
+    add_order(*app, command->files);
     add_roles(*app, command->roles);
     add_column(*app, command->column);
     add_tetrahedra_options(*app, *command);

@@ -64,9 +64,21 @@ Status check_streams(const FileOptions& options) {
     return Done{};
 }
 
-template <class AnyMesh>
-Status write_with(const AnyMesh& mesh, const Output& output, WriteOptions options, Session& session,
-                  Status (*write)(const AnyMesh&, const fs::path&, const WriteOptions&)) {
+/// Refuses what writing would refuse, before any work is done.
+Status check_tetrahedra(const FileOptions& options, const std::string& path, Format format) {
+    if (path == "-" && has_several_files(format))
+        return Error{ErrorCode::bad_option,
+                     "in this format tetrahedra are several files: name the first",
+                     "standard output"};
+    if (options.order == 2 && !holds_second_order(format))
+        return Error{ErrorCode::unsupported, "this format has no tetrahedra of second order", path};
+    return Done{};
+}
+
+/// Writes by write(mesh, path, options), and shows that at a terminal.
+template <class AnyMesh, class Write>
+auto write_with(const AnyMesh& mesh, const Output& output, WriteOptions options, Session& session,
+                const Write& write) {
     const bool to_stream = output.path == "-"; // among which no progress may be
     session.begin(to_stream ? "" : "write", to_stream ? Phase::idle : Phase::writing);
     options.format = output.format;
@@ -162,6 +174,15 @@ void add_msh(CLI::App& command, FileOptions& options) {
         ->type_name("VERSION");
 }
 
+void add_order(CLI::App& command, FileOptions& options) {
+    command
+        .add_option("--order", options.order,
+                    "Order of tetrahedra in files: 2 has a node in the middle of each edge "
+                    "(default: 1)")
+        ->check(CLI::Range(1U, 2U).description(""))
+        ->type_name("ORDER");
+}
+
 void add_threads(CLI::App& command, FileOptions& options) {
     command
         .add_option("--threads", options.threads,
@@ -194,8 +215,12 @@ Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind 
                              ? holds_tetrahedra(format.value())
                                    ? "this format is for tetrahedra, not for surfaces"
                                    : "this format is read, not written"
-                             : "tetrahedra are written as .vtu, .msh, .inp or .mesh",
+                             : "tetrahedra are written as .vtu, .msh, .inp, .mesh, .exo or .ugi, "
+                               "and by --output-format as ogs, geos or pylith",
                          path};
+        if (kind == OutputKind::tetrahedra)
+            if (auto sound = check_tetrahedra(options, path, format.value()); !sound)
+                return sound.error();
         if (const auto folder = check_folder(path); !folder) return folder.error();
         outputs.push_back({path, format.value()});
     }
@@ -247,12 +272,12 @@ std::string name_of_inputs(const FileOptions& options) {
 
 Status write_output(const Mesh& mesh, const Output& output, WriteOptions options,
                     Session& session) {
-    return write_with<Mesh>(mesh, output, options, session, write_mesh);
+    return write_with(mesh, output, options, session, write_mesh);
 }
 
-Status write_output(const TetrahedralMesh& mesh, const Output& output, WriteOptions options,
-                    Session& session) {
-    return write_with<TetrahedralMesh>(mesh, output, options, session, write_tetrahedra);
+Result<std::vector<fs::path>> write_output(const TetrahedralMesh& mesh, const Output& output,
+                                           WriteOptions options, Session& session) {
+    return write_with(mesh, output, options, session, write_tetrahedra_files);
 }
 
 std::string left_out_of(const Output& output) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,6 +34,7 @@ struct FileOptions {
     bool ascii = false;            ///< STL as text
     bool strict = false;           ///< warnings about the inputs are errors
     std::string msh = "4.1";       ///< version of MSH, or 2.2
+    unsigned order = 1;            ///< of tetrahedra in files: 1 or 2
 };
 
 void add_inputs(CLI::App& command, FileOptions& options);
@@ -42,6 +44,8 @@ void add_reading(CLI::App& command, FileOptions& options);
 void add_strict(CLI::App& command, FileOptions& options);
 void add_output(CLI::App& command, FileOptions& options, const char* help);
 void add_msh(CLI::App& command, FileOptions& options);
+/// Adds --order.
+void add_order(CLI::App& command, FileOptions& options);
 void add_threads(CLI::App& command, FileOptions& options);
 void add_stats(CLI::App& command, FileOptions& options);
 /// Adds --report, and notes the command.
@@ -60,7 +64,7 @@ Error usage(std::string sentence, std::string place = {});
 
 /// Checks the output names before any work is done and finds the format of each. Errors: bad_option
 /// for a standard stream used twice or without a format; unknown_format; unsupported for a format
-/// that can't hold the kind of mesh; cannot_open for a missing folder.
+/// that can't hold the kind of mesh, or its order; cannot_open for a missing folder.
 Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind kind);
 
 /// Returns cannot_open if the file can't be written: its folder is missing or not writable, or it
@@ -89,11 +93,12 @@ void describe(std::span<const Surface> surfaces, Inputs& inputs);
 /// Returns a short name of the inputs: "basin.ts", "basin.ts and 3 more files".
 std::string name_of_inputs(const FileOptions& options);
 
-/// Writes the mesh with `options`, but in the format of `output`. Errors: those of write_mesh and
-/// write_tetrahedra.
+/// Writes the mesh with `options`, but in the format of `output`; of tetrahedra it returns the files.
+/// Errors: those of write_mesh and write_tetrahedra.
 Status write_output(const Mesh& mesh, const Output& output, WriteOptions options, Session& session);
-Status write_output(const TetrahedralMesh& mesh, const Output& output, WriteOptions options,
-                    Session& session);
+Result<std::vector<std::filesystem::path>> write_output(const TetrahedralMesh& mesh,
+                                                        const Output& output, WriteOptions options,
+                                                        Session& session);
 
 /// Returns a clause that names what an output lacks although its format could hold it: the regions
 /// of a model in a .ml file. It is empty for an output that lacks nothing.

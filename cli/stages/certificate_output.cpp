@@ -133,6 +133,10 @@ Result<std::vector<InputRecord>> record_inputs(const std::string& certificate,
     return records;
 }
 
+bool is_certifiable(Format format, unsigned order) {
+    return order == 1 && holds_tetrahedra(format) && format <= Format::medit;
+}
+
 std::string certified_format(Format format, bool ascii) {
     switch (format) {
     case Format::gocad:

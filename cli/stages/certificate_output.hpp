@@ -62,6 +62,9 @@ Result<std::vector<InputRecord>> record_inputs(const std::string& certificate,
 /// Returns the name of the format of an output in a certificate; `ascii` is for STL.
 std::string certified_format(Format format, bool ascii);
 
+/// Tells whether a certificate can be about tetrahedra in this format and of this order.
+bool is_certifiable(Format format, unsigned order);
+
 /// What surfaces were cut, sealed or extended by.
 struct CutRequest {
     /// Returns the volume of interest for a certificate with this path; empty: there is none.

@@ -72,7 +72,11 @@ Status write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
 }
 
 std::string file_name(const std::string& start, const std::string& format) {
-    return start + (format == "msh22" ? "_22.msh" : "." + format);
+    if (format == "msh22") return start + "_22.msh";
+    if (format == "ogs") return start + "_ogs.vtu";
+    if (format == "geos") return start + "_geos.vtm";
+    if (format == "pylith") return start + "_pylith.msh";
+    return start + "." + format;
 }
 
 std::vector<Output> outputs_in(const std::filesystem::path& folder, const std::string& start,

@@ -29,9 +29,9 @@ inline constexpr std::array<std::string_view, 6> rotated_level{"centre",  "corne
 inline constexpr std::array<std::string_view, 2> polygon_level{"corners", "between"};
 inline constexpr std::array<std::string_view, 5> improve_level{
     "edge_length", "max_deviation", "edge_length_of", "layers_in_gaps", "smallest"};
-inline constexpr std::array<std::string_view, 11> tetrahedra_level{
-    "edge_length", "max_volume", "quality",    "split_surfaces", "size_of", "size_in",
-    "split",       "outside",    "time_limit", "mesher",         "optimise"};
+inline constexpr std::array<std::string_view, 12> tetrahedra_level{
+    "edge_length", "max_volume", "quality",    "split_surfaces", "size_of",  "size_in",
+    "split",       "outside",    "time_limit", "mesher",         "optimise", "order"};
 inline constexpr std::array<std::string_view, 3> meshers{"auto", "tetgen", "gmsh"};
 inline constexpr std::array<std::string_view, 5> outputs_level{"surfaces", "tetrahedra", "blocks",
                                                                "certificate", "gocad"};
@@ -43,8 +43,8 @@ inline constexpr std::array<std::string_view, 6> variogram_models{
     "auto", "spherical", "exponential", "gaussian", "matern", "power"};
 inline constexpr std::array<std::string_view, 12> surface_formats{
     "vtp", "obj", "ts", "ply", "off", "stl", "msh", "msh22", "inp", "mesh", "poly", "smesh"};
-inline constexpr std::array<std::string_view, 5> tetrahedra_formats{"vtu", "msh", "msh22", "inp",
-                                                                    "mesh"};
+inline constexpr std::array<std::string_view, 10> tetrahedra_formats{
+    "vtu", "msh", "msh22", "inp", "mesh", "exo", "ugi", "ogs", "geos", "pylith"};
 inline constexpr std::array<std::string_view, 1> formats{"terrane-project 1"};
 
 inline constexpr double smallest_quality = 1.1;

@@ -12,6 +12,8 @@
 #include <terrane/algorithms/mesh/face_sides.hpp>
 #include <terrane/algorithms/tetrahedra/split_nodes.hpp>
 #include <terrane/io/meshes/detail/groups.hpp>
+#include <terrane/io/meshes/detail/second_order.hpp>
+#include <terrane/io/meshes/detail/side_sets.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
 
@@ -67,13 +69,13 @@ struct Members {
     std::vector<TetrahedronSide> front, back;
 };
 
-std::vector<Members> members_of_surfaces(const TetrahedralMesh& mesh) {
+std::vector<Members> members_of_surfaces(const TetrahedralMesh& mesh, const EdgeNodes* edge_nodes) {
     const auto sides = sides_of_faces(mesh);
     std::vector<Members> members(mesh.surfaces.size());
     for (std::size_t f = 0; f < mesh.faces.size(); ++f)
         for (const auto s : mesh.surfaces_of[f]) {
             auto& [nodes, front, back] = members[s];
-            nodes.insert(nodes.end(), mesh.faces[f].begin(), mesh.faces[f].end());
+            for (const auto node : nodes_of_face(mesh, edge_nodes, f)) nodes.push_back(node);
             if (sides[f].front.exists()) front.push_back(sides[f].front);
             if (sides[f].back.exists()) back.push_back(sides[f].back);
         }
@@ -94,10 +96,10 @@ void append_pairs(std::string& out, const std::string& name, const std::vector<N
 }
 
 /// Returns the lines of the node set and of the element faces of each surface.
-std::string surface_lines(const TetrahedralMesh& mesh) {
+std::string surface_lines(const TetrahedralMesh& mesh, const EdgeNodes* nodes) {
     const auto names = label_names(mesh.surfaces);
-    const auto members = members_of_surfaces(mesh);
-    const auto pairs = node_pairs(mesh);
+    const auto members = members_of_surfaces(mesh, nodes);
+    const auto pairs = nodes ? node_pairs(mesh, *nodes) : node_pairs(mesh);
     std::string out;
     for (std::size_t s = 0; s < names.size(); ++s) {
         if (members[s].nodes.empty()) continue;
@@ -139,19 +141,27 @@ std::string to_abaqus(const Mesh& mesh) {
     return out;
 }
 
-std::string to_abaqus(const TetrahedralMesh& mesh, std::span<const std::string> region_names) {
+std::string to_abaqus(const TetrahedralMesh& mesh, std::span<const std::string> region_names,
+                      const EdgeNodes* nodes) {
     std::map<std::uint32_t, std::vector<std::size_t>> of_region;
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
         of_region[mesh.region_of[t]].push_back(t);
     const auto names =
         set_names(of_region.empty() ? 0 : of_region.rbegin()->first + 1, region_names);
-    auto out = node_lines(mesh.vertices);
+    auto out = node_lines(nodes ? nodes->vertices : mesh.vertices);
+    const auto cells = nodes ? tetrahedra_of_10(mesh, *nodes, order_of_abaqus)
+                             : std::vector<std::array<std::uint32_t, 10>>();
     for (const auto& [region, tetrahedra] : of_region) {
-        out += fmt::format("** {}\n*ELEMENT, TYPE=C3D4, ELSET={}\n",
-                           region_name(region, region_names), names[region]);
-        for (const std::size_t t : tetrahedra) append_element(out, t, mesh.tetrahedra[t]);
+        out +=
+            fmt::format("** {}\n*ELEMENT, TYPE={}, ELSET={}\n", region_name(region, region_names),
+                        nodes ? "C3D10" : "C3D4", names[region]);
+        for (const std::size_t t : tetrahedra)
+            if (nodes)
+                append_element(out, t, cells[t]);
+            else
+                append_element(out, t, mesh.tetrahedra[t]);
     }
-    return out + surface_lines(mesh);
+    return out + surface_lines(mesh, nodes);
 }
 
 } // namespace terrane

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/tetrahedra/edge_nodes.hpp>
 
 namespace terrane {
 
@@ -20,7 +21,9 @@ std::string to_abaqus(const Mesh& mesh);
 /// region of each set. Each surface is a node set and two surfaces of element faces, NAME_FRONT
 /// (of the elements in front of it) and NAME_BACK (of those behind it); a side without elements is
 /// left out. If nodes are split, the unsorted node sets NAME_PAIRS_FRONT and NAME_PAIRS_BACK list
-/// the nodes on both sides of the cut pair by pair.
-std::string to_abaqus(const TetrahedralMesh& mesh, std::span<const std::string> region_names = {});
+/// the nodes on both sides of the cut pair by pair. With `nodes` elements are of second order
+/// (C3D10), and sets of nodes have those on edges.
+std::string to_abaqus(const TetrahedralMesh& mesh, std::span<const std::string> region_names = {},
+                      const EdgeNodes* nodes = nullptr);
 
 } // namespace terrane

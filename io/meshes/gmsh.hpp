@@ -7,6 +7,7 @@
 #include <string>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/tetrahedra/edge_nodes.hpp>
 
 namespace terrane {
 
@@ -21,7 +22,9 @@ std::string to_msh(const Mesh& mesh);
 /// n + r + 1, which is no number of a physical surface, with the name "outside" or "region 1", ...,
 /// or "region 1: NAME" if region_names[1] is NAME. If nodes are split, the faces of surface s in
 /// front of the cut are in the physical surface "NAME front" and those behind it in "NAME back",
-/// instead of in s + 1; $Periodic lists the pairs of nodes at the same point.
-std::string to_msh(const TetrahedralMesh& mesh, std::span<const std::string> region_names = {});
+/// instead of in s + 1; $Periodic lists the pairs of nodes at the same point. With `nodes` the
+/// elements are of second order (types 11 and 9).
+std::string to_msh(const TetrahedralMesh& mesh, std::span<const std::string> region_names = {},
+                   const EdgeNodes* nodes = nullptr);
 
 } // namespace terrane

@@ -9,6 +9,7 @@
 
 #include <terrane/algorithms/tetrahedra/split_nodes.hpp>
 #include <terrane/io/meshes/detail/groups.hpp>
+#include <terrane/io/meshes/detail/second_order.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
 
@@ -62,14 +63,23 @@ public:
         text_ += '\n';
     }
 
-    void add_triangles(const std::vector<Triangle>& triangles,
-                       const IndexLists<std::uint32_t>& surfaces_of, std::size_t surface_count,
-                       std::span<const CutSide> sides = {}) {
-        for (std::size_t t = 0; t < triangles.size(); ++t)
+    /// `type` is that of elements, and how many tags they have.
+    template <class Face>
+    void add_faces(std::string_view type, const std::vector<Face>& faces,
+                   const IndexLists<std::uint32_t>& surfaces_of, std::size_t surface_count,
+                   std::span<const CutSide> sides = {}) {
+        for (std::size_t t = 0; t < faces.size(); ++t)
             for (const auto s : surfaces_of[t]) {
                 const CutSide side = sides.empty() ? CutSide::none : sides[t];
-                add(" 2 2", side_tag(s, side, surface_count), triangles[t]); // type, how many tags
+                add(type, side_tag(s, side, surface_count), faces[t]);
             }
+    }
+
+    template <class Tetrahedron>
+    void add_tetrahedra(std::string_view type, const std::vector<Tetrahedron>& tetrahedra,
+                        const TetrahedralMesh& mesh) {
+        for (std::size_t t = 0; t < tetrahedra.size(); ++t)
+            add(type, region_tag(mesh.region_of[t], mesh.surfaces.size()), tetrahedra[t]);
     }
 
     [[nodiscard]] std::string section() const {
@@ -85,8 +95,8 @@ constexpr std::string_view format_section = "$MeshFormat\n2.2 0 8\n$EndMeshForma
 
 /// Returns the section $Periodic: for each split surface, the nodes behind it with the nodes at the
 /// same points in front of it.
-std::string periodic(const TetrahedralMesh& mesh) {
-    const auto pairs = node_pairs(mesh);
+std::string periodic(const TetrahedralMesh& mesh, const EdgeNodes* edge_nodes) {
+    const auto pairs = edge_nodes ? node_pairs(mesh, *edge_nodes) : node_pairs(mesh);
     std::size_t links = 0;
     std::string text;
     for (std::size_t s = 0; s < pairs.size(); ++s) {
@@ -104,23 +114,30 @@ std::string periodic(const TetrahedralMesh& mesh) {
 
 std::string to_msh22(const Mesh& mesh) {
     Elements elements;
-    elements.add_triangles(mesh.triangles, mesh.surfaces_of, mesh.surfaces.size());
+    elements.add_faces(" 2 2", mesh.triangles, mesh.surfaces_of, mesh.surfaces.size());
     return std::string(format_section) + physical_names(mesh.surfaces, {}, {}, {}) +
            nodes(mesh.vertices) + elements.section();
 }
 
-std::string to_msh22(const TetrahedralMesh& mesh, std::span<const std::string> region_names) {
+std::string to_msh22(const TetrahedralMesh& mesh, std::span<const std::string> region_names,
+                     const EdgeNodes* edge_nodes) {
     Elements elements;
-    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-        elements.add(" 4 2", region_tag(mesh.region_of[t], mesh.surfaces.size()),
-                     mesh.tetrahedra[t]);
     const auto sides = cut_sides(mesh);
-    elements.add_triangles(mesh.faces, mesh.surfaces_of, mesh.surfaces.size(), sides);
+    const auto count = mesh.surfaces.size();
+    if (edge_nodes) {
+        elements.add_tetrahedra(" 11 2", tetrahedra_of_10(mesh, *edge_nodes, order_of_gmsh), mesh);
+        elements.add_faces(" 9 2", triangles_of_6(mesh, *edge_nodes), mesh.surfaces_of, count,
+                           sides);
+    } else {
+        elements.add_tetrahedra(" 4 2", mesh.tetrahedra, mesh);
+        elements.add_faces(" 2 2", mesh.faces, mesh.surfaces_of, count, sides);
+    }
     const std::set<std::uint32_t> regions(mesh.region_of.begin(), mesh.region_of.end());
-    const auto groups = surface_groups(mesh.surfaces_of, mesh.surfaces.size(), sides);
+    const auto groups = surface_groups(mesh.surfaces_of, count, sides);
     return std::string(format_section) +
            physical_names(mesh.surfaces, side_names(groups, mesh.surfaces), regions, region_names) +
-           nodes(mesh.vertices) + elements.section() + periodic(mesh);
+           nodes(edge_nodes ? edge_nodes->vertices : mesh.vertices) + elements.section() +
+           periodic(mesh, edge_nodes);
 }
 
 } // namespace terrane

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/tetrahedra/edge_nodes.hpp>
 
 namespace terrane {
 
@@ -18,7 +19,8 @@ std::string to_msh22(const Mesh& mesh);
 /// Writes the tetrahedra, then their faces on surfaces, numbered as the triangles above. Region r
 /// is physical volume and entity 3 n + r + 1, with n surfaces, with the name "outside" or "region
 /// 1", ..., or "region 1: NAME" if region_names[1] is NAME. Split nodes are written as in MSH 4.1
-/// (gmsh.hpp).
-std::string to_msh22(const TetrahedralMesh& mesh, std::span<const std::string> region_names = {});
+/// (gmsh.hpp), and so are elements of second order.
+std::string to_msh22(const TetrahedralMesh& mesh, std::span<const std::string> region_names = {},
+                     const EdgeNodes* edge_nodes = nullptr);
 
 } // namespace terrane

@@ -9,6 +9,7 @@
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/tetrahedra/edge_nodes.hpp>
 #include <terrane/io/meshes/cell_array.hpp>
 
 namespace terrane {
@@ -38,10 +39,12 @@ Result<std::string> to_vtp(const Mesh& mesh, bool compress = true,
 /// followed by `cells`. The field arrays are those of to_vtp; their lists count faces only. Names
 /// and roles are arrays of character codes (UInt8), each string ended by a 0: meshio refuses grids
 /// with arrays of strings. If there are `region_names`, one per region, they are the field array
-/// region_name, of codes as well. Errors: bad_option if an array of `cells` does not have one value per
-/// tetrahedron and face.
+/// region_name, of codes as well. With `nodes` the cells are of second order: quadratic tetrahedra
+/// and triangles. Errors: bad_option if an array of `cells` does not have one value per tetrahedron
+/// and face.
 Result<std::string> to_vtu(const TetrahedralMesh& mesh, bool compress = true,
                            std::span<const CellArray> cells = {},
-                           std::span<const std::string> region_names = {});
+                           std::span<const std::string> region_names = {},
+                           const EdgeNodes* nodes = nullptr);
 
 } // namespace terrane

@@ -2,6 +2,8 @@
 #include <terrane/io/text/names.hpp>
 
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/io/text/text.hpp>
+#include <terrane/io/text/utf8.hpp>
 
 namespace terrane::detail {
 
@@ -29,7 +31,38 @@ std::string label(std::string_view name) {
     return result.empty() ? "SURFACE" : result;
 }
 
+/// Returns what a word keeps of a name; it may be empty.
+std::string word(std::string_view name) {
+    constexpr std::size_t most_bytes = 200; // names of files have 255; leaves room for endings
+    const bool has_letters_beyond_ascii = is_utf8(name);
+    std::string result;
+    bool gap = false;
+    for (const char c : name) {
+        const auto code = static_cast<unsigned char>(c);
+        const bool kept = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                          (c >= '0' && c <= '9') || (c == '-' && !result.empty()) ||
+                          (code >= 128 && has_letters_beyond_ascii);
+        if (kept && gap && !result.empty()) result += '_';
+        if (kept) result += c;
+        gap = !kept;
+    }
+    if (result.size() <= most_bytes) return result;
+    std::size_t end = most_bytes; // not within a character of several bytes
+    while (end > 0 && (static_cast<unsigned char>(result[end]) & 0xC0) == 0x80) --end;
+    return result.substr(0, end);
+}
+
 } // namespace
+
+std::string WordNames::add(std::string_view name, std::string_view kind) {
+    auto start = word(name);
+    if (start.empty()) start = kind;
+    if (start[0] >= '0' && start[0] <= '9') start = std::string(kind) + "_" + start;
+    auto made = start;
+    for (std::size_t n = 2; !taken_.insert(lower(made)).second; ++n)
+        made = start + "_" + std::to_string(n);
+    return made;
+}
 
 std::vector<std::string> plain_names(const std::vector<SurfaceInfo>& surfaces) {
     return unique_names(surfaces, plain);

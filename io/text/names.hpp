@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,5 +30,20 @@ inline constexpr std::array<std::string_view, 4> role_names{"unknown", "horizon"
 
 /// Returns the name on one line: control characters become blanks.
 [[nodiscard]] std::string one_line(std::string_view name);
+
+/// Makes names of one word, for input files of simulators and for names of files. Letters, digits,
+/// '-' and characters beyond ASCII are kept; what is between them becomes one '_'. A word begins
+/// with no digit, since programs take such names for numbers, and has at most 200 bytes before the
+/// ending _2, _3, ... that tells it from an earlier one, also from one with other capital letters:
+/// some file systems do not distinguish these.
+class WordNames {
+public:
+    /// Returns the word for a name: `kind` where nothing of it can be kept, and after `kind` and '_'
+    /// where it begins with a digit.
+    std::string add(std::string_view name, std::string_view kind);
+
+private:
+    std::set<std::string> taken_; ///< in small letters
+};
 
 } // namespace terrane::detail

@@ -74,7 +74,11 @@ public:
 
 private:
     static std::string name(const char* start, const std::string& format) {
-        return start + (format == "msh22" ? std::string("_22.msh") : "." + format);
+        if (format == "msh22") return std::string(start) + "_22.msh";
+        if (format == "ogs") return std::string(start) + "_ogs.vtu";
+        if (format == "geos") return std::string(start) + "_geos.vtm";
+        if (format == "pylith") return std::string(start) + "_pylith.msh";
+        return start + ("." + format);
     }
 
     Status write_surfaces(const std::filesystem::path& to) {
@@ -100,6 +104,7 @@ private:
         if (!built_.tetrahedra) return Done{};
         WriteOptions options;
         options.region_names = built_.tetrahedra->block_names;
+        options.order = built_.project.tetrahedra.order;
         for (const std::string& format : built_.project.outputs.tetrahedra) {
             options.format = format_named(format);
             if (auto done = write_tetrahedra(built_.tetrahedra->tetrahedra,

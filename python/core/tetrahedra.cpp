@@ -72,22 +72,27 @@ TetrahedraPointer fill(const ModelPointer& model, const py::dict& options, const
         }));
 }
 
-void write(const TetrahedraPointer& t, const py::object& path,
-           const std::optional<std::string>& format, bool compress, const HowToRun& how) {
+std::vector<std::string> write(const TetrahedraPointer& t, const py::object& path,
+                               const std::optional<std::string>& format, bool compress,
+                               unsigned order, const HowToRun& how) {
     const std::filesystem::path to = from_text(path);
     WriteOptions options;
     options.compress = compress;
+    options.order = order;
     if (format) {
         options.format = format_named(*format);
         if (!options.format)
             throw Failure{
                 {ErrorCode::unknown_format, "no format is called so", "format=" + *format}};
     }
-    run_stage(how, [t, to, options](const Run&) {
+    const auto files = run_stage(how, [t, to, options](const Run&) {
         WriteOptions all = options;
         all.region_names = t->block_names;
-        return write_tetrahedra(t->tetrahedra, to, all);
+        return write_tetrahedra_files(t->tetrahedra, to, all);
     });
+    std::vector<std::string> names;
+    for (const auto& file : files) names.push_back(file.string());
+    return names;
 }
 
 TetrahedraPointer made_of(const py::tuple& state) {
@@ -181,7 +186,7 @@ void bind_tetrahedra(py::module_& module) {
         bound, "surfaces_of", [](const F& f) -> auto& { return f.tetrahedra.surfaces_of; });
     module.def("fill_blocks", &fill, "model"_a, "options"_a, "how"_a);
     module.def("write_tetrahedra", &write, "tetrahedra"_a, "path"_a, "format"_a, "compress"_a,
-               "how"_a);
+               "order"_a, "how"_a);
 }
 
 } // namespace terrane::python

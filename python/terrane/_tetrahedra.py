@@ -161,9 +161,15 @@ class Tetrahedra(Result):
         number = self.block_names.index(block) if isinstance(block, str) else int(block)
         return np.asarray(self.tetrahedra[self.region_of == number])
 
-    def save(self, path: Path, format: Optional[str] = None, *, compress: bool = True) -> None:
-        """Write the tetrahedra as .vtu, .msh, .inp or .mesh, as ``terrane tetrahedralize`` does."""
-        _core.write_tetrahedra(self._core, os.fspath(path), format, compress, how(1, None))
+    def save(self, path: Path, format: Optional[str] = None, *, compress: bool = True, order: int = 1) -> List[str]:
+        """Write the tetrahedra, as ``terrane tetrahedralize`` does, and return the files that were written.
+
+        The extension tells the format: .vtu, .msh, .inp, .mesh, .exo (Exodus II) or .ugi (PFLOTRAN). `format` names others:
+        "msh22", and "ogs" (OpenGeoSys), "geos" or "pylith". With `order` 2 tetrahedra have a node in the middle of each edge.
+        """
+        if order not in (1, 2):
+            raise Error("bad_option", f"must be 1 or 2, not {order!r}", "order")
+        return list(_core.write_tetrahedra(self._core, os.fspath(path), format, compress, order, how(1, None)))
 
     def report(self, path: Path, *, threads: Optional[int] = None) -> None:
         """Write the page of the model with its tetrahedra: one HTML file, as `Model.report`.

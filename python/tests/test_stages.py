@@ -3,6 +3,7 @@
 
 import json
 import os
+import pathlib
 
 import numpy as np
 import pytest
@@ -241,6 +242,22 @@ def test_tetrahedra(model):
     thick = volumes > 1e-9  # the middle of a sliver, rounded, may be outside of it
     assert thick.sum() > 500
     assert np.array_equal(model.block_of(v.mean(axis=1)[thick]), cells.region_of[thick])
+
+
+@pytest.mark.tetgen
+def test_tetrahedra_for_simulators(model):
+    cells = model.tetrahedra()
+    assert cells.save("a.exo") == ["a.exo"]
+    files = cells.save("flow.vtu", "ogs")
+    assert files[0] == "flow.vtu" and len(files) > 6
+    assert sorted(files) == sorted(str(p) for p in pathlib.Path(".").glob("flow*.vtu"))
+    assert len(cells.save("b.vtu", order=2)) == 1
+    with pytest.raises(terrane.Error, match="1 or 2") as raised:
+        cells.save("c.vtu", order=3)
+    assert raised.value.code == "bad_option"
+    with pytest.raises(terrane.Error, match="second order"):
+        cells.save("c.vtm", "geos", order=2)
+    assert not pathlib.Path("c.vtu").exists() and not pathlib.Path("c.vtm").exists()
 
 
 @pytest.mark.tetgen

@@ -67,8 +67,9 @@ TEST_CASE("files: what is written reads back", "[io][files]") {
 
 TEST_CASE("files: what holds surfaces, and what tetrahedra", "[io][files]") {
     TemporaryFolder folder;
-    const std::vector<std::string> names{"ts",  "obj",   "off", "stl",  "ply",  "vtp",   "vtu",
-                                         "msh", "msh22", "inp", "mesh", "poly", "smesh", "vtk"};
+    const std::vector<std::string> names{"ts",  "obj",   "off", "stl",  "ply",   "vtp",   "vtu",
+                                         "msh", "msh22", "inp", "mesh", "poly",  "smesh", "vtk",
+                                         "exo", "ugi",   "ogs", "geos", "pylith"};
     std::string of_surfaces, of_tetrahedra;
     for (const auto& name : names) {
         const auto format = format_named(name);
@@ -82,7 +83,55 @@ TEST_CASE("files: what holds surfaces, and what tetrahedra", "[io][files]") {
         if (tetrahedra) of_tetrahedra += name + " ";
     }
     CHECK(of_surfaces == "ts obj off stl ply vtp msh msh22 inp mesh poly smesh vtk ");
-    CHECK(of_tetrahedra == "vtu msh msh22 inp mesh ");
+    CHECK(of_tetrahedra == "vtu msh msh22 inp mesh exo ugi ogs geos pylith ");
+}
+
+TEST_CASE("files: all files of a simulator are written, or none", "[io][files]") {
+    TemporaryFolder folder;
+    const auto files = write_tetrahedra_files(two_tetrahedra(), folder / "a.ugi");
+    REQUIRE(files);
+    CHECK(files->front() == folder / "a.ugi");
+    CHECK(files->size() == entries(folder.path()));
+    for (const auto& file : *files) CHECK(fs::exists(file));
+
+    fs::remove_all(folder / "a_box.ss");
+    fs::create_directory(folder / "a_box.ss"); // no file can be there
+    const auto before = read_file(folder / "a.ugi").value();
+    const auto failed = write_tetrahedra(cut_tetrahedra(), folder / "a.ugi");
+    REQUIRE(!failed);
+    CHECK(message_of(failed).find("a_box.ss") != std::string::npos);
+    CHECK(read_file(folder / "a.ugi").value() == before);
+    CHECK(entries(folder.path()) == files->size());
+
+    CHECK(message_of(write_tetrahedra(two_tetrahedra(), "-", {.format = Format::geos})) ==
+          "standard output: in this format tetrahedra are several files: name the first");
+    const auto nowhere = write_tetrahedra(two_tetrahedra(), folder / "no" / "a.exo");
+    CHECK(code_of(nowhere) == ErrorCode::cannot_open);
+}
+
+TEST_CASE("files: tetrahedra of second order", "[io][files]") {
+    TemporaryFolder folder;
+    for (const std::string name : {"vtu", "msh", "msh22", "inp", "exo", "ogs"}) {
+        INFO(name);
+        CHECK(holds_second_order(*format_named(name)));
+        const auto first = folder / ("a." + name), second = folder / ("b." + name);
+        CHECK(message_of(write_tetrahedra(two_tetrahedra(), first)) == "no error");
+        CHECK(message_of(write_tetrahedra(two_tetrahedra(), second, {.order = 2})) == "no error");
+        CHECK(read_file(first).value() != read_file(second).value());
+    }
+    for (const std::string name : {"mesh", "ugi", "geos", "pylith"}) {
+        INFO(name);
+        CHECK(!holds_second_order(*format_named(name)));
+        const auto file = folder / ("c." + name);
+        const auto failed = write_tetrahedra(two_tetrahedra(), file, {.order = 2});
+        CHECK(code_of(failed) == ErrorCode::unsupported);
+        CHECK(!fs::exists(file));
+    }
+    CHECK(message_of(write_tetrahedra(two_tetrahedra(), folder / "a.vtu", {.order = 3})) ==
+          (folder / "a.vtu").string() + ": the order of tetrahedra is 1 or 2");
+    CHECK(message_of(write_tetrahedra(cut_tetrahedra(), folder / "a.pylith")) ==
+          (folder / "a.pylith").string() +
+              ": PyLith splits nodes itself: make this file without split surfaces");
 }
 
 TEST_CASE("files: reading what can't be read", "[io][files]") {

@@ -48,7 +48,8 @@ json full() {
                     "layers_in_gaps": 0.5, "smallest": 0.25},
         "tetrahedra": {"edge_length": 2, "max_volume": 3.5, "quality": 1.4, "split_surfaces": true,
                        "size_of": {"F1": 0.5, "top": 1}, "size_in": {"2": 0.25, "top/base": 1},
-                       "split": ["fault", "top"], "outside": true, "time_limit": 60, "mesher": "gmsh", "optimise": false},
+                       "split": ["fault", "top"], "outside": true, "time_limit": 60, "mesher": "gmsh", "optimise": false,
+                       "order": 2},
         "outputs": {"surfaces": ["vtp", "obj"], "tetrahedra": ["vtu", "msh", "msh22"],
                     "blocks": "vtp", "certificate": false, "gocad": true}})");
 }
@@ -70,6 +71,7 @@ std::vector<json> samples() {
     for (const char* key : {"unit", "improve", "fill", "layers", "min_volume"})
         all.back().erase(key);
     all.back()["outputs"]["certificate"] = true;
+    all.back()["tetrahedra"]["order"] = 1;
     all.back()["surfaces"][1]["depth"] = false;
     all.push_back(json::parse(R"({"format": "terrane-project 1", "surfaces": [{"file": "a"}],
                                   "outputs": {"blocks": "obj"}})"));
@@ -278,6 +280,7 @@ TEST_CASE("project: all keys are read", "[io][project]") {
     CHECK(p.tetrahedra.split == std::vector<std::string>{"fault", "top"});
     CHECK(p.tetrahedra.outside == true);
     CHECK(p.tetrahedra.time_limit == 60);
+    CHECK(p.tetrahedra.order == 2);
     CHECK(p.tetrahedra.mesher == Mesher::gmsh);
     CHECK_FALSE(p.tetrahedra.optimise);
     CHECK(p.outputs.surfaces == std::vector<std::string>{"vtp", "obj"});
@@ -346,9 +349,11 @@ TEST_CASE("project: schema and parser give the same verdict on every change", "[
             const bool accepted = said == "no error";
             (accepted ? good : bad)++;
             // These rules go beyond the schema: a certificate is about whole surfaces as they were
-            // read, and about blocks in two formats; only the lowest unit can be without a base.
+            // read, about blocks in two formats and tetrahedra of first order; only the lowest unit
+            // can be without a base.
             for (const char* beyond : {"p.json: outputs.certificate: must be false with unit",
                                        "p.json: outputs.certificate: is about blocks as",
+                                       "p.json: outputs.certificate: is about tetrahedra",
                                        "p.json: column[0].surface: only the lowest unit"})
                 if (said.starts_with(beyond)) return;
             INFO(where << ": " << said);
@@ -422,4 +427,26 @@ TEST_CASE("project: any text gives a project or an error", "[io][project]") {
     const auto missing = read_project("/nowhere/p.json");
     REQUIRE_FALSE(missing);
     CHECK(missing.error().code == ErrorCode::cannot_open);
+}
+
+TEST_CASE("project: formats of tetrahedra hold what is asked for", "[io][project]") {
+    const auto said = [](const std::string& tetrahedra, const std::string& outputs) {
+        return message_of(parse_project(
+            R"({"format": "terrane-project 1", "surfaces": [{"file": "a.ts"}], "tetrahedra": )" +
+                tetrahedra + R"(, "outputs": )" + outputs + "}",
+            ".", "p.json"));
+    };
+    CHECK(said(R"({"order": 2})", R"({"tetrahedra": ["vtu", "exo", "ogs"]})") == "no error");
+    CHECK_THAT(said(R"({"order": 2})", R"({"tetrahedra": ["vtu", "geos"]})"),
+               Catch::Contains("outputs.tetrahedra[1]") && Catch::Contains("second order"));
+    CHECK_THAT(said(R"({"order": 3})", R"({"tetrahedra": ["vtu"]})"),
+               Catch::Contains("tetrahedra.order") && Catch::Contains("must be 1 or 2"));
+    CHECK_THAT(said(R"({"split": ["F"]})", R"({"tetrahedra": ["pylith"]})"),
+               Catch::Contains("splits nodes itself"));
+    CHECK(said("{}", R"({"tetrahedra": ["pylith"]})") == "no error");
+    for (const std::string wanted : {R"({"tetrahedra": ["exo"], "certificate": true})",
+                                     R"({"tetrahedra": ["ogs"], "certificate": true})"})
+        CHECK_THAT(said("{}", wanted), Catch::Contains("outputs.certificate"));
+    CHECK_THAT(said(R"({"order": 2})", R"({"tetrahedra": ["vtu"], "certificate": true})"),
+               Catch::Contains("outputs.certificate"));
 }
