@@ -24,7 +24,7 @@ Result<ImprovedAndMeasured> improve_and_measure(const ConformingMesh& mesh,
         if (!improved) return improved.error();
         const StageTimer timer(run, "measure");
         if (run.progress) run.progress("measure", 0);
-        constexpr double samples = 0.5; // the share of measuring what was improved
+        constexpr double samples = 0.5; // share of the first step, an estimate
         auto deviations =
             deviations_of(mesh, improved->mesh, part_of_stage(run, "measure", 0, samples));
         if (run.stop.stop_requested())

@@ -45,7 +45,7 @@ public:
         if (moved_.largest == 0 && deviation() > task_.limit) return too_far();
         tell(0.2);
         auto pairs = first_contacts();
-        tell(0.7); // on real models the shares of the time, about
+        tell(0.7); // the shares are estimates, not measured
         state_.only_dirty(pairs);
         find_first_regions();
         tell(0.9);
