@@ -128,7 +128,8 @@ exec env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 chroot "$1/root" s
 IN_ROOT = """
 ! find /usr -name '*terrane*' | grep . || { echo 'Terrane is installed on this machine'; exit 1; }
 dpkg --install /made/packages/*.deb >/made/dpkg.log
-dpkg --verify '*terrane*'
+installed=$(dpkg-query --show --showformat '${Package} ' '*terrane*')
+dpkg --verify $installed
 cd /project/docs/data
 terrane arrange top.ts fault.ts -o /made/installed.vtp >/dev/null
 if [ -e /usr/libexec/terrane/terrane-tetgen ]; then terrane tetrahedralize body.ts -o /made/installed.vtu >/dev/null; fi
@@ -139,7 +140,7 @@ fi
 if [ -e /usr/lib/python3/dist-packages/terrane ]; then
     /usr/bin/python3 -c 'import terrane; assert len(terrane.model(terrane.read("body.ts")).blocks) > 0'
 fi
-dpkg --purge $(dpkg-query --show --showformat '${Package} ' '*terrane*') >>/made/dpkg.log
+dpkg --purge $installed >>/made/dpkg.log
 ! find /usr /etc /var/lib/dpkg/info -name '*terrane*' | grep . || { echo 'these files stay'; exit 1; }
 """
 
