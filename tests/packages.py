@@ -118,6 +118,7 @@ mount -t tmpfs tmpfs "$1"
 mkdir "$1/upper" "$1/work" "$1/root"
 mount -t overlay overlay -o "lowerdir=/,upperdir=$1/upper,workdir=$1/work" "$1/root"
 mount --rbind /dev "$1/root/dev"
+mount --rbind /proc "$1/root/proc" # by which the program finds its helpers
 mkdir -p "$1/root/made"
 mount --bind "$2" "$1/root/made"
 mkdir -p "$1/root/project"

@@ -106,9 +106,25 @@ terrane_package(tetgen terrane-tetgen science AGPL-3+ "exact meshes of geologica
     "${what}\n.\nThis package has the helper program that makes tetrahedra by TetGen." ENHANCES "terrane, ${c_package}")
 terrane_package(gmsh terrane-gmsh science GPL-3+ "exact meshes of geological surfaces - tetrahedra by Gmsh"
     "${what}\n.\nThis package has the helper program that makes tetrahedra by Gmsh." ENHANCES "terrane, ${c_package}")
+# Python's compiled files come and go with the package, as dh_python3 has it.
+file(WRITE ${PROJECT_BINARY_DIR}/debian/python/postinst "#!/bin/sh
+set -e
+if [ \"$1\" = configure ] && command -v py3compile >/dev/null 2>&1; then
+    py3compile -p python3-terrane
+fi
+")
+file(WRITE ${PROJECT_BINARY_DIR}/debian/python/prerm "#!/bin/sh
+set -e
+if command -v py3clean >/dev/null 2>&1; then
+    py3clean -p python3-terrane
+fi
+")
+file(CHMOD ${PROJECT_BINARY_DIR}/debian/python/postinst ${PROJECT_BINARY_DIR}/debian/python/prerm
+     PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 terrane_package(python python3-terrane python LGPL-3+ "exact meshes of geological surfaces - Python package"
     "${what}\n.\nThis package has the module terrane for Python 3." DEPENDS "python3, python3-numpy"
-    SUGGESTS "terrane-tetgen, python3-meshio")
+    SUGGESTS "terrane-tetgen, python3-meshio"
+    CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/python/postinst ${PROJECT_BINARY_DIR}/debian/python/prerm)
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/scripts/cmake/compress_pages.cmake)
 
 # Packages of what this build has.
