@@ -16,7 +16,7 @@ stages take ``threads=`` and ``progress=``, run without the GIL, and stop at a K
 import os as _os
 
 from . import _core
-from ._arrangement import Arrangement, RoundedMesh, RoundingReport, arrange, check, regions, round
+from ._arrangement import Arrangement, RoundedMesh, arrange, check, regions, round
 from ._arrays import IndexLists, SurfaceInfo
 from ._blocks import (NO_INDEX, BlockParts, Corner, InterfaceParts, Line, Patch, Structure, Volumes,
                       structure, volumes)
@@ -25,11 +25,13 @@ from ._files import read, save
 from ._holes import BorderLoop, Filled, FilledHole, FillReport, fill, holes
 from ._layers import Layered, LayerReport, OutOfOrder, layers
 from ._mesh import CheckReport, Contact, Mesh, Region, Regions, mesh
-from ._model import Juxtaposition, Leak, Model, Relation, model
+from ._model import Model, model
 from ._parts import Block, Blocks, Interface
 from ._project import Built, build
 from ._quality import Improved, distance, improve
+from ._relations import Juxtaposition, Leak, Relation
 from ._report import HAS_REPORTS
+from ._rounding import RoundingReport
 from ._sealing import (ClosedGap, OpenGap, SealAdvice, SealChange, Sealed, SealTrial, seal,
                        suggest_seal)
 from ._surface import ROLES, Frame, Surface, as_surface, as_surfaces

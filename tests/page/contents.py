@@ -219,6 +219,13 @@ def check_certificates(folder):
     check(status == 0 and found == {"certificate.json": True, "certificate_blocks.json": True}, "those of a project", found, said, content["certificates"])
 
 
+def check_quiet(folder):
+    """`terrane report` and `terrane view` obey --quiet, as all commands do."""
+    done = subprocess.run([PROGRAM, "report", "two.ts", "-o", "quiet.html", "--quiet"], cwd=folder, capture_output=True, text=True)
+    check(done.returncode == 0 and done.stdout == done.stderr == "", "--quiet shows nothing", done.stdout, done.stderr)
+    check((folder / "quiet.html").is_file(), "the page is there")
+
+
 def opener(folder, name):
     """Writes a program that notes what it is asked to open."""
     script = folder / name
@@ -277,7 +284,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         tests = (check_without,) if "--without" in sys.argv else (check_names, check_contents, check_same_bytes, check_commands,
-                                                                       check_layers, check_certificates, check_view)
+                                                                       check_layers, check_certificates, check_quiet, check_view)
         for test in tests:
             test(folder)
     print("\n".join(flaws) or "pages are what they must be")
