@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parent.parent
 # Bottom-up: what stands lower in the tree includes what stands above it in this list.
 ORDER = (
     "kernel algorithms/core algorithms/mesh algorithms/plausibility algorithms/search algorithms/intersection "
-    "algorithms/triangulation algorithms/arrangement algorithms/check algorithms/regions "
+    "algorithms/triangulation algorithms/arrangement algorithms/distribution algorithms/check algorithms/regions "
     "algorithms/rounding algorithms/volumes algorithms/structure algorithms/layers "
     "algorithms/quality algorithms/reconstruction/holes algorithms/reconstruction/joining "
     "algorithms/reconstruction/kriging algorithms/reconstruction/rbf algorithms/reconstruction "
