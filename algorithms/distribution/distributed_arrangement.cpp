@@ -138,7 +138,7 @@ Result<DistributedReport> summary_of(Supersteps& blocks) {
     DistributedReport report;
     report.contacts = sum.contacts;
     report.deviation = sum.deviation;
-    report.limit = sum.largest_coordinate;
+    report.limit = default_max_move(sum.largest_coordinate);
     report.input_vertices = sum.input_vertices;
     report.input_triangles = sum.input_triangles;
     report.vertices = sum.vertices;
@@ -158,7 +158,7 @@ Result<DistributedReport> arrange_in_blocks(Supersteps& blocks, const FileReader
     if (auto done = Sequence(blocks, read, options, run)(); !done) return done.error();
     auto report = summary_of(blocks);
     if (!report) return report;
-    report->clean = report->contacts == 0;
+    report->clean = report->contacts == 0 && report->deviation <= report->limit;
     if (!options.digest) return report;
     auto digest = digest_of(blocks);
     if (!digest) return digest.error();

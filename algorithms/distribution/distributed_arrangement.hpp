@@ -22,6 +22,7 @@
 #include <terrane/algorithms/distribution/supersteps.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
 
 namespace terrane::distribution {
 
@@ -42,7 +43,7 @@ struct DistributedReport {
     double limit = 0;            ///< farthest that is allowed unless the user says otherwise
     std::uint64_t input_vertices = 0, input_triangles = 0;
     std::uint64_t vertices = 0, triangles = 0, intersection_edges = 0, regions = 0;
-    std::string digest{};        ///< if it is wanted
+    std::string digest{}; ///< if it is wanted
     Work largest{};              ///< of each count the largest of any block
     Work total{};                ///< of each count the sum over all blocks; memory: as largest
 };
@@ -61,8 +62,14 @@ Result<DistributedReport> arrange_in_blocks(Supersteps& blocks, const FileReader
 /// Returns the triangles of a block after arrange_in_blocks(), with nearest doubles.
 BlockPiece piece_of(const Block& block);
 
-/// Returns all surfaces as they were read, in the first block; nothing in others. For what needs the
-/// whole model. Errors: out_of_memory.
-Status gather_surfaces(Supersteps& blocks, std::vector<Surface>& surfaces);
+/// Arranges and rounds all surfaces in the process of the first block, for a mesh whose nearest doubles
+/// are not conforming: snapping may move any part of it. That process then needs the memory and the
+/// time of arrange() and round_to_doubles(). Call it after arrange_in_blocks(), in all processes; in
+/// others the piece is empty. Errors: those of arrange() and round_to_doubles().
+struct RepairedWhole {
+    BlockPiece piece;      ///< all triangles, in the process of the first block
+    RoundingReport report; ///< the same in all processes, but for its lists
+};
+Result<RepairedWhole> repair_in_one_process(Supersteps& blocks, const Run& run = {});
 
 } // namespace terrane::distribution
