@@ -181,6 +181,10 @@ double default_max_move(const Arrangement& a) {
             const Point3& p = a.state->points.input(v);
             largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
         }
+    return default_max_move(largest);
+}
+
+double default_max_move(double largest) {
     if (!(largest > 0)) return std::numeric_limits<double>::min();
     const int digits = std::ilogb(largest) - 52 + rounding_tuning.allowed_digits;
     return std::ldexp(1.0, std::max(digits, -1074 + rounding_tuning.allowed_digits));
