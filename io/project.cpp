@@ -11,6 +11,7 @@
 #include <terrane/io/detail/column_keys.hpp>
 #include <terrane/io/detail/json_reader.hpp>
 #include <terrane/io/detail/project_keys.hpp>
+#include <terrane/io/detail/uncertainty_keys.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/text/names.hpp>
 
@@ -69,6 +70,8 @@ private:
             project.max_move = in_.positive(*v, "max_move");
         if (const Json* v = in_.find(json, "improve")) project.improve = improve(*v);
         if (const Json* v = in_.find(json, "tetrahedra")) project.tetrahedra = tetrahedra(*v);
+        if (const Json* v = in_.find(json, "uncertainty"))
+            project.uncertainty = uncertainty_of(in_, *v, base_);
         const bool turned = std::any_of(project.surfaces.begin(), project.surfaces.end(),
                                         [](const ProjectSurfaces& s) { return s.depth; });
         const bool changed = turned || !project.unit.empty() || !project.fill.empty() ||
@@ -394,6 +397,8 @@ std::vector<std::string> project_keys() {
     add("volume_of_interest.polygon.", polygon_level);
     add("improve.", improve_level);
     add("tetrahedra.", tetrahedra_level);
+    add("uncertainty[].", uncertainty_level);
+    add("uncertainty[].field.", field_level);
     add("outputs.", outputs_level);
     std::sort(all.begin(), all.end());
     return all;

@@ -25,7 +25,7 @@ ORDER = (
     "algorithms/quality algorithms/reconstruction/holes algorithms/reconstruction/joining "
     "algorithms/reconstruction/kriging algorithms/reconstruction/rbf algorithms/reconstruction "
     "algorithms/sealing algorithms/volume_of_interest algorithms/model algorithms/tetrahedra "
-    "algorithms/optimisation algorithms/tetgen algorithms/project algorithms/verify "
+    "algorithms/optimisation algorithms/tetgen algorithms/project algorithms/uncertainty algorithms/verify "
     "io/text io/atomic io/surfaces io/gocad io/grids io/points io/meshes io io/page capi "
     "cli/session cli/mpi cli/options cli/paper cli/reports cli/stages cli/commands cli"
 ).split()

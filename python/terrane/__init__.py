@@ -20,6 +20,7 @@ from ._arrangement import Arrangement, RoundedMesh, arrange, check, regions, rou
 from ._arrays import IndexLists, SurfaceInfo
 from ._blocks import (NO_INDEX, BlockParts, Corner, InterfaceParts, Line, Patch, Structure, Volumes,
                       structure, volumes)
+from ._ensemble import BlockOutcome, Ensemble, Failure, Juxtaposed, ensemble
 from ._errors import ERROR_CODES, Error, OutOfMemory
 from ._files import read, save
 from ._holes import BorderLoop, Filled, FilledHole, FillReport, fill, holes
@@ -49,15 +50,15 @@ for _name in ("tetgen", "gmsh"):
 __version__: str = _core.version
 
 __all__ = [
-    "Arrangement", "Block", "BlockParts", "Blocks", "BorderLoop", "Built", "CheckReport", "ClosedGap",
-    "Contact", "Corner", "ERROR_CODES", "Error", "FillReport", "Filled", "FilledHole", "Frame",
-    "HAS_REPORTS", "Improved", "IndexLists", "Interface", "InterfaceParts", "Juxtaposition", "LayerReport", "Layered",
+    "Arrangement", "Block", "BlockOutcome", "BlockParts", "Blocks", "BorderLoop", "Built", "CheckReport", "ClosedGap",
+    "Contact", "Corner", "ERROR_CODES", "Ensemble", "Error", "Failure", "FillReport", "Filled", "FilledHole", "Frame",
+    "HAS_REPORTS", "Improved", "IndexLists", "Interface", "InterfaceParts", "Juxtaposed", "Juxtaposition", "LayerReport", "Layered",
     "Leak", "Line", "Mesh", "Model", "NO_INDEX", "OpenBorder", "OpenGap", "OutOfMemory", "OutOfOrder",
     "Patch", "ROLES", "Region", "RegionVolume", "Regions", "Relation", "RoundedMesh", "RoundingReport",
     "RuleViolation", "SealAdvice", "SealChange", "SealTrial", "Sealed", "Structure", "Surface",
     "SurfaceCut", "SurfaceInfo", "Tetrahedra", "Verdict", "VerifiedFile", "Violation",
     "VolumeOfInterest", "Volumes", "arrange", "as_surface", "as_surfaces", "box", "build", "check",
-    "closed", "distance", "extend", "fill", "holes", "improve", "layers", "mesh", "model", "polygon",
+    "closed", "distance", "ensemble", "extend", "fill", "holes", "improve", "layers", "mesh", "model", "polygon",
     "read", "regions", "rotated_box", "round", "save", "seal", "structure", "suggest_seal",
     "tetrahedralize", "verify", "volume_of_interest", "volumes",
 ]

@@ -326,8 +326,8 @@ class Model(Result):
     @classmethod
     def _from_state(cls, *state: Any) -> "Model":
         if state[0] == "build":
-            from ._project import build
-            return build(*state[1:]).model
+            from ._project import Built
+            return Built._from_state(*state[1:]).model
         if state[0] == "improved":
             old = cls._from_state(*state[1])
             return cls(_core.improve_model(old._core, state[2], how(None, None)), tuple(state))

@@ -112,6 +112,9 @@ class Built(Result):
 
     @classmethod
     def _from_state(cls, *state: Any) -> "Built":
+        if state[0] == "realisation":
+            from ._ensemble_work import Task, built
+            return built(Task(*state[1]), state[2])
         return build(*state)
 
     def _line(self) -> str:
@@ -123,6 +126,25 @@ class Built(Result):
 
     def _shape(self) -> Tuple[Any, Any]:
         return self.model.mesh.vertices, self.model.mesh.triangles
+
+
+def project_text(project: Union[Path, Mapping[str, Any]],
+                 folder: Optional[Path]) -> Tuple[bytes, str, str]:
+    """Return the text of a project, the folder of its files, and its name in messages."""
+    if isinstance(project, Mapping):
+        text = json.dumps(project)
+        base, source = os.fspath(folder) if folder is not None else os.getcwd(), "project"
+    else:
+        source = os.fspath(project)
+        try:
+            with open(source, encoding="utf-8", errors="surrogateescape") as file:
+                text = file.read()
+        except OSError as error:
+            raise Error("cannot_open", f"cannot be read: {error.strerror}", source) from None
+        base = os.path.dirname(source)
+        if folder is not None:
+            raise TypeError("folder is for a project given as a dict")
+    return text.encode("utf-8", "surrogateescape"), base, source
 
 
 def build(project: Union[Path, Mapping[str, Any]], folder: Optional[Path] = None, *,
@@ -151,18 +173,6 @@ def build(project: Union[Path, Mapping[str, Any]], folder: Optional[Path] = None
     >>> built
     <Built: 2 blocks, 7 surfaces, 34 triangles, 0 leaks>
     """
-    if isinstance(project, Mapping):
-        text = json.dumps(project)
-        base, source = os.fspath(folder) if folder is not None else os.getcwd(), "project"
-    else:
-        source = os.fspath(project)
-        try:
-            with open(source, encoding="utf-8", errors="surrogateescape") as file:
-                text = file.read()
-        except OSError as error:
-            raise Error("cannot_open", f"cannot be read: {error.strerror}", source) from None
-        base = os.path.dirname(source)
-        if folder is not None:
-            raise TypeError("folder is for a project given as a dict")
-    core = _core.build(text.encode("utf-8", "surrogateescape"), base, source, how(threads, progress))
+    text, base, source = project_text(project, folder)
+    core = _core.build(text, base, source, how(threads, progress))
     return Built(core, (project, folder))
