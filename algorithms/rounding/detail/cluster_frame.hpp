@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/point_table.hpp>
-#include <terrane/algorithms/rounding/detail/frame.hpp>
+#include <terrane/algorithms/rounding/detail/input_frame.hpp>
 
 namespace terrane::rounding::detail {
 
@@ -22,7 +22,7 @@ namespace terrane::rounding::detail {
 ///     the same one.
 /// (2) If those of all chosen points are multiples of one length within the tolerance, they become
 ///     the integers: points of a lattice, turned in any way, are then in planes and lines exactly.
-class ClusterFrame : public Frame {
+class ClusterFrame : public InputFrame {
 public:
     /// Returns the frame with these axes, completed by directions across them. `normals`: one to
     /// three unit vectors that are not in one plane; `chosen`: per point. Returns nothing if no

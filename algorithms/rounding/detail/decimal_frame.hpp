@@ -13,7 +13,7 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/algorithms/rounding/detail/frame.hpp>
+#include <terrane/algorithms/rounding/detail/input_frame.hpp>
 
 namespace terrane::rounding::detail {
 
@@ -28,7 +28,7 @@ using KeptPlanes = std::array<std::vector<double>, 3>;
 /// (2) The way back is monotone on each axis, and takes what an input coordinate became to an input
 ///     coordinate that became the same. So what lies between two input coordinates stays there.
 /// (3) The powers are positive: orientations, order and parallel planes stay the same.
-class DecimalFrame : public Frame {
+class DecimalFrame : public InputFrame {
 public:
     /// Returns the frame with the least number of digits, per axis, for which all chosen points are
     /// decimals; nothing if they are integers, or no decimals, on all axes. `chosen`: per point;

@@ -12,14 +12,14 @@ namespace terrane::rounding::detail {
 
 /// An affine map from places in the frame to the doubles of the input. Statement (4) of
 /// docs/explanation/rounding.md says how far surfaces move on the way into a frame and back.
-class Frame {
+class InputFrame {
 public:
-    Frame() = default;
-    Frame(const Frame&) = default;
-    Frame& operator=(const Frame&) = default;
-    Frame(Frame&&) = default;
-    Frame& operator=(Frame&&) = default;
-    virtual ~Frame() = default;
+    InputFrame() = default;
+    InputFrame(const InputFrame&) = default;
+    InputFrame& operator=(const InputFrame&) = default;
+    InputFrame(InputFrame&&) = default;
+    InputFrame& operator=(InputFrame&&) = default;
+    virtual ~InputFrame() = default;
 
     /// Returns the place of one of the input points in the frame.
     [[nodiscard]] virtual Point3 into(const Point3& p) const = 0;
