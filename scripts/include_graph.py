@@ -27,7 +27,7 @@ ORDER = (
     "algorithms/sealing algorithms/volume_of_interest algorithms/model algorithms/tetrahedra "
     "algorithms/optimisation algorithms/tetgen algorithms/project algorithms/uncertainty algorithms/verify "
     "io/text io/atomic io/surfaces io/gocad io/grids io/points io/meshes io io/page capi "
-    "cli/session cli/mpi cli/options cli/paper cli/reports cli/stages cli/commands cli"
+    "cli/session cli/options cli/paper cli/reports cli/stages cli/commands cli/mpi cli"
 ).split()
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]terrane/([^>"]+)[>"]', re.M)

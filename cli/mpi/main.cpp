@@ -5,17 +5,17 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 #include <mpi.h>
-#include <nlohmann/json.hpp>
 
 #include <terrane/algorithms/core/process_memory.hpp>
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
 #include <terrane/cli/mpi/mpi_supersteps.hpp>
+#include <terrane/cli/reports/distribution_report.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/session.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
@@ -26,7 +26,6 @@ namespace terrane::cli {
 namespace {
 
 using namespace distribution;
-using Json = nlohmann::ordered_json;
 
 struct MpiCommand {
     std::vector<std::string> inputs;
@@ -42,50 +41,6 @@ Exit status: as that of terrane.
 
 Example:
   mpirun -n 4 terrane-mpi arrange horizons.ts faults.ts -o model.pvtp)";
-
-Json counts_of(const Work& w) {
-    return {{"read", w.homes},           {"faces", w.faces},
-            {"own_faces", w.owned},      {"candidates", w.candidates},
-            {"improper", w.improper},    {"divided", w.divided},
-            {"predicates", w.predicates}, {"constructed_points", w.constructed},
-            {"triangles", w.triangles},  {"pairs_of_doubles", w.rounded_pairs},
-            {"messages", w.messages},    {"bytes", w.bytes},
-            {"memory", w.memory}};
-}
-
-Json statistics_of(const DistributedReport& r, const RoundingReport* repaired,
-                   std::size_t processes) {
-    Json all{{"processes", processes},
-             {"input", {{"vertices", r.input_vertices}, {"triangles", r.input_triangles}}},
-             {"arrangement",
-              {{"vertices", r.vertices},
-               {"triangles", r.triangles},
-               {"intersection_edges", r.intersection_edges}}},
-             {"rounding",
-              {{"in_blocks", repaired == nullptr},
-               {"rounds", repaired == nullptr ? 0 : repaired->rounds},
-               {"deviation", repaired == nullptr ? r.deviation : repaired->surface_deviation}}},
-             {"most_in_a_process", counts_of(r.largest)},
-             {"all_processes", counts_of(r.total)}};
-    if (!r.digest.empty()) all["digest"] = r.digest;
-    return all;
-}
-
-std::string summary_of(const MpiCommand& command, const DistributedReport& r,
-                       const RoundingReport* repaired, std::size_t processes) {
-    auto text = fmt::format("{}: {} triangles -> {}, {} intersection edges\n",
-                            counted(processes, "process"), r.input_triangles, r.triangles,
-                            r.intersection_edges);
-    if (repaired != nullptr)
-        text += fmt::format("doubles: repaired in one process, {}; no surface moved farther than "
-                            "{:.3g}\n",
-                            counted(repaired->rounds, "round"), repaired->surface_deviation);
-    else
-        text += fmt::format("doubles: no vertex is more than {:.3g} from its exact place\n",
-                            r.deviation);
-    if (!r.digest.empty()) text += r.digest + "\n";
-    return text + "wrote " + command.output + "\n";
-}
 
 /// Checks in the first process, before any work, that the output can be written.
 Status check_command(const MpiCommand& command, MpiSupersteps& blocks) {
@@ -126,10 +81,13 @@ Result<ExitStatus> arrange_files(const MpiCommand& command, MpiSupersteps& block
     if (!written) return written.error();
     if (!blocks.is_first()) return ExitStatus::done;
     const RoundingReport* repaired = report->clean ? nullptr : &whole.report;
-    say(stdout, summary_of(command, *report, repaired, blocks.blocks()));
+    const std::size_t count = blocks.blocks();
+    say(stdout, distribution_text(*report, repaired,
+                                  std::to_string(count) + (count == 1 ? " process" : " processes")) +
+                    "wrote " + command.output + "\n");
     if (command.stats.empty()) return ExitStatus::done;
     const auto stats = write_file(
-        command.stats, statistics_of(*report, repaired, blocks.blocks()).dump(2) + "\n");
+        command.stats, distribution_json(*report, repaired, count).dump(2) + "\n");
     if (!stats) return stats.error();
     return ExitStatus::done;
 }
