@@ -134,7 +134,7 @@ export class View {
   private addLines(): void {
     for (const kind of new Set(this.report.content.lines.map((line) => line.kind))) {
       const geometry = new LineSegmentsGeometry().setPositions(this.model.segmentsOf(kind));
-      const material = new LineMaterial({ color: lineColours[kind] ?? "#111111", linewidth: kind === "boundary line" ? 1.1 : 1.8 });
+      const material = new LineMaterial({ color: lineColours[kind] ?? "#111111", linewidth: { "boundary line": 1.1, "improper contact": 3 }[kind] ?? 1.8 });
       const object = new LineSegments2(geometry, material);
       const thin = new LineSegments(new BufferGeometry().setAttribute("position", new BufferAttribute(this.model.segmentsOf(kind), 3)),
         new LineBasicMaterial());
@@ -155,7 +155,7 @@ export class View {
     const dark = document.documentElement.dataset.theme === "dark";
     for (const { kind, object, thin } of this.lines) {
       const colour = new Color(lineColours[kind] ?? "#111111");
-      thin.material.color = object.material.color = dark ? colour.lerp(new Color("#ffffff"), kind === "free border" ? 0.35 : 0.6) : colour;
+      thin.material.color = object.material.color = dark ? colour.lerp(new Color("#ffffff"), ["free border", "improper contact"].includes(kind) ? 0.35 : 0.6) : colour;
     }
     this.draw();
   }
