@@ -26,6 +26,7 @@
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/leak_advice.hpp>
 #include <terrane/algorithms/model/model.hpp>
+#include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/model/model_doubts.hpp>
 #include <terrane/algorithms/model/seal_advice.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
@@ -39,6 +40,7 @@
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
+#include <terrane/algorithms/simplification/simplify.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/algorithms/reconstruction/holes/filling.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>

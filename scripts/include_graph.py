@@ -22,7 +22,7 @@ ORDER = (
     "kernel algorithms/core algorithms/mesh algorithms/plausibility algorithms/search algorithms/intersection "
     "algorithms/triangulation algorithms/arrangement algorithms/check algorithms/regions "
     "algorithms/rounding algorithms/distribution algorithms/volumes algorithms/structure algorithms/layers "
-    "algorithms/quality algorithms/reconstruction/holes algorithms/reconstruction/joining "
+    "algorithms/quality algorithms/simplification algorithms/reconstruction/holes algorithms/reconstruction/joining "
     "algorithms/reconstruction/kriging algorithms/reconstruction/rbf algorithms/reconstruction "
     "algorithms/sealing algorithms/volume_of_interest algorithms/model algorithms/tetrahedra "
     "algorithms/optimisation algorithms/tetgen algorithms/project algorithms/uncertainty algorithms/verify "

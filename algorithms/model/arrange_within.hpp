@@ -16,6 +16,7 @@
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/sealing/gaps.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
+#include <terrane/algorithms/simplification/simplify.hpp>
 #include <terrane/algorithms/volume_of_interest/extension.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
@@ -53,6 +54,12 @@ struct SealReport {
     double left = 0;                   ///< see Sealed
 };
 
+/// What was simplified to a resolution (resolution.hpp).
+struct AtResolution {
+    SharedMesh before{};     ///< the rounded mesh before
+    SimplifyReport report{}; ///< what was joined, left alone and changed
+};
+
 /// Numbers of triangles of a surface. New ones follow the given ones.
 struct SurfaceGrowth {
     std::size_t given = 0;    ///< of the input
@@ -70,6 +77,8 @@ struct Arranged {
     std::optional<SealChoice> choice;                    ///< with seal_automatic
     std::optional<BlockMerge> merged;                    ///< with min_volume
     std::optional<std::vector<ExtendedBorder>> extended; ///< where asked for
+    std::optional<AtResolution> simplified; ///< after simplify_to(): surfaces, exact and rounded
+                                            ///< are then the simplified ones
     std::vector<SurfaceGrowth> growth; ///< per surface of the input; with seal or extend
     std::size_t boundary_count = 0;    ///< of the surfaces; they come last
 };

@@ -30,6 +30,13 @@ double measured_distance(const Surface& from, const Surface& to, const Run& run 
 double distance_bound(const Surface& from, const Surface& to, double tolerance,
                       const Run& run = {});
 
+/// Tells whether each point of `from` is shown to be at most `bound` away from `to` (up to rounding
+/// errors of distances). Triangles are divided until the bound of each part shows it; so much
+/// that `bound` itself is reached only within some 2^-16 of their size counts as not shown. Ends with false soon
+/// after a request to stop. Cost: some nearest-triangle queries per triangle, and more where the
+/// distance is near the bound.
+bool is_within(const Surface& from, const Surface& to, double bound, const Run& run = {});
+
 /// Measured distances between the two states of one surface: `out` from the second mesh to the
 /// first, `back` from the first to the second.
 struct Deviation {

@@ -13,10 +13,12 @@
 
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
+#include <terrane/cli/reports/resolution_report.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/outputs.hpp>
 #include <terrane/cli/stages/page_output.hpp>
@@ -32,6 +34,7 @@ struct ImproveCommand {
     ImproveOptions options;
     std::string edge_length = "auto";
     std::vector<std::string> edge_length_of; ///< NAME=L
+    Resolution resolution;                   ///< of length 0: none
     std::string histogram;                   ///< empty: none
     ProofOptions proof;                      ///< a certificate only
 };
@@ -68,7 +71,8 @@ std::optional<double> positive(const std::string& text) {
 Status check_numbers(const ImproveCommand& command, const CLI::App& app) {
     for (const char* const name :
          {"--curve-length", "--turn", "--layers-in-gaps", "--smallest", "--growth",
-          "--max-deviation", "--thickness-share", "--max-triangles", "--least-quality"})
+          "--max-deviation", "--thickness-share", "--max-triangles", "--least-quality",
+          "--resolution"})
         if (const auto* option = app.get_option(name);
             option->count() > 0 && !positive(option->as<std::string>()))
             return Error{ErrorCode::bad_option, "needs a positive number", name};
@@ -157,9 +161,34 @@ Status check_improve(const ImproveCommand& command) {
         if (auto folder = check_folder(command.histogram); !folder) return folder;
     if (auto sound = check_volume_options(command.settings.volume); !sound) return sound;
     if (auto named = plan_proof(command.proof, command.files); !named) return named;
+    if (command.resolution.dissolve && command.resolution.length == 0)
+        return Error{ErrorCode::bad_option, "needs --resolution", "--dissolve"};
     if (command.proof.certificate.empty()) return Done{};
+    if (command.resolution.length > 0)
+        return Error{ErrorCode::bad_option,
+                     "a certificate can't show yet what was joined at a resolution; leave out "
+                     "--resolution, or the certificate",
+                     "--certificate"};
     if (auto possible = check_certifiable(command.settings); !possible) return possible;
     return check_certified_names(command.proof.certificate, command.settings.volume.within);
+}
+
+/// Simplifies the surfaces to --resolution and says what changed.
+Status simplify(const ImproveCommand& command, const Inputs& inputs, ImproveOptions& options,
+                Arranged& arranged, Session& session, Json& statistics) {
+    session.begin("simplify", Phase::computing);
+    const auto done = simplify_to(command.resolution, options,
+                                  {.max_rounds = command.settings.rounds,
+                                   .max_move = command.settings.max_move},
+                                  arranged, session.run());
+    session.end_stage();
+    if (!done) return done;
+    const SimplifyReport& report = arranged.simplified->report;
+    add_statistics(statistics, report, inputs);
+    add_constants(statistics, "resolution", simplify_constants());
+    statistics["seconds"]["simplify"] = session.times().latest("simplify");
+    say(summary_stream(command.files), text_of(report, inputs));
+    return Done{};
 }
 
 /// Warns of what keeps the improved mesh from being written.
@@ -170,6 +199,16 @@ void warn_of_changes(const ImprovedAndMeasured& measured) {
     if (!measured.is_near_back())
         warn("not all of each surface as it was is shown to be near enough to the improved one; "
              "try another --max-deviation");
+}
+
+/// Tells whether both steps together are shown to keep surfaces within --resolution of what they
+/// were; warns where not.
+bool keeps_resolution(const Arranged& arranged, const Mesh& improved, Session& session) {
+    if (!arranged.simplified) return true;
+    if (is_within_resolution(*arranged.simplified, improved, session.run())) return true;
+    warn("not all of each surface is shown to be within --resolution of what it was; try a smaller "
+         "--max-deviation");
+    return false;
 }
 
 /// Says why nothing is written; `narrow`: the mesh is conforming as STL would hold it.
@@ -197,7 +236,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     if (const auto good = judge(inputs.value(), options); !good) return good.error();
     Json statistics = statistics_of(inputs.value(), session.times());
 
-    const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
+    auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
     if (!options.edge_length_of.empty()) // the boundary of a volume of interest added surfaces
         options.edge_length_of.resize(inputs.value().labels.size());
@@ -208,6 +247,11 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         print(stderr, offending_pairs(inputs.value(), arranged.value()));
         print(stderr, complaint("only a conforming mesh can be improved; nothing written"));
     } else {
+        if (command.resolution.length > 0)
+            if (const auto done =
+                    simplify(command, *inputs, options, *arranged, session, statistics);
+                !done)
+                return done.error();
         session.begin("improve", Phase::computing);
         const auto measured =
             improve_and_measure(*arranged.value().rounded.conforming, options, session.run());
@@ -223,6 +267,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
                 measured.value().is_near_back();
         warn_of_changes(*measured);
         clean = keeps_volumes(measured.value(), files.strict, options.max_volume_change) && clean;
+        clean = keeps_resolution(*arranged, mesh, session) && clean;
         if (!clean) page->set_verdict(refusal(narrow.value()), false);
         Stopwatch writing;
         if (clean) {
@@ -268,6 +313,16 @@ void add_lengths(CLI::App& app, ImproveCommand& command) {
         ->type_name("G");
 }
 
+void add_resolution(CLI::App& app, ImproveCommand& command) {
+    app.add_option("--resolution", command.resolution.length,
+                   "Join what is nearer or smaller than this before triangles are made better: "
+                   "corners, short curves, narrow strips, thin gaps, sharp wedges; no surface moves "
+                   "by more; every change is listed (default: nothing is joined)")
+        ->type_name("R");
+    app.add_flag("--dissolve", command.resolution.dissolve,
+                 "Zip blocks that are thinner than --resolution; otherwise they stay and are listed");
+}
+
 void add_limits(CLI::App& app, ImproveCommand& command) {
     app.add_option("--max-deviation", command.options.max_deviation,
                    "No point of a surface goes farther from it, unit of the files (default: a "
@@ -311,6 +366,7 @@ Command improve_command(CLI::App& program) {
     add_inputs(*app, command->files);
     add_output(*app, command->files, "File for the mesh; - is standard output");
     add_lengths(*app, *command);
+    add_resolution(*app, *command);
     add_limits(*app, *command);
     app->add_option("--histogram", command->histogram, "Histograms of q before and after")
         ->type_name("FILE.svg");

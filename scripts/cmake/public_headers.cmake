@@ -44,6 +44,7 @@ set(terrane_headers
     algorithms/quality/improve.hpp
     algorithms/quality/improve_measured.hpp
     algorithms/quality/quality.hpp
+    algorithms/simplification/simplify.hpp
     algorithms/reconstruction/holes/filling.hpp
     algorithms/reconstruction/holes/holes.hpp
     algorithms/reconstruction/kriging/fill_kriging.hpp
@@ -58,6 +59,7 @@ set(terrane_headers
     algorithms/model/arrange_within.hpp
     algorithms/model/leak_advice.hpp
     algorithms/model/model.hpp
+    algorithms/model/resolution.hpp
     algorithms/model/model_doubts.hpp
     algorithms/model/seal_advice.hpp
     algorithms/model/seal_rules.hpp

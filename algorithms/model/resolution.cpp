@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/model/resolution.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/algorithms/quality/deviation.hpp>
+
+namespace terrane {
+namespace {
+
+/// Share of the resolution by which improvement may deviate, unless it is told otherwise.
+constexpr double improvement_share = 0.25;
+/// Share of the wanted length by which improve() lets surfaces deviate.
+constexpr double deviation_of_length = 0.05;
+
+} // namespace
+
+Status simplify_to(const Resolution& resolution, ImproveOptions& options,
+                   const RoundingOptions& rounding, Arranged& arranged, const Run& run) {
+    if (options.max_deviation == 0) {
+        options.max_deviation = improvement_share * resolution.length;
+        if (options.edge_length > 0)
+            options.max_deviation =
+                std::min(options.max_deviation, deviation_of_length * options.edge_length);
+    }
+    if (resolution.length > 0 && !(options.max_deviation < resolution.length))
+        return Error{ErrorCode::bad_option, "must be less than the resolution", "max_deviation"};
+    auto simplified = simplify(*arranged.rounded.conforming,
+                               {.resolution = resolution.length,
+                                .max_move = resolution.length - options.max_deviation,
+                                .edge_length = options.edge_length,
+                                .dissolve = resolution.dissolve,
+                                .rounding = rounding},
+                               run);
+    if (!simplified) return simplified.error();
+    arranged.simplified = AtResolution{arranged.rounded.mesh, std::move(simplified->report)};
+    arranged.surfaces = std::move(simplified->surfaces);
+    arranged.exact = std::move(simplified->exact);
+    arranged.rounded = std::move(simplified->rounded);
+    return Done{};
+}
+
+bool is_within_resolution(const AtResolution& simplified, const Mesh& improved, const Run& run) {
+    const SimplifyReport& r = simplified.report;
+    for (std::uint32_t s = 0; s < improved.surfaces.size(); ++s) {
+        if (std::find(r.vanished.begin(), r.vanished.end(), s) != r.vanished.end()) continue;
+        const Surface old = surface_of_mesh(*simplified.before, s);
+        const Surface now = surface_of_mesh(improved, s);
+        if (!is_within(now, old, r.resolution, run) || !is_within(old, now, r.resolution, run))
+            return false;
+    }
+    return true;
+}
+
+} // namespace terrane

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/simplification/detail/ways.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <queue>
+#include <unordered_map>
+#include <utility>
+
+#include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/simplification/detail/tuning.hpp>
+
+namespace terrane::simplification::detail {
+namespace {
+
+double between(const Point3& a, const Point3& b) {
+    return length(minus(b, a));
+}
+
+/// Returns the length of the shortest way from x to y that meets the edge ab.
+double way_across(const Point3& x, const Point3& y, const Point3& a, const Point3& b) {
+    const auto way = [&](double t) {
+        const Point3 q{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};
+        return between(x, q) + between(q, y);
+    };
+    double low = 0, high = 1; // the length is convex
+    constexpr int steps = 24;
+    for (int i = 0; i < steps; ++i) {
+        const double p = low + (high - low) / 3, q = high - (high - low) / 3;
+        (way(p) < way(q) ? high : low) = way(p) < way(q) ? q : p;
+    }
+    return way((low + high) / 2);
+}
+
+} // namespace
+
+std::vector<std::uint32_t> Ways::cells_of(const Place& place) const {
+    std::vector<std::uint32_t> cells;
+    for (const std::uint32_t t : complex_.star(place.corners[0]))
+        if (std::all_of(place.vertices().begin(), place.vertices().end(), [&](std::uint32_t v) {
+                return contains(complex_.cells()[t].corners, v);
+            }))
+            cells.push_back(t);
+    return cells;
+}
+
+/// Tells whether a way across an edge that cells at both places share is shorter than the limit.
+bool Ways::meet_at_edge(const NearPlaces& c, double limit) const {
+    const auto from = cells_of(c.from), to = cells_of(c.to);
+    const Point3 x = at(c.from), y = at(c.to);
+    for (const std::uint32_t s : from)
+        for (const std::uint32_t t : to) {
+            if (s == t) return true;
+            std::array<std::uint32_t, 3> common{};
+            std::size_t count = 0;
+            for (const std::uint32_t v : complex_.cells()[s].corners)
+                if (contains(complex_.cells()[t].corners, v)) common[count++] = v;
+            if (count == 2 && way_across(x, y, complex_.points()[common[0]],
+                                         complex_.points()[common[1]]) < limit)
+                return true;
+        }
+    return false;
+}
+
+bool Ways::are_far(const NearPlaces& c, bool along_curves) const {
+    const double limit = tuning.far_along * c.distance;
+    const auto& points = complex_.points();
+    using Step = std::pair<double, std::uint32_t>;
+    std::priority_queue<Step, std::vector<Step>, std::greater<>> front;
+    std::unordered_map<std::uint32_t, double> way;
+    const auto reach = [&](std::uint32_t v, double d) {
+        if (d > limit) return;
+        const auto [at, is_new] = way.try_emplace(v, d);
+        if (!is_new && at->second <= d) return;
+        at->second = d;
+        front.emplace(d, v);
+    };
+    const Point3 x = at(c.from), y = at(c.to);
+    for (const std::uint32_t v : c.from.vertices()) reach(v, between(x, points[v]));
+    while (!front.empty()) {
+        const auto [d, v] = front.top();
+        front.pop();
+        if (d > way[v]) continue;
+        const auto to = c.to.vertices();
+        if (std::find(to.begin(), to.end(), v) != to.end() && d + between(points[v], y) < limit)
+            return false;
+        if (d + between(points[v], y) >= limit) continue; // no way on from here is short enough
+        if (along_curves) {
+            for (const std::uint32_t w : curves_.neighbours[v])
+                reach(w, d + between(points[v], points[w]));
+            continue;
+        }
+        for (const std::uint32_t t : complex_.star(v))
+            for (const std::uint32_t w : complex_.cells()[t].corners)
+                if (w != v) reach(w, d + between(points[v], points[w]));
+    }
+    return true;
+}
+
+bool Ways::are_far_along_surfaces(const NearPlaces& c) const {
+    return !meet_at_edge(c, tuning.far_along * c.distance) && are_far(c, false);
+}
+
+bool Ways::are_far_along_curves(const NearPlaces& c) const {
+    return are_far(c, true);
+}
+
+} // namespace terrane::simplification::detail

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Reports on --resolution, as text and as JSON.
+#pragma once
+
+#include <string>
+
+#include <terrane/algorithms/simplification/simplify.hpp>
+#include <terrane/cli/options/files.hpp>
+#include <terrane/cli/options/statistics.hpp>
+
+namespace terrane::cli {
+
+/// Says what was joined, what changed by it, and what was left alone; 20 of each at most.
+std::string text_of(const SimplifyReport& report, const Inputs& inputs);
+
+/// Adds "resolution": counts, changes, deviations, and all that was left alone.
+void add_statistics(Json& json, const SimplifyReport& report, const Inputs& inputs);
+
+} // namespace terrane::cli
