@@ -229,6 +229,13 @@ async function prints(browser) {
   check(pdf.length > 50_000, "it prints", pdf.length);
   await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
   check(await page.evaluate(() => [...document.querySelectorAll(".panel")].every((p) => !p.hidden)), "all tabs are printed");
+  await page.setViewportSize({ width: 720, height: 1050 }); // A4 without its margins
+  await page.emulateMedia({ media: "print" });
+  const { wide, high } = await page.evaluate(() => ({
+    wide: [...document.querySelectorAll("table")].filter((t) => t.getBoundingClientRect().right > 720).length,
+    high: document.querySelector(".stage").getBoundingClientRect().height }));
+  check(wide === 0, "no table is wider than the paper", wide);
+  check(high > 200 && high < 560, "the picture leaves room for the lists", high);
   await context.close();
 }
 
