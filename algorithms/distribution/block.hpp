@@ -95,6 +95,12 @@ struct SurfaceEntry {
     std::uint32_t file = 0, surface = 0, vertices = 0, triangles = 0, role = 0, name_length = 0;
 };
 
+/// Frees the memory of an array; `array = {}` would keep it.
+template <class T>
+void release(std::vector<T>& array) {
+    std::vector<T>().swap(array);
+}
+
 /// The state of one block. What the members of a group mean is said where they are computed.
 struct Block {
     std::uint32_t index = 0, count = 1; ///< of blocks

@@ -128,11 +128,11 @@ Status check_doubles(Block& b, Inbox& in, Outbox& out, const Run& run) {
     for (const OwnPoint& p : b.points) verdict.deviation = std::max(verdict.deviation, p.bound);
     for (const std::uint32_t c : b.home_count) verdict.triangles += c;
     out.put_to_all(0, verdict);
-    b.faces = {};
-    b.parts = {};
+    release(b.faces);
+    release(b.parts);
     b.own_faces_of = {};
-    b.touched = {};
-    b.overlapped = {};
+    release(b.touched);
+    release(b.overlapped);
     return Done{};
 }
 

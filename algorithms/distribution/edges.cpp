@@ -77,7 +77,7 @@ Status send_shared_edges(Block& b, Inbox& in, Outbox& out) {
         if (b.home_count[k] > 0) out.put(b.home_owner[k], 0, FaceStart{first + k, start});
         start += b.home_count[k];
     }
-    b.home_owner = {};
+    release(b.home_owner);
     for (const EdgeSide& s : sides_of(b)) {
         if (!is_shared(b, s.ends[0]) || !is_shared(b, s.ends[1])) continue;
         const std::size_t to = keeper_of_edge(b, s.ends);

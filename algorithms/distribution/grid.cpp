@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace terrane::distribution {
 
@@ -22,22 +23,49 @@ Grid grid_over(const Box& box, std::size_t blocks) {
     return grid;
 }
 
-std::vector<std::uint64_t> equal_runs(std::vector<CellWeight> cells, std::size_t blocks) {
-    std::sort(cells.begin(), cells.end(),
-              [](const CellWeight& a, const CellWeight& b) { return a.place < b.place; });
-    std::uint64_t total = 0;
-    for (const CellWeight& c : cells) total += c.weight;
+namespace {
+
+struct WeightedCell {
+    std::uint64_t place = 0;
+    double weight = 0;
+};
+
+/// Estimates the work in each cell. Cells ascend.
+std::vector<WeightedCell> weighted(std::vector<CellCount> cells) {
+    constexpr double per_curve = 27;
+    std::sort(cells.begin(), cells.end(), [](const CellCount& a, const CellCount& b) {
+        return std::pair(a.place, a.surface) < std::pair(b.place, b.surface);
+    });
+    std::vector<WeightedCell> all;
+    for (std::size_t k = 0; k < cells.size();) {
+        const std::uint64_t place = cells[k].place;
+        double sum = 0, most = 0;
+        while (k < cells.size() && cells[k].place == place) {
+            const std::uint32_t surface = cells[k].surface;
+            double faces = 0;
+            for (; k < cells.size() && cells[k].place == place && cells[k].surface == surface; ++k)
+                faces += cells[k].faces;
+            sum += faces;
+            most = std::max(most, faces);
+        }
+        all.push_back({place, sum + per_curve * std::sqrt(sum - most)});
+    }
+    return all;
+}
+
+} // namespace
+
+std::vector<std::uint64_t> equal_runs(std::vector<CellCount> counts, std::size_t blocks) {
+    const auto cells = weighted(std::move(counts));
+    double total = 0;
+    for (const WeightedCell& c : cells) total += c.weight;
     std::vector<std::uint64_t> splitters;
-    std::uint64_t before = 0;
+    double before = 0;
     std::size_t k = 0;
     for (std::size_t b = 1; b < blocks; ++b) {
-        const auto goal = static_cast<std::uint64_t>(static_cast<double>(total) *
-                                                     static_cast<double>(b) /
-                                                     static_cast<double>(blocks));
+        const double goal = total * static_cast<double>(b) / static_cast<double>(blocks);
         // A cell goes to the side where more than half of it belongs.
-        while (k < cells.size() && before + (cells[k].weight + 1) / 2 <= goal)
-            before += cells[k++].weight;
-        while (k > 0 && k < cells.size() && cells[k].place == cells[k - 1].place)
+        while (k < cells.size() && before + cells[k].weight / 2 <= goal)
             before += cells[k++].weight;
         splitters.push_back(k < cells.size() ? cells[k].place : UINT64_MAX);
     }

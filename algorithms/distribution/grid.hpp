@@ -44,14 +44,20 @@ struct Grid {
 /// Returns the grid for so many blocks over a box.
 Grid grid_over(const Box& box, std::size_t blocks);
 
-/// Weight of a cell.
-struct CellWeight {
-    std::uint64_t place = 0, weight = 0;
+/// Faces of a surface whose lowest corners are in a cell.
+struct CellCount {
+    std::uint64_t place = 0;
+    std::uint32_t surface = 0, faces = 0;
 };
 
-/// Divides the curve into runs of about equal weight, and returns the first place beyond each run
-/// but the last. `cells` may name a cell several times.
-std::vector<std::uint64_t> equal_runs(std::vector<CellWeight> cells, std::size_t blocks);
+/// Divides the curve into runs of about equal work, and returns the first place beyond each run but the
+/// last. `cells` may name a cell and surface several times.
+///
+/// The work in a cell is estimated from its counts alone: one unit per face and, where several surfaces
+/// have faces, 27 units times the square root of the faces of all but the largest. A curve through
+/// a cell meets about 3 sqrt(n / 2) of n faces; the time per pair that meets was measured as 13 times that
+/// per face (docs/explanation/scale.md).
+std::vector<std::uint64_t> equal_runs(std::vector<CellCount> cells, std::size_t blocks);
 
 /// Returns the block of a place along the curve.
 inline std::uint32_t block_at(std::span<const std::uint64_t> splitters, std::uint64_t place) {

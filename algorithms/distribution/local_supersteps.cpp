@@ -6,6 +6,10 @@
 #include <string>
 #include <utility>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 
@@ -38,6 +42,13 @@ bool write_bytes(std::FILE* file, const void* bytes, std::size_t size) {
 
 bool read_bytes(std::FILE* file, void* bytes, std::size_t size) {
     return size == 0 || std::fread(bytes, 1, size, file) == size;
+}
+
+/// Gives freed memory back, so that what one block needed does not count when the next one works.
+void give_memory_back() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
 }
 
 } // namespace
@@ -98,7 +109,7 @@ Status LocalSupersteps::save(std::size_t index) {
         const std::uint64_t size = array.size();
         good = good && write_bytes(file.get(), &size, sizeof size) &&
                write_bytes(file.get(), array.data(), size * sizeof(array[0]));
-        array = {};
+        release(array);
     });
     good = std::fclose(file.release()) == 0 && good;
     if (!good) return not_written(path);
@@ -180,6 +191,7 @@ Status LocalSupersteps::step(std::string_view, const Step& work) {
     if (spools() || run_.threads <= 1) {
         for (std::size_t b = 0; b < blocks(); ++b)
             if (done[b] = step_of(b, work); !done[b]) return done[b];
+        if (spools()) give_memory_back();
     } else {
         with_threads(run_, [&] {
             for_each_index(blocks(), [&](std::size_t b) { done[b] = step_of(b, work); });

@@ -4,7 +4,8 @@
 // each face to the blocks that its box overlaps.
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <map>
+#include <utility>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/distribution/detail/steps.hpp>
@@ -129,7 +130,7 @@ Status tell_corners(Block& b, Inbox& in, Outbox& out) {
     return Done{};
 }
 
-/// Channel 0: CellWeight, to the first block; channel 1: the largest coordinate, to all; channel 2:
+/// Channel 0: CellCount, to the first block; channel 1: the largest coordinate, to all; channel 2:
 /// records of triangles without area, to their keepers.
 Status weigh_cells(Block& b, Inbox& in, Outbox& out) {
     auto known = in.all<FirstVertex>(0);
@@ -141,7 +142,7 @@ Status weigh_cells(Block& b, Inbox& in, Outbox& out) {
             [](const FirstVertex& u, std::uint32_t id) { return u.id < id; });
     };
     const std::uint32_t first = home_start(b, b.triangle_total());
-    std::unordered_map<std::uint64_t, std::uint64_t> weight_of;
+    std::map<std::pair<std::uint64_t, std::uint32_t>, std::uint32_t> count_of; // place, surface
     b.home_count.assign(b.home_triangles.size(), 1);
     double largest = 0;
     for (std::uint32_t k = 0; k < b.home_triangles.size(); ++k) {
@@ -154,7 +155,7 @@ Status weigh_cells(Block& b, Inbox& in, Outbox& out) {
             largest = std::max({largest, std::fabs(v.at.x), std::fabs(v.at.y), std::fabs(v.at.z)});
         }
         if (has_area(face)) {
-            ++weight_of[b.grid.place_of(box_of(face.at).low)];
+            ++count_of[{b.grid.place_of(box_of(face.at).low), surface_of(b, face.id)}];
             b.home_faces.push_back(face);
             continue;
         }
@@ -167,7 +168,8 @@ Status weigh_cells(Block& b, Inbox& in, Outbox& out) {
         const Hash record = state.finish();
         b.degenerate_records.push_back(record);
     }
-    for (const auto& [place, weight] : weight_of) out.put(0, 0, CellWeight{place, weight});
+    for (const auto& [cell, count] : count_of)
+        out.put(0, 0, CellCount{cell.first, cell.second, count});
     out.put_to_all(1, largest);
     return Done{};
 }
@@ -176,7 +178,7 @@ Status weigh_cells(Block& b, Inbox& in, Outbox& out) {
 Status divide_space(Block& b, Inbox& in, Outbox& out) {
     in.take<double>(1, [&](std::uint32_t, double x) { b.largest = std::max(b.largest, x); });
     if (b.index != 0) return Done{};
-    for (const std::uint64_t s : equal_runs(in.all<CellWeight>(0), b.count)) out.put_to_all(0, s);
+    for (const std::uint64_t s : equal_runs(in.all<CellCount>(0), b.count)) out.put_to_all(0, s);
     return Done{};
 }
 
@@ -190,7 +192,7 @@ Status distribute_faces(Block& b, Inbox& in, Outbox& out) {
         for (const std::uint32_t to : blocks_of(b.grid, b.splitters, box_of(face.at)))
             out.put(to, 0, face);
     }
-    b.home_faces = {};
+    release(b.home_faces);
     return Done{};
 }
 

@@ -120,8 +120,8 @@ Status send_points(Block& b, Inbox& in, Outbox& out) {
     b.used = used_vertices(b);
     for (const UsedVertex& v : b.used)
         out.put(home_of(v.id, b.vertex_total(), b.count), 1, v.id);
-    b.constructions = {};
-    b.geometry = {};
+    release(b.constructions);
+    release(b.geometry);
     return Done{};
 }
 
@@ -181,8 +181,8 @@ Status number_points(Block& b, Inbox& in, Outbox& out) {
             out.put(b.used_here[i][1], 1,
                     NumberedVertex{b.used_here[i][0], used_before, end - k > 1 ? 1U : 0U});
     }
-    b.requests = {};
-    b.used_here = {};
+    release(b.requests);
+    release(b.used_here);
     return Done{};
 }
 

@@ -33,7 +33,7 @@ IndexLists<std::uint32_t> PieceJoiner::ShortLists::lists() && {
             all.values.insert(all.values.end(), found->second.begin(), found->second.end());
         all.close();
     }
-    first = {};
+    release(first);
     return all;
 }
 

@@ -117,8 +117,8 @@ Status share_out(Block& b, Inbox& in, Outbox& out) {
             out.put(home_of(t, b.triangle_total(), b.count), 1, SharedTriangle{t, corners});
         }
     }
-    b.read_vertices = {};
-    b.read_triangles = {};
+    release(b.read_vertices);
+    release(b.read_triangles);
     return Done{};
 }
 

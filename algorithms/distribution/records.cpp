@@ -77,7 +77,7 @@ void add_records_of_parents(Block& b, Outbox& out, std::size_t channel) {
     for (const auto& [first, all] : same)
         put_record(b, tagged_hash("duplicates", all), out, channel);
     for (const Hash& record : b.degenerate_records) put_record(b, record, out, channel);
-    b.degenerate_records = {};
+    release(b.degenerate_records);
 }
 
 /// Records of vertices that only this block uses.

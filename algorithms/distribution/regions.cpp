@@ -71,7 +71,7 @@ Status join_within(Block& b, Inbox& in, Outbox& out) {
     }
     keep_records(b, in, 3);
     if (b.wants_digest) add_records_of_vertices(b, out, 3);
-    b.parent_hashes = {};
+    release(b.parent_hashes);
     return Done{};
 }
 
@@ -130,7 +130,7 @@ Status receive_regions(Block& b, Inbox& in, Outbox&) {
     b.region_of.resize(b.component_of.size());
     for (std::size_t s = 0; s < b.component_of.size(); ++s)
         b.region_of[s] = number[b.component_of[s]];
-    b.component_of = {};
+    release(b.component_of);
     std::sort(b.records.begin(), b.records.end());
     return Done{};
 }
