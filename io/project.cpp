@@ -314,6 +314,8 @@ private:
         if (const Json* v = in_.find(json, "outside")) t.outside = in_.truth(*v, path + ".outside");
         if (const Json* v = in_.find(json, "optimise"))
             t.optimise = in_.truth(*v, path + ".optimise");
+        if (const Json* v = in_.find(json, "refine_bad"))
+            t.refine_bad = rounds(*v, path + ".refine_bad");
         if (const Json* v = in_.find(json, "order")) t.order = order(*v, path + ".order");
         if (const Json* v = in_.find(json, "time_limit"))
             t.time_limit = in_.positive(*v, path + ".time_limit");
@@ -322,6 +324,12 @@ private:
                                                      in_.one_of(*v, path + ".mesher", meshers)) -
                                            meshers.begin()); // in the order of the type
         return t;
+    }
+
+    unsigned rounds(const Json& value, const std::string& path) {
+        if (value.is_number_unsigned() && value <= most_rounds) return value.get<unsigned>();
+        in_.fail(path, fmt::format("must be a whole number from 0 to {}", most_rounds));
+        return 0;
     }
 
     unsigned order(const Json& value, const std::string& path) {

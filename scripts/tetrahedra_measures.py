@@ -41,6 +41,15 @@ def read_medit(path):
     return Tetrahedra(points, corners, regions)
 
 
+def write_medit(mesh, path):
+    """Without comments, which CGAL does not know."""
+    rows = ["MeshVersionFormatted 2", "Dimension 3", "Vertices", str(len(mesh.points))]
+    rows += [f"{x!r} {y!r} {z!r} 0" for x, y, z in mesh.points.tolist()]
+    rows += ["Tetrahedra", str(len(mesh.corners))]
+    rows += [" ".join(map(str, row)) for row in numpy.column_stack([mesh.corners + 1, mesh.regions]).tolist()]
+    pathlib.Path(path).write_text("\n".join([*rows, "End", ""]))
+
+
 def read_tetgen(stem):
     """What TetGen wrote: STEM.node and STEM.ele, numbered from 0, with regions."""
     rows = [line.split() for line in pathlib.Path(f"{stem}.node").read_text().splitlines() if not line.startswith("#")]

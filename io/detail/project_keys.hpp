@@ -29,9 +29,10 @@ inline constexpr std::array<std::string_view, 6> rotated_level{"centre",  "corne
 inline constexpr std::array<std::string_view, 2> polygon_level{"corners", "between"};
 inline constexpr std::array<std::string_view, 5> improve_level{
     "edge_length", "max_deviation", "edge_length_of", "layers_in_gaps", "smallest"};
-inline constexpr std::array<std::string_view, 12> tetrahedra_level{
-    "edge_length", "max_volume", "quality",    "split_surfaces", "size_of",  "size_in",
-    "split",       "outside",    "time_limit", "mesher",         "optimise", "order"};
+inline constexpr std::array<std::string_view, 13> tetrahedra_level{
+    "edge_length", "max_volume", "quality", "split_surfaces", "size_of",    "size_in", "split",
+    "outside",     "time_limit", "mesher",  "optimise",       "refine_bad", "order"};
+inline constexpr unsigned most_rounds = 20; ///< of tetrahedra.refine_bad
 inline constexpr std::array<std::string_view, 3> meshers{"auto", "tetgen", "gmsh"};
 inline constexpr std::array<std::string_view, 5> outputs_level{"surfaces", "tetrahedra", "blocks",
                                                                "certificate", "gocad"};

@@ -228,7 +228,12 @@ def write_json_files(program, folder):
     statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "fill.json", "rbf.json"]
     if has_tetgen(program):
         run("tetrahedralize", *model, *box, "-o", "t.vtu", "--stats", "tetrahedra.json")
-        statistics.append("tetrahedra.json")
+        (folder / "refined.json").write_text(json.dumps({
+            "format": "terrane-project 1", "folder": "refined", "surfaces": [{"file": name} for name in model], "seal": 20,
+            "volume_of_interest": PROJECT["volume_of_interest"], "improve": {"edge_length": 200}, "tetrahedra": {"refine_bad": 1},
+            "outputs": {"tetrahedra": ["mesh"]}}))
+        run("build", "refined.json")
+        statistics += ["tetrahedra.json", "refined/statistics.json"]
     if has_pages(program):
         run("volume", *model, *box, "-o", "reported", "--certificate", "reported.json", "--report", "report.html")
         run("fill", "--depth", "seabed.asc", "-o", "p.vtp", "--report", "filled.html")
