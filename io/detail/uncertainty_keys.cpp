@@ -41,7 +41,6 @@ ProjectField field_of(JsonReader& in, const Json& json, const std::string& path,
         if (std::find(smoothnesses.begin(), smoothnesses.end(), field.smoothness) ==
             smoothnesses.end())
             in.fail(path + ".smoothness", "must be 1.5 or 2.5");
-        if (field.model != "matern") in.fail(path + ".smoothness", "is for the model matern");
     }
     if (const Json* v = in.find(json, "azimuth")) field.azimuth = in.number(*v, path + ".azimuth");
     if (const Json* v = in.find(json, "ratio")) {
