@@ -102,7 +102,8 @@ private:
         if (!improved) return improved.error();
         const bool is_good = improved->report.sides_kept;
         first_ = simplification::detail::traced(is_good ? *improved->mesh : *given_);
-        if (is_good) first_.moved.assign(first_.moved.size(), regular.max_deviation);
+        if (is_good)
+            for (auto& past : first_.past) past.slack = regular.max_deviation;
         return Done{};
     }
 
@@ -111,7 +112,7 @@ private:
         const bool any = std::find(locked.begin(), locked.end(), true) != locked.end();
         for (unsigned round = 0;; ++round) {
             if (run_.progress) run_.progress("simplify", 0);
-            Complex complex(current_.mesh.vertices, current_.moved, current_.cells,
+            Complex complex(current_.mesh.vertices, current_.past, current_.cells,
                             current_.mesh.surfaces);
             StageTimer timer(run_, "glue");
             GlueReport glued =
@@ -190,7 +191,7 @@ private:
             if (round < tuning.rounds && !blocks.empty() &&
                 simplification::detail::dissolve(after.mesh, *volumes, blocks, current_.cells) >
                     0) {
-                const Complex complex(current_.mesh.vertices, current_.moved, current_.cells,
+                const Complex complex(current_.mesh.vertices, current_.past, current_.cells,
                                       current_.mesh.surfaces);
                 if (auto done = arrange_again(complex); !done) return done;
                 continue;
