@@ -43,8 +43,8 @@ void Past::unite(const Past& other) {
     slack = std::max(slack, other.slack);
 }
 
-Complex::Complex(std::vector<Point3> points, std::vector<Past> past,
-                 const std::vector<Cell>& cells, std::span<const SurfaceInfo> surfaces) :
+Complex::Complex(std::vector<Point3> points, std::vector<Past> past, const std::vector<Cell>& cells,
+                 std::span<const SurfaceInfo> surfaces) :
     points_(std::move(points)),
     past_(std::move(past)), freedom_(points_.size()), star_(points_.size()) {
     for (const Cell& cell : cells)
@@ -95,8 +95,7 @@ void Complex::unite(Cell& cell, const Triangle& corners, const std::vector<Layer
 
 void Complex::add_cell(const Triangle& corners, const std::vector<Layer>& layers) {
     for (const std::uint32_t t : star_[corners[0]])
-        if (have_same_corners(cells_[t].corners, corners))
-            return unite(cells_[t], corners, layers);
+        if (have_same_corners(cells_[t].corners, corners)) return unite(cells_[t], corners, layers);
     const auto number = static_cast<std::uint32_t>(cells_.size());
     cells_.push_back({corners, layers});
     for (const std::uint32_t v : corners) star_[v].push_back(number);

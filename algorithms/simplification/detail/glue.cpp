@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <optional>
 #include <tuple>
@@ -36,11 +35,7 @@ public:
         while (!active.empty() && pass++ < tuning.passes && !stopped()) {
             touched_.assign(complex_.points().size(), false);
             curves_ = find_curves(complex_);
-            const Found found =
-                find_contacts(complex_, curves_, options_.resolution, active, run_);
-#ifdef DEV_TRACE
-            fprintf(stderr, "pass %u cells %zu active %zu contacts %zu to_divide %zu | %zu %zu %zu %zu\n", pass, complex_.cells().size(), active.size(), found.contacts.size(), found.to_divide.size(), report_.corners, report_.curves, report_.sheets, report_.divided);
-#endif
+            const Found found = find_contacts(complex_, curves_, options_.resolution, active, run_);
             for (const std::uint32_t t : by_length(found.to_divide)) divide(t);
             for (const NearPlaces& c : found.contacts)
                 if (!is_touched(c) && !meeting_of(c).second) join(c);
@@ -207,8 +202,8 @@ private:
         }
         const Point3 m = cross(minus(p[1], p[0]), minus(p[2], p[0]));
         const Point3 n = cross(minus(q[1], q[0]), minus(q[2], q[0]));
-        const double longest = std::max({way_between(p[0], p[1]), way_between(p[1], p[2]),
-                                         way_between(p[2], p[0])});
+        const double longest =
+            std::max({way_between(p[0], p[1]), way_between(p[1], p[2]), way_between(p[2], p[0])});
         if (length(m) < tuning.narrow * options_.resolution * longest) return false;
         return dot(m, n) < tuning.fold_cosine * length(m) * length(n);
     }
@@ -249,14 +244,11 @@ private:
 
     void join(const NearPlaces& c) {
         const Point3 meeting = meeting_of(c).first;
-#ifdef DEV_TRACE
-        if (getenv("TRACE_JOIN")) { auto p=vertex_at(c.from).place, q=vertex_at(c.to).place; fprintf(stderr, "join d %g sizes %u %u: %u %u -> %u %u %u  w %.3f %.3f %.3f at %g %g %g -> %g %g %g meet %g %g %g surf %d\n", c.distance, c.from.size, c.to.size, c.from.corners[0], c.from.corners[1], c.to.corners[0], c.to.corners[1], c.to.corners[2], c.to.weights[0], c.to.weights[1], c.to.weights[2], p.x,p.y,p.z,q.x,q.y,q.z, meeting.x, meeting.y, meeting.z, c.on_surfaces); }
-#endif
         const Kind a = kind_of(c.from), b = kind_of(c.to);
         const bool both_corners = a == Kind::corner && b == Kind::corner;
-        ++(both_corners                               ? report_.corners
+        ++(both_corners                           ? report_.corners
            : a != Kind::inner && b != Kind::inner ? report_.curves
-                                                      : report_.sheets);
+                                                  : report_.sheets);
         const std::uint32_t v = made_vertex(c.from), w = made_vertex(c.to);
         touch_around(v);
         touch_around(w);

@@ -15,7 +15,8 @@ namespace {
 
 /// Starts a triangle at its least corner.
 Triangle rotated(const Triangle& t) {
-    const std::size_t i = static_cast<std::size_t>(std::min_element(t.begin(), t.end()) - t.begin());
+    const std::size_t i =
+        static_cast<std::size_t>(std::min_element(t.begin(), t.end()) - t.begin());
     return {t[i], t[(i + 1) % 3], t[(i + 2) % 3]};
 }
 
@@ -134,9 +135,9 @@ TracedMesh traced(const Mesh& mesh, const Soup& soup, double rounded) {
         result.cells.push_back(std::move(cell));
     }
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        const auto at = std::lower_bound(
-            known.begin(), known.end(), mesh.vertices[v],
-            [](const auto& entry, const Point3& p) { return entry.first < p; });
+        const auto at =
+            std::lower_bound(known.begin(), known.end(), mesh.vertices[v],
+                             [](const auto& entry, const Point3& p) { return entry.first < p; });
         if (at == known.end() || at->first != mesh.vertices[v]) continue;
         result.past[v] = at->second;
         for (auto k = at; k != known.end() && k->first == mesh.vertices[v]; ++k)
