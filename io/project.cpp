@@ -294,6 +294,10 @@ private:
             i.layers_in_gaps = in_.positive(*v, path + ".layers_in_gaps");
         if (const Json* v = in_.find(json, "smallest"))
             i.smallest = in_.positive(*v, path + ".smallest");
+        if (const Json* v = in_.find(json, "resolution"))
+            i.resolution = in_.positive(*v, path + ".resolution");
+        if (const Json* v = in_.find(json, "dissolve"))
+            i.dissolve = in_.truth(*v, path + ".dissolve");
         return i;
     }
 

@@ -79,8 +79,8 @@ struct Arranged {
     std::optional<std::vector<ExtendedBorder>> extended; ///< where asked for
     std::optional<AtResolution> simplified; ///< after simplify_to(): surfaces, exact and rounded
                                             ///< are then the simplified ones
-    std::vector<SurfaceGrowth> growth; ///< per surface of the input; with seal or extend
-    std::size_t boundary_count = 0;    ///< of the surfaces; they come last
+    std::vector<SurfaceGrowth> growth;      ///< per surface of the input; with seal or extend
+    std::size_t boundary_count = 0;         ///< of the surfaces; they come last
 };
 
 /// Arranges and rounds the surfaces. `boundary` is that of a volume of interest; empty: there is

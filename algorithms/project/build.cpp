@@ -10,6 +10,7 @@
 
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/project/detail/kept_results.hpp>
 #include <terrane/algorithms/project/detail/refinement.hpp>
@@ -187,6 +188,7 @@ private:
                               not_called("surface", name, built_.labels));
             for (const std::uint32_t s : found) options.edge_length_of[s] = length;
         }
+        if (auto done = simplify_surfaces(options); !done) return done;
         const std::string key = key_for([&] { return key_of(rounded(), options); });
         if (const auto kept = found(BuildStage::improve, key)) {
             auto improved = improved_from(*kept, rounded(), options, run_);
@@ -196,8 +198,33 @@ private:
         auto improved = improve_and_measure(rounded(), options, run_);
         if (!improved) return improved.error();
         built_.improved = std::move(*improved);
+        if (auto good = check_resolution(); !good) return good;
         if (store_.keep) store_.keep(BuildStage::improve, key, bytes_of(*built_.improved));
         return Done{};
+    }
+
+    /// Simplifies the surfaces, if the project states a resolution.
+    Status simplify_surfaces(ImproveOptions& options) {
+        const ProjectImprove& wanted = *project_.improve;
+        if (!wanted.resolution) {
+            if (!wanted.dissolve) return Done{};
+            return at_key(project_, "improve.dissolve", "needs improve.resolution");
+        }
+        auto done = simplify_to({*wanted.resolution, wanted.dissolve}, options,
+                                {.max_move = project_.max_move}, built_.arranged, run_);
+        if (!done && done.error().code == ErrorCode::bad_option)
+            return at_key(project_, "improve." + done.error().place, done.error());
+        return done;
+    }
+
+    /// Refuses an improved mesh that is not shown to be within the resolution.
+    [[nodiscard]] Status check_resolution() const {
+        const auto& simplified = built_.arranged.simplified;
+        if (!simplified || is_within_resolution(*simplified, built_.improved->improved.mesh, run_))
+            return Done{};
+        return at_key(project_, "improve.max_deviation",
+                      "not all of each surface is shown to be within improve.resolution of what it "
+                      "was; try a smaller value");
     }
 
     Status find_blocks() {

@@ -92,8 +92,8 @@ bool is_within(const Surface& from, const Surface& to, double bound, const Run& 
     const StandardArithmetic guard;
     if (to.triangles.empty()) return from.triangles.empty();
     const TriangleTree tree(to.vertices, to.triangles);
-    const auto parts = parts_of_ranges<char>(
-        from.triangles.size(), run, [&](std::size_t first, std::size_t last) {
+    const auto parts =
+        parts_of_ranges<char>(from.triangles.size(), run, [&](std::size_t first, std::size_t last) {
             for (std::size_t t = first; t < last; ++t)
                 if (run.stop.stop_requested() ||
                     !is_part_within(tree, to.vertices, corners_of(from, from.triangles[t]), bound))

@@ -95,14 +95,15 @@ private:
     /// little. Where improve() can't keep the blocks, the triangles stay as they are.
     Status make_regular() {
         ImproveOptions regular;
-        regular.edge_length =
-            options_.edge_length > 0 ? options_.edge_length : tuning.edge_length * options_.resolution;
+        regular.edge_length = options_.edge_length > 0 ? options_.edge_length
+                                                       : tuning.edge_length * options_.resolution;
         regular.max_deviation = tuning.regular_share * options_.max_move;
         auto improved = improve(given_, regular, run_);
         if (!improved) return improved.error();
         const bool is_good = improved->report.sides_kept;
         first_ = simplification::detail::traced(is_good ? *improved->mesh : *given_);
-        if (is_good) first_.moved.assign(first_.moved.size(), regular.max_deviation);
+        if (is_good)
+            for (auto& past : first_.past) past.slack = regular.max_deviation;
         return Done{};
     }
 
@@ -111,14 +112,13 @@ private:
         const bool any = std::find(locked.begin(), locked.end(), true) != locked.end();
         for (unsigned round = 0;; ++round) {
             if (run_.progress) run_.progress("simplify", 0);
-            Complex complex(current_.mesh.vertices, current_.moved, current_.cells,
+            Complex complex(current_.mesh.vertices, current_.past, current_.cells,
                             current_.mesh.surfaces);
             StageTimer timer(run_, "glue");
-            GlueReport glued =
-                glue(complex,
-                     {options_.resolution, options_.max_move, before_.of_sides,
-                      any ? locked : std::vector<bool>{}},
-                     run_);
+            GlueReport glued = glue(complex,
+                                    {options_.resolution, options_.max_move, before_.of_sides,
+                                     any ? locked : std::vector<bool>{}},
+                                    run_);
             timer.stop();
             if (auto good = interrupted(); !good) return good;
             add(glued);
@@ -151,8 +151,8 @@ private:
                          "the simplified surfaces can't be rounded to a conforming mesh; try "
                          "another resolution",
                          ""};
-        current_ = simplification::detail::traced(*rounded->conforming, soup,
-                                                  rounded->report.max_move);
+        current_ =
+            simplification::detail::traced(*rounded->conforming, soup, rounded->report.max_move);
         result_.surfaces = std::move(soup.surfaces);
         result_.exact = std::move(*exact);
         result_.rounded = std::move(*rounded);
@@ -190,7 +190,7 @@ private:
             if (round < tuning.rounds && !blocks.empty() &&
                 simplification::detail::dissolve(after.mesh, *volumes, blocks, current_.cells) >
                     0) {
-                const Complex complex(current_.mesh.vertices, current_.moved, current_.cells,
+                const Complex complex(current_.mesh.vertices, current_.past, current_.cells,
                                       current_.mesh.surfaces);
                 if (auto done = arrange_again(complex); !done) return done;
                 continue;
@@ -206,10 +206,6 @@ private:
     /// Locks the blocks that may not change and did. Tells whether there are such.
     bool lock_changed(std::vector<bool>& locked) const {
         bool any = false;
-#ifdef DEV_TRACE
-        for (auto& b : result_.report.blocks) fprintf(stderr, "changed block %u vol %g parts %zu into %u\n", b.block, b.volume, b.parts, b.into);
-        for (size_t v = 1; v < result_.block_before.size(); ++v) fprintf(stderr, "   now %zu was %u\n", v, result_.block_before[v]);
-#endif
         for (const ChangedBlock& change : result_.report.blocks) {
             if (change.parts == 0 && options_.dissolve) continue;
             any = any || !locked[change.block];
@@ -237,9 +233,9 @@ private:
             if (auto good = interrupted(); !good) return good;
         }
         r.deviations = deviations_of(given_, after, run_);
-        std::stable_sort(
-            r.left.begin(), r.left.end(),
-            [](const LeftAlone& a, const LeftAlone& b) { return a.distance < b.distance; });
+        std::stable_sort(r.left.begin(), r.left.end(), [](const LeftAlone& a, const LeftAlone& b) {
+            return a.distance < b.distance;
+        });
         return interrupted();
     }
 

@@ -90,18 +90,18 @@ struct ChangedContact {
 
 /// The changes of a simplification.
 struct SimplifyReport {
-    double resolution = 0;                ///< as asked for
-    double max_move = 0;                  ///< limit of all movements
-    std::size_t corners = 0;              ///< times that two corners were joined
-    std::size_t curves = 0;               ///< that places of two curves were
-    std::size_t sheets = 0;               ///< that other places of surfaces were
-    std::size_t divided = 0;              ///< edges divided where surfaces are near
-    unsigned rounds = 0;                  ///< arrangements of moved surfaces
-    unsigned attempts = 0;                ///< times that it began, see `kept`
-    std::vector<LeftAlone> left{};        ///< what is near still, by distance
-    std::vector<std::uint32_t> kept{};    ///< blocks before, thinner than the resolution or narrow
-                                          ///< in between, that were left alone
-    std::vector<ChangedBlock> blocks{};   ///< that did not stay one and the same, by number
+    double resolution = 0;              ///< as asked for
+    double max_move = 0;                ///< limit of all movements
+    std::size_t corners = 0;            ///< times that two corners were joined
+    std::size_t curves = 0;             ///< that places of two curves were
+    std::size_t sheets = 0;             ///< that other places of surfaces were
+    std::size_t divided = 0;            ///< edges divided where surfaces are near
+    unsigned rounds = 0;                ///< arrangements of moved surfaces
+    unsigned attempts = 0;              ///< times that it began, see `kept`
+    std::vector<LeftAlone> left{};      ///< what is near still, by distance
+    std::vector<std::uint32_t> kept{};  ///< blocks before, thinner than the resolution or narrow
+                                        ///< in between, that were left alone
+    std::vector<ChangedBlock> blocks{}; ///< that did not stay one and the same, by number
     std::vector<ChangedContact> block_contacts{};   ///< by numbers before; 0: the outside
     std::vector<ChangedContact> surface_contacts{}; ///< pairs that have an edge in common
     std::vector<std::uint32_t> vanished{};          ///< surfaces of which nothing is left

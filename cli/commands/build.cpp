@@ -19,6 +19,7 @@
 #include <terrane/cli/reports/fill_report.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
 #include <terrane/cli/reports/pair_report.hpp>
+#include <terrane/cli/reports/resolution_report.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
 #include <terrane/cli/session/journal.hpp>
 #include <terrane/cli/stages/block_certificate.hpp>
@@ -228,6 +229,11 @@ private:
                            complaint("no blocks without a conforming mesh; nothing written");
             return;
         case BuildStage::improve:
+            if (const auto& simplified = built.arranged.simplified) {
+                add_statistics(statistics_, simplified->report, inputs_);
+                add_constants(statistics_, "resolution", simplify_constants());
+                journal_.say(text_of(simplified->report, inputs_));
+            }
             add_statistics(statistics_, *built.improved, session_.times());
             if (!keeps_volumes(*built.improved, strict_)) refused_ = complaint("nothing written");
             page_.add_improved(built.improved->improved.mesh, built.arranged.rounded.mesh);

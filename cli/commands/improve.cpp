@@ -69,10 +69,9 @@ std::optional<double> positive(const std::string& text) {
 
 /// Refuses numbers that can't be meant, before anything is read.
 Status check_numbers(const ImproveCommand& command, const CLI::App& app) {
-    for (const char* const name :
-         {"--curve-length", "--turn", "--layers-in-gaps", "--smallest", "--growth",
-          "--max-deviation", "--thickness-share", "--max-triangles", "--least-quality",
-          "--resolution"})
+    for (const char* const name : {"--curve-length", "--turn", "--layers-in-gaps", "--smallest",
+                                   "--growth", "--max-deviation", "--thickness-share",
+                                   "--max-triangles", "--least-quality", "--resolution"})
         if (const auto* option = app.get_option(name);
             option->count() > 0 && !positive(option->as<std::string>()))
             return Error{ErrorCode::bad_option, "needs a positive number", name};
@@ -177,10 +176,10 @@ Status check_improve(const ImproveCommand& command) {
 Status simplify(const ImproveCommand& command, const Inputs& inputs, ImproveOptions& options,
                 Arranged& arranged, Session& session, Json& statistics) {
     session.begin("simplify", Phase::computing);
-    const auto done = simplify_to(command.resolution, options,
-                                  {.max_rounds = command.settings.rounds,
-                                   .max_move = command.settings.max_move},
-                                  arranged, session.run());
+    const auto done =
+        simplify_to(command.resolution, options,
+                    {.max_rounds = command.settings.rounds, .max_move = command.settings.max_move},
+                    arranged, session.run());
     session.end_stage();
     if (!done) return done;
     const SimplifyReport& report = arranged.simplified->report;
@@ -314,13 +313,15 @@ void add_lengths(CLI::App& app, ImproveCommand& command) {
 }
 
 void add_resolution(CLI::App& app, ImproveCommand& command) {
-    app.add_option("--resolution", command.resolution.length,
-                   "Join what is nearer or smaller than this before triangles are made better: "
-                   "corners, short curves, narrow strips, thin gaps, sharp wedges; no surface moves "
-                   "by more; every change is listed (default: nothing is joined)")
+    app.add_option(
+           "--resolution", command.resolution.length,
+           "Join what is nearer or smaller than this before triangles are made better: "
+           "corners, short curves, narrow strips, thin gaps, sharp wedges; no surface moves "
+           "by more; every change is listed (default: nothing is joined)")
         ->type_name("R");
-    app.add_flag("--dissolve", command.resolution.dissolve,
-                 "Zip blocks that are thinner than --resolution; otherwise they stay and are listed");
+    app.add_flag(
+        "--dissolve", command.resolution.dissolve,
+        "Zip blocks that are thinner than --resolution; otherwise they stay and are listed");
 }
 
 void add_limits(CLI::App& app, ImproveCommand& command) {

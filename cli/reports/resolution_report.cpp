@@ -15,15 +15,15 @@
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t most_changes = 20; ///< printed of each kind
+constexpr std::size_t most_listed = 20; ///< printed of each kind
 
 /// Writes the first lines of a list, and how many follow.
 template <class List, class Line>
 std::string listed(const List& list, const Line& line) {
     std::string text;
-    for (std::size_t i = 0; i < std::min(list.size(), most_changes); ++i) text += line(list[i]);
-    if (list.size() > most_changes)
-        text += fmt::format("  and {} more\n", list.size() - most_changes);
+    for (std::size_t i = 0; i < std::min(list.size(), most_listed); ++i) text += line(list[i]);
+    if (list.size() > most_listed)
+        text += fmt::format("  and {} more\n", list.size() - most_listed);
     return text;
 }
 
@@ -70,7 +70,7 @@ std::string text_of(const SimplifyReport& report, const Inputs& inputs) {
     const Quantities quantities(inputs.unit);
     auto text = fmt::format(
         "resolution {}: {} joined, {} of curves and {} of surfaces zipped, {} divided\n",
-        quantities.length(report.resolution), counted(report.corners, "pair of corners"),
+        quantities.length(report.resolution), counted(report.corners, "corner"),
         counted(report.curves, "place"), report.sheets, counted(report.divided, "edge"));
     double out = 0, back = 0;
     for (const Deviation& d : report.deviations) {
@@ -112,28 +112,22 @@ void add_statistics(Json& json, const SimplifyReport& report, const Inputs& inpu
     for (const ChangedContact& c : report.block_contacts)
         contacts.push_back({{"blocks", c.between}, {"new", c.is_new}});
     for (const ChangedContact& c : report.surface_contacts)
-        contacts.push_back({{"surfaces", {inputs.labels[c.between[0]], inputs.labels[c.between[1]]}},
-                            {"new", c.is_new}});
+        contacts.push_back(
+            {{"surfaces", {inputs.labels[c.between[0]], inputs.labels[c.between[1]]}},
+             {"new", c.is_new}});
     for (std::size_t s = 0; s < report.deviations.size(); ++s)
         deviations[inputs.labels[s]] = {report.deviations[s].out, report.deviations[s].back};
     for (const std::uint32_t s : report.vanished) {
         vanished.push_back(inputs.labels[s]);
         deviations.erase(inputs.labels[s]);
     }
-    json["resolution"] = {{"length", report.resolution},
-                          {"max_move", report.max_move},
-                          {"corners", report.corners},
-                          {"curves", report.curves},
-                          {"surfaces", report.sheets},
-                          {"divided", report.divided},
-                          {"rounds", report.rounds},
-                          {"attempts", report.attempts},
-                          {"verified", report.is_shown},
-                          {"deviation", std::move(deviations)},
-                          {"blocks", std::move(blocks)},
-                          {"contacts", std::move(contacts)},
-                          {"vanished", std::move(vanished)},
-                          {"kept_blocks", report.kept},
+    json["resolution"] = {{"length", report.resolution},     {"max_move", report.max_move},
+                          {"corners", report.corners},       {"curves", report.curves},
+                          {"surfaces", report.sheets},       {"divided", report.divided},
+                          {"rounds", report.rounds},         {"attempts", report.attempts},
+                          {"verified", report.is_shown},     {"deviation", std::move(deviations)},
+                          {"blocks", std::move(blocks)},     {"contacts", std::move(contacts)},
+                          {"vanished", std::move(vanished)}, {"kept_blocks", report.kept},
                           {"left_alone", std::move(left)}};
 }
 

@@ -27,8 +27,9 @@ inline constexpr std::array<std::string_view, 2> box_level{"low", "high"};
 inline constexpr std::array<std::string_view, 6> rotated_level{"centre",  "corner", "lengths",
                                                                "azimuth", "plunge", "roll"};
 inline constexpr std::array<std::string_view, 2> polygon_level{"corners", "between"};
-inline constexpr std::array<std::string_view, 5> improve_level{
-    "edge_length", "max_deviation", "edge_length_of", "layers_in_gaps", "smallest"};
+inline constexpr std::array<std::string_view, 7> improve_level{
+    "edge_length", "max_deviation", "edge_length_of", "layers_in_gaps",
+    "smallest",    "resolution",    "dissolve"};
 inline constexpr std::array<std::string_view, 13> tetrahedra_level{
     "edge_length", "max_volume", "quality", "split_surfaces", "size_of",    "size_in", "split",
     "outside",     "time_limit", "mesher",  "optimise",       "refine_bad", "order"};

@@ -31,8 +31,7 @@ std::map<Pair, double> votes_of(const Volumes& before, const Traced& after) {
     for (std::size_t t = 0; t < after.cells.size(); ++t) {
         if (after.cells[t].layers.size() != 1) continue;
         const auto& [a, b, c] = after.mesh.triangles[t];
-        const double area =
-            length(cross(minus(points[b], points[a]), minus(points[c], points[a])));
+        const double area = length(cross(minus(points[b], points[a]), minus(points[c], points[a])));
         const Pair old = sides_before(after.cells[t], before), now = after.volumes.of_sides[t];
         for (std::size_t side = 0; side < 2; ++side) votes[{now[side], old[side]}] += area;
     }

@@ -2,6 +2,7 @@
 #include <terrane/algorithms/simplification/detail/complex.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <terrane/algorithms/mesh/vectors.hpp>
@@ -20,12 +21,32 @@ bool runs_other_way(const Triangle& a, const Triangle& b) {
     return false;
 }
 
+Point3 plus(const Point3& p, double share, const Point3& q) {
+    return {p.x + share * q.x, p.y + share * q.y, p.z + share * q.z};
+}
+
 } // namespace
 
-Complex::Complex(std::vector<Point3> points, std::vector<double> moved,
-                 const std::vector<Cell>& cells, std::span<const SurfaceInfo> surfaces) :
+double Past::reach(const Point3& place) const {
+    const auto farther = [](double x, double from, double to) {
+        return std::max(std::fabs(x - from), std::fabs(x - to));
+    };
+    return slack + length({farther(place.x, low.x, high.x), farther(place.y, low.y, high.y),
+                           farther(place.z, low.z, high.z)});
+}
+
+void Past::unite(const Past& other) {
+    low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y),
+           std::min(low.z, other.low.z)};
+    high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y),
+            std::max(high.z, other.high.z)};
+    slack = std::max(slack, other.slack);
+}
+
+Complex::Complex(std::vector<Point3> points, std::vector<Past> past, const std::vector<Cell>& cells,
+                 std::span<const SurfaceInfo> surfaces) :
     points_(std::move(points)),
-    moved_(std::move(moved)), freedom_(points_.size()), star_(points_.size()) {
+    past_(std::move(past)), freedom_(points_.size()), star_(points_.size()) {
     for (const Cell& cell : cells)
         if (!cell.layers.empty()) add_cell(cell.corners, cell.layers);
     find_freedom(surfaces);
@@ -74,8 +95,7 @@ void Complex::unite(Cell& cell, const Triangle& corners, const std::vector<Layer
 
 void Complex::add_cell(const Triangle& corners, const std::vector<Layer>& layers) {
     for (const std::uint32_t t : star_[corners[0]])
-        if (have_same_corners(cells_[t].corners, corners))
-            return unite(cells_[t], corners, layers);
+        if (have_same_corners(cells_[t].corners, corners)) return unite(cells_[t], corners, layers);
     const auto number = static_cast<std::uint32_t>(cells_.size());
     cells_.push_back({corners, layers});
     for (const std::uint32_t v : corners) star_[v].push_back(number);
@@ -94,20 +114,26 @@ void Complex::remove_layer(std::uint32_t cell, std::uint32_t surface) {
 
 PlacedVertex Complex::between(std::span<const std::uint32_t> corners,
                               std::span<const double> weights) const {
-    PlacedVertex v{{}, 0, {7, true}};
+    PlacedVertex v{{}, {}, {7, true}};
     const Point3& first = points_[corners[0]];
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const Point3& q = points_[corners[i]];
         const double w = weights[i];
-        v.place = {v.place.x + w * q.x, v.place.y + w * q.y, v.place.z + w * q.z};
-        v.moved += w * moved_[corners[i]];
+        const Past& past = past_[corners[i]];
+        v.place = plus(v.place, w, q);
+        v.past.low = plus(v.past.low, w, past.low);
+        v.past.high = plus(v.past.high, w, past.high);
+        v.past.slack += w * past.slack;
         const Freedom& other = freedom_[corners[i]];
         v.freedom.is_pinned = v.freedom.is_pinned && other.is_pinned;
         for (unsigned axis = 0; axis < 3; ++axis)
             if (!other.is_fixed(axis) || coordinate(q, axis) != coordinate(first, axis))
                 v.freedom.fixed_axes &= ~(1U << axis);
     }
-    if (corners.size() == 1) v.place = first;
+    if (corners.size() == 1) {
+        v.place = first;
+        v.past = past_[corners[0]];
+    }
     if (v.freedom.is_fixed(0)) v.place.x = first.x;
     if (v.freedom.is_fixed(1)) v.place.y = first.y;
     if (v.freedom.is_fixed(2)) v.place.z = first.z;
@@ -118,7 +144,7 @@ std::uint32_t Complex::add_vertex(std::span<const std::uint32_t> corners,
                                   std::span<const double> weights) {
     const PlacedVertex v = between(corners, weights);
     points_.push_back(v.place);
-    moved_.push_back(v.moved);
+    past_.push_back(v.past);
     freedom_.push_back(v.freedom);
     star_.emplace_back();
     return static_cast<std::uint32_t>(points_.size() - 1);
@@ -151,7 +177,7 @@ std::uint32_t Complex::split_cell(std::uint32_t cell, const std::array<double, 3
     return m;
 }
 
-void Complex::merge(std::uint32_t v, std::uint32_t w, const Point3& place, double moved) {
+void Complex::merge(std::uint32_t v, std::uint32_t w, const Point3& place) {
     auto cells = star_[v];
     std::sort(cells.begin(), cells.end());
     for (const std::uint32_t t : cells) {
@@ -164,12 +190,8 @@ void Complex::merge(std::uint32_t v, std::uint32_t w, const Point3& place, doubl
     }
     freedom_[w].fixed_axes |= freedom_[v].fixed_axes;
     freedom_[w].is_pinned = freedom_[w].is_pinned || freedom_[v].is_pinned;
-    move(w, place, moved);
-}
-
-void Complex::move(std::uint32_t v, const Point3& place, double moved) {
-    points_[v] = place;
-    moved_[v] = moved;
+    past_[w].unite(past_[v]);
+    points_[w] = place;
 }
 
 } // namespace terrane::simplification::detail

@@ -7,7 +7,7 @@
 // surfaces. Nothing here decides whether that is wanted.
 //
 // Law: each point of the mesh from which the complex was made corresponds to one of the complex,
-// affinely in each part, and `moved` bounds their distance: linearly interpolated over a cell it
+// affinely in each part, and moved() bounds their distance: linearly interpolated over a cell it
 // bounds the distance at each of its points.
 #pragma once
 
@@ -51,18 +51,28 @@ inline double coordinate(const Point3& p, unsigned axis) {
     return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 
+/// Where the points were that a vertex stands for: at most `slack` away from a box.
+struct Past {
+    Point3 low{}, high{};
+    double slack = 0;
+
+    /// Bounds the distance from a place to these points.
+    [[nodiscard]] double reach(const Point3& place) const;
+    /// Stands for the points of another vertex, too.
+    void unite(const Past& other);
+};
+
 /// A vertex, or one that a division would make.
 struct PlacedVertex {
     Point3 place{};
-    double moved = 0; ///< see Complex
+    Past past{};
     Freedom freedom{};
 };
 
 class Complex {
 public:
-    /// Makes a complex. `moved`: per vertex, how far it is from its first place. `surfaces`: for
-    /// the roles, since the boundary keeps its planes. Cells without layers are left out.
-    Complex(std::vector<Point3> points, std::vector<double> moved, const std::vector<Cell>& cells,
+    /// Makes a complex. `past`: per vertex. `surfaces`: for the roles, since the boundary keeps its planes. Cells without layers are left out.
+    Complex(std::vector<Point3> points, std::vector<Past> past, const std::vector<Cell>& cells,
             std::span<const SurfaceInfo> surfaces);
 
     [[nodiscard]] const std::vector<Point3>& points() const { return points_; }
@@ -72,7 +82,8 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> star(std::uint32_t v) const { return star_[v]; }
     /// The cells at an edge, ascending.
     [[nodiscard]] std::vector<std::uint32_t> star(std::uint32_t a, std::uint32_t b) const;
-    [[nodiscard]] double moved(std::uint32_t v) const { return moved_[v]; }
+    [[nodiscard]] double moved(std::uint32_t v) const { return past_[v].reach(points_[v]); }
+    [[nodiscard]] const Past& past(std::uint32_t v) const { return past_[v]; }
     [[nodiscard]] const Freedom& freedom(std::uint32_t v) const { return freedom_[v]; }
     /// The vertex that divides an edge or a cell with these weights of its corners; with one
     /// corner, that vertex.
@@ -84,11 +95,8 @@ public:
     std::uint32_t split_edge(std::uint32_t a, std::uint32_t b, double at);
     /// Divides a cell by a new vertex with these weights of its corners. Returns the vertex.
     std::uint32_t split_cell(std::uint32_t cell, const std::array<double, 3>& weights);
-    /// Merges v into w, which goes to `place`; no point that they stand for is farther than `moved`
-    /// from its first place.
-    void merge(std::uint32_t v, std::uint32_t w, const Point3& place, double moved);
-    /// Moves a vertex; `moved` as above.
-    void move(std::uint32_t v, const Point3& place, double moved);
+    /// Merges v into w, which goes to `place` and stands for the points of both.
+    void merge(std::uint32_t v, std::uint32_t w, const Point3& place);
     /// Takes a surface from a cell; a cell without surfaces goes.
     void remove_layer(std::uint32_t cell, std::uint32_t surface);
 
@@ -101,7 +109,7 @@ private:
     void find_freedom(std::span<const SurfaceInfo> surfaces);
 
     std::vector<Point3> points_;
-    std::vector<double> moved_;
+    std::vector<Past> past_;
     std::vector<Freedom> freedom_;
     std::vector<Cell> cells_;
     std::vector<std::vector<std::uint32_t>> star_; ///< per vertex: its cells

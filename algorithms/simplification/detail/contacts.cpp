@@ -87,8 +87,8 @@ public:
         vertices_of(a, b, raw);
         vertices_of(b, a, raw);
         edges_of(a, b, raw);
-        const auto common = std::count_if(a.begin(), a.end(),
-                                          [&](std::uint32_t v) { return contains(b, v); });
+        const auto common =
+            std::count_if(a.begin(), a.end(), [&](std::uint32_t v) { return contains(b, v); });
         if (common == 0 || common == 3) return;
         if (longest_edge(a) <= tuning.longest_edge * resolution_ &&
             longest_edge(b) <= tuning.longest_edge * resolution_)
@@ -212,14 +212,13 @@ private:
                 const Point3 &x1 = points_[r], &y1 = points_[s];
                 if (are_apart(points_[p], points_[q],
                               {{std::min(x1.x, y1.x), std::min(x1.y, y1.y), std::min(x1.z, y1.z)},
-                               {std::max(x1.x, y1.x), std::max(x1.y, y1.y),
-                                std::max(x1.z, y1.z)}}))
+                               {std::max(x1.x, y1.x), std::max(x1.y, y1.y), std::max(x1.z, y1.z)}}))
                     continue;
                 const auto at = nearest_within(points_[p], points_[q], points_[r], points_[s]);
                 if (!at) continue;
                 const Place x = on_edge(p, q, (*at)[0]), y = on_edge(r, s, (*at)[1]);
-                add(std::min(p, q) < std::min(r, s) ? x : y, std::min(p, q) < std::min(r, s) ? y : x,
-                    raw);
+                add(std::min(p, q) < std::min(r, s) ? x : y,
+                    std::min(p, q) < std::min(r, s) ? y : x, raw);
             }
     }
 
@@ -296,8 +295,7 @@ private:
         return std::all_of(cells.begin(), cells.end(), [&](std::uint32_t t) {
             const Triangle& c = complex_.cells()[t].corners;
             return (to.size == 2 ? slope_at_edge(c, to, towards_x)
-                                 : slope_at_vertex(c, to.corners[0], towards_x)) <=
-                   tuning.towards;
+                                 : slope_at_vertex(c, to.corners[0], towards_x)) <= tuning.towards;
         });
     }
 
@@ -328,8 +326,7 @@ private:
         const double square = dot(n, n);
         if (!(square > 0)) return best;
         const double height = dot(n, direction) / std::sqrt(square);
-        const bool is_within =
-            dot(cross(e, direction), n) > 0 && dot(cross(direction, f), n) > 0;
+        const bool is_within = dot(cross(e, direction), n) > 0 && dot(cross(direction, f), n) > 0;
         return is_within ? std::sqrt(std::max(0.0, 1 - height * height)) : best;
     }
 
@@ -436,10 +433,9 @@ Found find_contacts(const Complex& complex, const CurveNetwork& curves, double r
         if (!c.on_surfaces) continue;
         for (const Place* place : {&c.from, &c.to})
             for (const std::uint32_t t : complex.star(place->corners[0]))
-                if (std::all_of(place->vertices().begin(), place->vertices().end(),
-                                [&](std::uint32_t v) {
-                                    return contains(complex.cells()[t].corners, v);
-                                }))
+                if (std::all_of(
+                        place->vertices().begin(), place->vertices().end(),
+                        [&](std::uint32_t v) { return contains(complex.cells()[t].corners, v); }))
                     found.to_divide.push_back(t);
     }
     for (NearPlaces& c : contacts) finder.simplify(c);
@@ -448,8 +444,8 @@ Found find_contacts(const Complex& complex, const CurveNetwork& curves, double r
         const bool have_common = std::any_of(from.begin(), from.end(), [&](std::uint32_t v) {
             return std::find(to.begin(), to.end(), v) != to.end();
         });
-        const bool is_crossing = c.from.size + c.to.size > 2 &&
-                                 c.distance < tuning.crossing * resolution;
+        const bool is_crossing =
+            c.from.size + c.to.size > 2 && c.distance < tuning.crossing * resolution;
         return have_common || is_crossing;
     });
     sort_and_unite(contacts);

@@ -42,8 +42,8 @@ struct NearPlaces {
 };
 
 struct Found {
-    std::vector<NearPlaces> contacts{};      ///< by distance, then by vertices
-    std::vector<std::uint32_t> to_divide{};  ///< cells too long for where surfaces are near
+    std::vector<NearPlaces> contacts{};     ///< by distance, then by vertices
+    std::vector<std::uint32_t> to_divide{}; ///< cells too long for where surfaces are near
 };
 
 /// Finds the contacts of the active cells (ascending). Cost: a box search, and some microseconds per

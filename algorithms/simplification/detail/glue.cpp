@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <optional>
 #include <tuple>
@@ -24,12 +23,6 @@ double way_between(const Point3& a, const Point3& b) {
     return length(minus(b, a));
 }
 
-/// Where two places become one, and how far what they stand for has moved then.
-struct Meeting {
-    Point3 place{};
-    double moved = 0;
-};
-
 class Gluer {
 public:
     Gluer(Complex& complex, const GlueOptions& options, const Run& run) :
@@ -42,11 +35,7 @@ public:
         while (!active.empty() && pass++ < tuning.passes && !stopped()) {
             touched_.assign(complex_.points().size(), false);
             curves_ = find_curves(complex_);
-            const Found found =
-                find_contacts(complex_, curves_, options_.resolution, active, run_);
-#ifdef DEV_TRACE
-            fprintf(stderr, "pass %u cells %zu active %zu contacts %zu to_divide %zu | %zu %zu %zu %zu\n", pass, complex_.cells().size(), active.size(), found.contacts.size(), found.to_divide.size(), report_.corners, report_.curves, report_.sheets, report_.divided);
-#endif
+            const Found found = find_contacts(complex_, curves_, options_.resolution, active, run_);
             for (const std::uint32_t t : by_length(found.to_divide)) divide(t);
             for (const NearPlaces& c : found.contacts)
                 if (!is_touched(c) && !meeting_of(c).second) join(c);
@@ -159,7 +148,7 @@ private:
     }
 
     /// Finds where the places of a contact meet, or why they do not.
-    [[nodiscard]] std::pair<Meeting, std::optional<LeftReason>>
+    [[nodiscard]] std::pair<Point3, std::optional<LeftReason>>
     meeting_of(const NearPlaces& c) const {
         if (is_locked(c)) return {{}, LeftReason::block};
         for (const Place* p : {&c.from, &c.to})
@@ -173,9 +162,9 @@ private:
                 if (!reason) reason = LeftReason::boundary;
                 continue;
             }
-            const double moved = std::max(v.moved + way_between(v.place, place),
-                                          w.moved + way_between(w.place, place));
-            if (moved > options_.max_move) {
+            Past past = v.past;
+            past.unite(w.past);
+            if (past.reach(place) > options_.max_move) {
                 reason = reason.value_or(LeftReason::move);
                 continue;
             }
@@ -184,7 +173,7 @@ private:
                 reason = reason.value_or(LeftReason::fold);
                 continue;
             }
-            return {{place, moved}, std::nullopt};
+            return {place, std::nullopt};
         }
         return {{}, reason};
     }
@@ -213,8 +202,8 @@ private:
         }
         const Point3 m = cross(minus(p[1], p[0]), minus(p[2], p[0]));
         const Point3 n = cross(minus(q[1], q[0]), minus(q[2], q[0]));
-        const double longest = std::max({way_between(p[0], p[1]), way_between(p[1], p[2]),
-                                         way_between(p[2], p[0])});
+        const double longest =
+            std::max({way_between(p[0], p[1]), way_between(p[1], p[2]), way_between(p[2], p[0])});
         if (length(m) < tuning.narrow * options_.resolution * longest) return false;
         return dot(m, n) < tuning.fold_cosine * length(m) * length(n);
     }
@@ -254,19 +243,16 @@ private:
     }
 
     void join(const NearPlaces& c) {
-        const Meeting meeting = meeting_of(c).first;
-#ifdef DEV_TRACE
-        if (getenv("TRACE_JOIN")) { auto p=vertex_at(c.from).place, q=vertex_at(c.to).place; fprintf(stderr, "join d %g sizes %u %u: %u %u -> %u %u %u  w %.3f %.3f %.3f at %g %g %g -> %g %g %g meet %g %g %g surf %d\n", c.distance, c.from.size, c.to.size, c.from.corners[0], c.from.corners[1], c.to.corners[0], c.to.corners[1], c.to.corners[2], c.to.weights[0], c.to.weights[1], c.to.weights[2], p.x,p.y,p.z,q.x,q.y,q.z, meeting.place.x, meeting.place.y, meeting.place.z, c.on_surfaces); }
-#endif
+        const Point3 meeting = meeting_of(c).first;
         const Kind a = kind_of(c.from), b = kind_of(c.to);
         const bool both_corners = a == Kind::corner && b == Kind::corner;
-        ++(both_corners                               ? report_.corners
+        ++(both_corners                           ? report_.corners
            : a != Kind::inner && b != Kind::inner ? report_.curves
-                                                      : report_.sheets);
+                                                  : report_.sheets);
         const std::uint32_t v = made_vertex(c.from), w = made_vertex(c.to);
         touch_around(v);
         touch_around(w);
-        complex_.merge(std::max(v, w), std::min(v, w), meeting.place, meeting.moved);
+        complex_.merge(std::max(v, w), std::min(v, w), meeting);
         touch_around(std::min(v, w));
         joined_.resize(complex_.points().size());
         joined_[std::min(v, w)] += 1 + joined_[std::max(v, w)];

@@ -24,9 +24,8 @@ struct Interfaces {
 };
 
 bool is_boundary(const Mesh& mesh, const std::vector<std::uint32_t>& surfaces) {
-    return std::any_of(surfaces.begin(), surfaces.end(), [&](std::uint32_t s) {
-        return mesh.surfaces[s].role == Role::boundary;
-    });
+    return std::any_of(surfaces.begin(), surfaces.end(),
+                       [&](std::uint32_t s) { return mesh.surfaces[s].role == Role::boundary; });
 }
 
 /// Returns the triangles of the largest interface that may go; none if there is no such.
@@ -41,9 +40,9 @@ std::vector<std::uint32_t> largest(const Mesh& mesh, const Interfaces& interface
 /// Adds a layer that was on the other side of a block, so that the block is behind it where it was in
 /// front, and the other way round. `side`: of the cell, on which the block is; `was`: of the layer.
 void add_layer(Cell& cell, Layer layer, std::size_t side, std::size_t was) {
-    const auto at = std::lower_bound(
-        cell.layers.begin(), cell.layers.end(), layer.surface,
-        [](const Layer& l, std::uint32_t surface) { return l.surface < surface; });
+    const auto at =
+        std::lower_bound(cell.layers.begin(), cell.layers.end(), layer.surface,
+                         [](const Layer& l, std::uint32_t surface) { return l.surface < surface; });
     if (at != cell.layers.end() && at->surface == layer.surface) return;
     layer.is_turned = side == was;
     cell.layers.insert(at, layer);
@@ -70,8 +69,8 @@ std::size_t dissolve(const Mesh& mesh, const Volumes& volumes,
             const auto found = wanted.find(volumes.of_sides[t][side]);
             if (found == wanted.end()) continue;
             const auto of = mesh.surfaces_of[t];
-            auto& [area, triangles] = found->second.all[{volumes.of_sides[t][1 - side],
-                                                         {of.begin(), of.end()}}];
+            auto& [area, triangles] =
+                found->second.all[{volumes.of_sides[t][1 - side], {of.begin(), of.end()}}];
             area += area_of(mesh, t);
             triangles.push_back(t);
         }

@@ -15,7 +15,8 @@ namespace {
 
 /// Starts a triangle at its least corner.
 Triangle rotated(const Triangle& t) {
-    const std::size_t i = static_cast<std::size_t>(std::min_element(t.begin(), t.end()) - t.begin());
+    const std::size_t i =
+        static_cast<std::size_t>(std::min_element(t.begin(), t.end()) - t.begin());
     return {t[i], t[(i + 1) % 3], t[(i + 2) % 3]};
 }
 
@@ -68,7 +69,7 @@ TracedMesh traced(const Mesh& mesh) {
         for (const std::uint32_t s : mesh.surfaces_of[t])
             result.cells.back().layers.push_back({s, origin});
     }
-    result.moved.assign(mesh.vertices.size(), 0);
+    for (const Point3& p : result.mesh.vertices) result.past.push_back({p, p, 0});
     return result;
 }
 
@@ -89,7 +90,7 @@ Soup soup_of(const Complex& complex, std::span<const SurfaceInfo> surfaces) {
         used.erase(std::unique(used.begin(), used.end()), used.end());
         for (const std::uint32_t v : used) {
             surface.vertices.push_back(complex.points()[v]);
-            soup.moved.push_back(complex.moved(v));
+            soup.past.push_back(complex.past(v));
         }
         for (auto [t, layer] : triangles[s]) {
             for (std::uint32_t& v : t)
@@ -106,16 +107,16 @@ Soup soup_of(const Complex& complex, std::span<const SurfaceInfo> surfaces) {
 
 TracedMesh traced(const Mesh& mesh, const Soup& soup, double rounded) {
     const FlatSoup flat = flattened(soup);
-    std::vector<std::pair<Point3, double>> known; // moves of soup vertices, by place
+    std::vector<std::pair<Point3, Past>> known; // of soup vertices, by place
     for (std::size_t v = 0; v < flat.points.size(); ++v)
-        known.emplace_back(flat.points[v], soup.moved[v]);
-    std::sort(known.begin(), known.end(), [](const auto& a, const auto& b) {
-        return std::tie(a.first, a.second) < std::tie(b.first, b.second);
-    });
+        known.emplace_back(flat.points[v], soup.past[v]);
+    std::stable_sort(known.begin(), known.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
     TracedMesh result;
     result.mesh = mesh;
     // A vertex that is in no place of the soup lies in all triangles whose parts have it.
-    result.moved.assign(mesh.vertices.size(), std::numeric_limits<double>::infinity());
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    for (const Point3& p : mesh.vertices) result.past.push_back({p, p, endless});
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         Cell cell{mesh.triangles[t], {}};
         const Point3 normal = normal_of(mesh.vertices, cell.corners);
@@ -123,9 +124,10 @@ TracedMesh traced(const Mesh& mesh, const Soup& soup, double rounded) {
             Layer layer = soup.layers[parent];
             const Triangle& whole = flat.triangles[parent];
             double most = 0;
-            for (const std::uint32_t v : whole) most = std::max(most, soup.moved[v]);
+            for (const std::uint32_t v : whole)
+                most = std::max(most, soup.past[v].reach(flat.points[v]));
             for (const std::uint32_t v : cell.corners)
-                result.moved[v] = std::min(result.moved[v], most + rounded);
+                result.past[v].slack = std::min(result.past[v].slack, most + rounded);
             if (!cell.layers.empty() && cell.layers.back().surface == layer.surface) continue;
             layer.is_turned = dot(normal, normal_of(flat.points, whole)) < 0;
             cell.layers.push_back(layer);
@@ -133,12 +135,14 @@ TracedMesh traced(const Mesh& mesh, const Soup& soup, double rounded) {
         result.cells.push_back(std::move(cell));
     }
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        const auto at = std::lower_bound(
-            known.begin(), known.end(), mesh.vertices[v],
-            [](const auto& entry, const Point3& p) { return entry.first < p; });
-        // Equal places are sorted by their moves: the last one is the largest.
+        const auto at =
+            std::lower_bound(known.begin(), known.end(), mesh.vertices[v],
+                             [](const auto& entry, const Point3& p) { return entry.first < p; });
+        if (at == known.end() || at->first != mesh.vertices[v]) continue;
+        result.past[v] = at->second;
         for (auto k = at; k != known.end() && k->first == mesh.vertices[v]; ++k)
-            result.moved[v] = k->second + rounded;
+            result.past[v].unite(k->second);
+        result.past[v].slack += rounded;
     }
     return result;
 }

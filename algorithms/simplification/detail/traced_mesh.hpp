@@ -15,15 +15,15 @@ namespace terrane::simplification::detail {
 
 struct TracedMesh {
     Mesh mesh;
-    std::vector<Cell> cells;   ///< per triangle, with the same corners
-    std::vector<double> moved; ///< per vertex: see Complex
+    std::vector<Cell> cells; ///< per triangle, with the same corners
+    std::vector<Past> past;  ///< per vertex
 };
 
 /// The surfaces of a complex, one by one, and where each of their triangles comes from.
 struct Soup {
     std::vector<Surface> surfaces;
     std::vector<Layer> layers; ///< per triangle, through all surfaces; its own orientation
-    std::vector<double> moved; ///< per vertex, through all surfaces
+    std::vector<Past> past;    ///< per vertex, through all surfaces
 };
 
 /// Numbers a mesh by place: vertices in lexicographic order, triangles by their corners.

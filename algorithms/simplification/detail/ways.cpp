@@ -37,9 +37,8 @@ double way_across(const Point3& x, const Point3& y, const Point3& a, const Point
 std::vector<std::uint32_t> Ways::cells_of(const Place& place) const {
     std::vector<std::uint32_t> cells;
     for (const std::uint32_t t : complex_.star(place.corners[0]))
-        if (std::all_of(place.vertices().begin(), place.vertices().end(), [&](std::uint32_t v) {
-                return contains(complex_.cells()[t].corners, v);
-            }))
+        if (std::all_of(place.vertices().begin(), place.vertices().end(),
+                        [&](std::uint32_t v) { return contains(complex_.cells()[t].corners, v); }))
             cells.push_back(t);
     return cells;
 }
