@@ -16,7 +16,7 @@
 namespace terrane::distribution {
 
 /// A grid of 2^bits cells along each axis over the box of all points.
-struct Grid {
+struct CellGrid {
     std::array<double, 3> low{};
     std::array<double, 3> scale{}; ///< cells per unit; 0 where all coordinates are equal
     unsigned bits = 0;
@@ -32,8 +32,7 @@ struct Grid {
     [[nodiscard]] std::uint64_t place(const std::array<std::uint32_t, 3>& cell) const {
         std::uint64_t key = 0;
         for (unsigned b = 0; b < bits; ++b)
-            for (unsigned k = 0; k < 3; ++k)
-                key |= std::uint64_t{cell[k] >> b & 1U} << (3 * b + k);
+            for (unsigned k = 0; k < 3; ++k) key |= std::uint64_t{cell[k] >> b & 1U} << (3 * b + k);
         return key;
     }
     [[nodiscard]] std::uint64_t place_of(const std::array<double, 3>& p) const {
@@ -42,7 +41,7 @@ struct Grid {
 };
 
 /// Returns the grid for so many blocks over a box.
-Grid grid_over(const Box& box, std::size_t blocks);
+CellGrid grid_over(const Box& box, std::size_t blocks);
 
 /// Faces of a surface whose lowest corners are in a cell.
 struct CellCount {
@@ -61,17 +60,17 @@ std::vector<std::uint64_t> equal_runs(std::vector<CellCount> cells, std::size_t 
 
 /// Returns the block of a place along the curve.
 inline std::uint32_t block_at(std::span<const std::uint64_t> splitters, std::uint64_t place) {
-    return static_cast<std::uint32_t>(
-        std::upper_bound(splitters.begin(), splitters.end(), place) - splitters.begin());
+    return static_cast<std::uint32_t>(std::upper_bound(splitters.begin(), splitters.end(), place) -
+                                      splitters.begin());
 }
 
 /// Returns the blocks whose cells a box overlaps, ascending.
-std::vector<std::uint32_t> blocks_of(const Grid& grid, std::span<const std::uint64_t> splitters,
+std::vector<std::uint32_t> blocks_of(const CellGrid& grid, std::span<const std::uint64_t> splitters,
                                      const Box& box);
 
 /// Returns the block with the lowest corner of a box: it owns the face with this box, and the pair
 /// with this common part of its boxes.
-inline std::uint32_t owner_of(const Grid& grid, std::span<const std::uint64_t> splitters,
+inline std::uint32_t owner_of(const CellGrid& grid, std::span<const std::uint64_t> splitters,
                               const std::array<double, 3>& lowest) {
     return block_at(splitters, grid.place_of(lowest));
 }
