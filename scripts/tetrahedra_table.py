@@ -48,7 +48,7 @@ class Model:
     part: str = ""  # of an archive: files whose path contains it
 
 
-ROUNDS = 8
+ROUNDS = 2
 ALL_MODELS = (
     Model("A1", ("ringmesh/modelA1.ml",), 400, True, ROUNDS, {"share": .1, "greatest": 166}),
     Model("A2", ("ringmesh/modelA2.ml",), 400, True, ROUNDS, {"share": .3, "greatest": 166}),

@@ -34,8 +34,7 @@ BadTetrahedron only_one(const TetrahedralMesh& mesh) {
 
 } // namespace
 
-TEST_CASE("bad tetrahedra: the least angle, and whether it is below ten degrees",
-          "[tetrahedra]") {
+TEST_CASE("bad tetrahedra: the least angle, and whether it is below ten degrees", "[tetrahedra]") {
     // The angle at the edge from 0 to 1 is that at (1, 0) between the lines to 2 and to 3.
     const auto height_for = [](double degrees) {
         return .8 * std::tan(degrees * std::numbers::pi / 180);
@@ -58,7 +57,7 @@ TEST_CASE("bad tetrahedra: each cause, and the first that applies", "[tetrahedra
     add_face(mesh, {0, 2, 1});
     CHECK(only_one(mesh).cause == BadCause::other);
     SECTION("a gap: all four corners are on surfaces") {
-        mesh.vertices.insert(mesh.vertices.end(), {{0, 0, 9}, {1, 0, 9}});
+        mesh.vertices.insert(mesh.vertices.end(), {{-9, .8, 9}, {9, .8, 9}});
         add_face(mesh, {3, 4, 5});
         CHECK(only_one(mesh).cause == BadCause::gap);
         CHECK_FALSE(only_one(mesh).is_at_input_angle);
@@ -78,7 +77,7 @@ TEST_CASE("bad tetrahedra: each cause, and the first that applies", "[tetrahedra
 
 TEST_CASE("bad tetrahedra: a thin triangle of a surface", "[tetrahedra]") {
     auto mesh = flat_one(.05, .1); // the triangle has angles of 5.7 degrees
-    mesh.vertices[3] = {1, .02, .02};
+    mesh.vertices[3] = {1, .02, .002};
     add_face(mesh, {0, 2, 1});
     // Its sides are curves, as they have one face each: no mesh has a better angle there.
     CHECK(only_one(mesh).cause == BadCause::thin_triangle);
