@@ -424,47 +424,6 @@ TEST_CASE("project: what is wrong is named by its key", "[io][project]") {
     CHECK(message(document) == "p.json: the key surfaces is missing");
 }
 
-TEST_CASE("project: what is uncertain is read, and mistakes are named", "[io][project]") {
-    const auto read = parse(samples().back()).value().uncertainty;
-    REQUIRE(read.size() == 4);
-    CHECK(read[0].surface == "top");
-    CHECK(read[0].group == "velocity");
-    CHECK(read[0].tilt == 0.5);
-    CHECK(read[0].field->model == "matern");
-    CHECK(read[0].field->smoothness == 2.5);
-    CHECK(read[0].field->range == 800);
-    CHECK(read[0].field->azimuth == 30);
-    CHECK(read[0].field->ratio == 0.5);
-    CHECK(read[0].field->sd == 10.0);
-    CHECK(read[1].field->map == "/data/sd.asc");
-    CHECK(read[1].field->model == "gaussian");
-    CHECK(read[1].shift == 5);
-    CHECK(read[2].field->kriging);
-    CHECK(read[3].dip == 2);
-    CHECK(read[3].slip == 30);
-    CHECK(read[3].reach == 1000.0);
-    const auto with = [](const char* pointer, const json& value) {
-        json document = samples().back();
-        document[json::json_pointer(pointer)] = value;
-        return message(document);
-    };
-    const std::string at = "p.json: uncertainty";
-    CHECK(with("/uncertainty/0/field/sd", "much") ==
-          at + "[0].field.sd: must be kriging or a number larger than 0");
-    CHECK(with("/uncertainty/0/field/map", "sd.asc") ==
-          at + "[0].field: must have one of the keys sd and map");
-    CHECK(with("/uncertainty/0/field/smoothness", 2) ==
-          at + "[0].field.smoothness: must be 1.5 or 2.5");
-    CHECK(with("/uncertainty/0/field/ratio", 1.5) == at + "[0].field.ratio: must be at most 1");
-    CHECK(with("/uncertainty/0/field/model", "power") ==
-          at + "[0].field.model: must be spherical, exponential, gaussian or matern");
-    CHECK(with("/uncertainty/0/tilt", 50) == at + "[0].tilt: must be at most 45 degrees");
-    CHECK(with("/uncertainty/3", {{"surface", "F1"}, {"throw_reach", 5}, {"dip", 1}}) ==
-          at + "[3].throw_reach: needs throw, whose reach it is");
-    CHECK(with("/uncertainty/3", {{"surface", "F1"}}) ==
-          at + "[3]: must have at least one of the keys field, shift, tilt, dip and throw");
-}
-
 TEST_CASE("project: any text gives a project or an error", "[io][project]") {
     const auto said = [](std::string_view text) {
         const auto result = parse_project(text, "", "p.json");
