@@ -30,7 +30,7 @@ struct Face {
 
 /// A pair of faces that meet improperly.
 struct MeetingFaces {
-    Face first, second; ///< first.id < second.id
+    Face first, second;        ///< first.id < second.id
     std::uint32_t overlap = 0; ///< 1: they are coplanar and have an area in common
     std::uint32_t unused = 0;
 };
@@ -75,19 +75,19 @@ struct ParentHash {
 
 /// Counts of the work of a block, for the cost model.
 struct Work {
-    std::uint64_t homes = 0;      ///< input triangles that it read its share of
-    std::uint64_t faces = 0;      ///< faces whose boxes overlap the block
-    std::uint64_t owned = 0;      ///< faces of which it is the owner
-    std::uint64_t candidates = 0; ///< pairs of boxes that it decides
-    std::uint64_t improper = 0;   ///< those that meet improperly
-    std::uint64_t divided = 0;    ///< faces that it divides
-    std::uint64_t predicates = 0; ///< signs
-    std::uint64_t constructed = 0; ///< points that it constructs
-    std::uint64_t triangles = 0;   ///< of the result
+    std::uint64_t homes = 0;         ///< input triangles that it read its share of
+    std::uint64_t faces = 0;         ///< faces whose boxes overlap the block
+    std::uint64_t owned = 0;         ///< faces of which it is the owner
+    std::uint64_t candidates = 0;    ///< pairs of boxes that it decides
+    std::uint64_t improper = 0;      ///< those that meet improperly
+    std::uint64_t divided = 0;       ///< faces that it divides
+    std::uint64_t predicates = 0;    ///< signs
+    std::uint64_t constructed = 0;   ///< points that it constructs
+    std::uint64_t triangles = 0;     ///< of the result
     std::uint64_t rounded_pairs = 0; ///< pairs of triangles of doubles that it tests
-    std::uint64_t messages = 0; ///< to other blocks, not empty
-    std::uint64_t bytes = 0;    ///< in these
-    std::uint64_t memory = 0;   ///< most bytes of its state and its messages in any step
+    std::uint64_t messages = 0;      ///< to other blocks, not empty
+    std::uint64_t bytes = 0;         ///< in these
+    std::uint64_t memory = 0;        ///< most bytes of its state and its messages in any step
 };
 
 /// The file and place of a surface in it, and its size.
@@ -116,14 +116,14 @@ struct Block {
     std::vector<std::uint32_t> read_files; ///< entries of these surfaces, by file and place
 
     // The share of input vertices and triangles by number, whose home is this block (naming.cpp).
-    std::vector<Point3> home_points;         ///< of the first vertex at the same place
-    std::vector<std::uint32_t> home_first;   ///< that vertex
-    std::vector<Triangle> home_triangles;    ///< corners as read
-    std::vector<Face> home_faces;            ///< those with area, until distributed
+    std::vector<Point3> home_points;            ///< of the first vertex at the same place
+    std::vector<std::uint32_t> home_first;      ///< that vertex
+    std::vector<Triangle> home_triangles;       ///< corners as read
+    std::vector<Face> home_faces;               ///< those with area, until distributed
     std::vector<std::uint32_t> home_degenerate; ///< input triangles without area, ascending
     std::vector<Hash> degenerate_records;       ///< of the digest
     std::vector<std::uint32_t> home_owner;      ///< per triangle: the block that owns it
-    std::vector<std::uint32_t> home_count; ///< per triangle: triangles of the result under it
+    std::vector<std::uint32_t> home_count;      ///< per triangle: triangles of the result under it
 
     // Space (grid.hpp).
     BlockGrid grid;
@@ -132,23 +132,24 @@ struct Block {
 
     // Faces (pairs.cpp).
     std::vector<Face> faces; ///< distinct ones whose boxes overlap the block, by number
-    std::vector<std::array<std::uint32_t, 2>> duplicates; ///< of own faces: {repeated, first}, by first
+    std::vector<std::array<std::uint32_t, 2>>
+        duplicates; ///< of own faces: {repeated, first}, by first
 
     std::vector<std::array<std::uint32_t, 2>> repeated; ///< of parents: {repeated, first}, sorted
 
     // Division (divide.cpp).
-    std::vector<std::uint32_t> touched;    ///< own faces that meet others improperly, ascending
-    std::vector<std::uint32_t> overlapped; ///< those that have an area in common with another
-    std::vector<Part> parts;               ///< of touched faces
-    IndexLists<std::uint32_t> own_faces_of; ///< per part: own faces that contain it, ascending
-    std::vector<OwnPoint> points;           ///< constructed, of these parts
+    std::vector<std::uint32_t> touched;      ///< own faces that meet others improperly, ascending
+    std::vector<std::uint32_t> overlapped;   ///< those that have an area in common with another
+    std::vector<Part> parts;                 ///< of touched faces
+    IndexLists<std::uint32_t> own_faces_of;  ///< per part: own faces that contain it, ascending
+    std::vector<OwnPoint> points;            ///< constructed, of these parts
     std::vector<Construction> constructions; ///< per point, until numbered
     std::vector<Face> geometry;              ///< faces that the constructions name
 
     // Numbers (numbering.cpp).
     std::vector<double> point_splitters; ///< x beyond which points are ordered by the next block
     std::vector<UsedVertex> used;        ///< input vertices of own triangles, by id
-    std::vector<std::array<std::uint32_t, 3>> requests; ///< {block, its point, place here}
+    std::vector<std::array<std::uint32_t, 3>> requests;  ///< {block, its point, place here}
     std::vector<std::array<std::uint32_t, 2>> used_here; ///< {home vertex, block that uses it}
     std::uint32_t ordered = 0;           ///< distinct constructed points ordered here
     std::uint32_t used_total = 0;        ///< input vertices in use, in all blocks
@@ -160,16 +161,16 @@ struct Block {
     std::vector<std::uint32_t> ids;       ///< per triangle: its number through all blocks
     IndexLists<std::uint32_t> parents_of; ///< as of Arrangement
     IndexLists<std::uint32_t> surfaces_of;
-    std::vector<std::uint32_t> region_of; ///< per value of surfaces_of
-    std::vector<ParentHash> parent_hashes; ///< by id, of all parents, if a digest is wanted
+    std::vector<std::uint32_t> region_of;    ///< per value of surfaces_of
+    std::vector<ParentHash> parent_hashes;   ///< by id, of all parents, if a digest is wanted
     std::vector<std::uint32_t> component_of; ///< per value of surfaces_of: the first one here that
                                              ///< is in the same region
-    std::vector<Hash> records;            ///< of the digest, in the range of this block
-    std::uint64_t unclean = 0;            ///< pairs and triangles of doubles that are not proper
-    std::uint64_t result_triangles = 0;   ///< of all blocks
-    double deviation = 0;                 ///< largest move of a point, in all blocks
-    std::uint64_t edges = 0;              ///< intersection edges that this block counts
-    std::uint64_t regions = 0;            ///< number of regions of the whole
+    std::vector<Hash> records;               ///< of the digest, in the range of this block
+    std::uint64_t unclean = 0;               ///< pairs and triangles of doubles that are not proper
+    std::uint64_t result_triangles = 0;      ///< of all blocks
+    double deviation = 0;                    ///< largest move of a point, in all blocks
+    std::uint64_t edges = 0;                 ///< intersection edges that this block counts
+    std::uint64_t regions = 0;               ///< number of regions of the whole
 
     [[nodiscard]] std::uint32_t vertex_total() const { return first_vertex.back(); }
     [[nodiscard]] std::uint32_t triangle_total() const { return first_triangle.back(); }

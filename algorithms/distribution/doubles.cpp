@@ -95,8 +95,8 @@ std::uint64_t count_improper(Block& b, const DoubleSoup& soup, const Run& run) {
                          std::max(f.low[2], g.low[2])}) != b.index;
     });
     b.work.rounded_pairs = pairs.size();
-    const auto counts =
-        for_blocks<std::uint64_t>(pairs.size(), 1024, run, [&](std::size_t first, std::size_t last) {
+    const auto counts = for_blocks<std::uint64_t>(
+        pairs.size(), 1024, run, [&](std::size_t first, std::size_t last) {
             std::uint64_t improper = 0;
             for (std::size_t k = first; k < last; ++k)
                 improper += improper_contact(soup.points, soup.triangles[pairs[k].first],
@@ -114,9 +114,8 @@ std::uint64_t count_improper(Block& b, const DoubleSoup& soup, const Run& run) {
 /// Channel 0: BlockVerdict, to all.
 Status check_doubles(Block& b, Inbox& in, Outbox& out, const Run& run) {
     const std::uint32_t first = home_start(b, b.triangle_total());
-    in.take<CountOfFace>(0, [&](std::uint32_t, const CountOfFace& c) {
-        b.home_count[c.face - first] = c.count;
-    });
+    in.take<CountOfFace>(
+        0, [&](std::uint32_t, const CountOfFace& c) { b.home_count[c.face - first] = c.count; });
     const auto parts = in.all<DoubleFace>(1);
     auto divided = in.all<std::uint32_t>(2);
     sort_unique(divided);

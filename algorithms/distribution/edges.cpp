@@ -21,7 +21,7 @@ struct FaceStart {
 /// own.
 struct EdgeTriangle {
     std::array<std::uint32_t, 2> ends{};
-    std::uint32_t triangle = 0; ///< in its block
+    std::uint32_t triangle = 0;  ///< in its block
     std::uint32_t signature = 0; ///< number of distinct parents
 };
 
@@ -56,9 +56,9 @@ bool agree(const Block& b, std::uint32_t s, std::uint32_t t) {
 }
 
 std::uint32_t first_same(const Block& b, std::uint32_t triangle) {
-    const auto found = std::lower_bound(
-        b.repeated.begin(), b.repeated.end(), triangle,
-        [](const auto& pair, std::uint32_t t) { return pair[0] < t; });
+    const auto found =
+        std::lower_bound(b.repeated.begin(), b.repeated.end(), triangle,
+                         [](const auto& pair, std::uint32_t t) { return pair[0] < t; });
     return found != b.repeated.end() && (*found)[0] == triangle ? (*found)[1] : triangle;
 }
 
@@ -120,7 +120,8 @@ Status decide_shared_edges(Block& b, Inbox& in, Outbox& out) {
         const auto begin = surfaces.begin();
         const auto of = [&](const Side& side) {
             return std::pair(begin + static_cast<std::ptrdiff_t>(side.surfaces),
-                             begin + static_cast<std::ptrdiff_t>(side.surfaces + side.at.signature));
+                             begin +
+                                 static_cast<std::ptrdiff_t>(side.surfaces + side.at.signature));
         };
         return std::equal(of(s).first, of(s).second, of(t).first, of(t).second);
     };

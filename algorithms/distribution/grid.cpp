@@ -72,8 +72,8 @@ std::vector<std::uint64_t> equal_runs(std::vector<CellCount> counts, std::size_t
     return splitters;
 }
 
-std::vector<std::uint32_t> blocks_of(const BlockGrid& grid, std::span<const std::uint64_t> splitters,
-                                     const Box& box) {
+std::vector<std::uint32_t> blocks_of(const BlockGrid& grid,
+                                     std::span<const std::uint64_t> splitters, const Box& box) {
     std::array<std::uint32_t, 3> low{}, high{};
     for (unsigned k = 0; k < 3; ++k) {
         low[k] = grid.cell(k, box.low[k]);
@@ -85,8 +85,7 @@ std::vector<std::uint32_t> blocks_of(const BlockGrid& grid, std::span<const std:
         for (c[1] = low[1]; c[1] <= high[1]; ++c[1])
             for (c[2] = low[2]; c[2] <= high[2]; ++c[2]) {
                 const auto b = block_at(splitters, grid.place(c));
-                if (std::find(blocks.begin(), blocks.end(), b) == blocks.end())
-                    blocks.push_back(b);
+                if (std::find(blocks.begin(), blocks.end(), b) == blocks.end()) blocks.push_back(b);
             }
     std::sort(blocks.begin(), blocks.end());
     return blocks;

@@ -32,8 +32,7 @@ struct BlockGrid {
     [[nodiscard]] std::uint64_t place(const std::array<std::uint32_t, 3>& cell) const {
         std::uint64_t key = 0;
         for (unsigned b = 0; b < bits; ++b)
-            for (unsigned k = 0; k < 3; ++k)
-                key |= std::uint64_t{cell[k] >> b & 1U} << (3 * b + k);
+            for (unsigned k = 0; k < 3; ++k) key |= std::uint64_t{cell[k] >> b & 1U} << (3 * b + k);
         return key;
     }
     [[nodiscard]] std::uint64_t place_of(const std::array<double, 3>& p) const {
@@ -61,13 +60,13 @@ std::vector<std::uint64_t> equal_runs(std::vector<CellCount> cells, std::size_t 
 
 /// Returns the block of a place along the curve.
 inline std::uint32_t block_at(std::span<const std::uint64_t> splitters, std::uint64_t place) {
-    return static_cast<std::uint32_t>(
-        std::upper_bound(splitters.begin(), splitters.end(), place) - splitters.begin());
+    return static_cast<std::uint32_t>(std::upper_bound(splitters.begin(), splitters.end(), place) -
+                                      splitters.begin());
 }
 
 /// Returns the blocks whose cells a box overlaps, ascending.
-std::vector<std::uint32_t> blocks_of(const BlockGrid& grid, std::span<const std::uint64_t> splitters,
-                                     const Box& box);
+std::vector<std::uint32_t> blocks_of(const BlockGrid& grid,
+                                     std::span<const std::uint64_t> splitters, const Box& box);
 
 /// Returns the block with the lowest corner of a box: it owns the face with this box, and the pair
 /// with this common part of its boxes.
