@@ -38,9 +38,9 @@ void put_in_order(const TriangleSoup& soup, const PointOrder& order, std::span<P
     for (Part& p : parts) {
         const Triangle& whole = soup.triangles[p.face];
         if (std::is_permutation(whole.begin(), whole.end(), p.corners.begin())) continue;
-        const auto lowest = std::min_element(
-            p.corners.begin(), p.corners.end(),
-            [&](PointIndex a, PointIndex b) { return rank(a) < rank(b); });
+        const auto lowest =
+            std::min_element(p.corners.begin(), p.corners.end(),
+                             [&](PointIndex a, PointIndex b) { return rank(a) < rank(b); });
         std::rotate(p.corners.begin(), lowest, p.corners.end());
     }
     std::sort(parts.begin(), parts.end(), [&](const Part& a, const Part& b) {

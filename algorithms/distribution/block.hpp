@@ -126,7 +126,7 @@ struct Block {
     std::vector<std::uint32_t> home_count;      ///< per triangle: triangles of the result under it
 
     // Space (grid.hpp).
-    CellGrid grid;
+    BlockGrid grid;
     std::vector<std::uint64_t> splitters; ///< per block but the last: the first cell beyond it
     double largest = 0;                   ///< coordinate of any triangle
 

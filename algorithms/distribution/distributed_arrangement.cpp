@@ -21,7 +21,8 @@ class Sequence {
 public:
     Sequence(Supersteps& blocks, const FileReader& read, const DistributedOptions& options,
              const Run& run) :
-        blocks_(blocks), read_(read), options_(options), run_(run) {}
+        blocks_(blocks),
+        read_(read), options_(options), run_(run) {}
 
     Status operator()() {
         using Exchange = Status (*)(Block&, Inbox&, Outbox&);
@@ -99,10 +100,9 @@ Result<std::string> digest_of(Supersteps& blocks) {
 }
 
 constexpr std::uint64_t Work::*counts[] = {
-    &Work::homes,      &Work::faces,     &Work::owned,         &Work::candidates,
-    &Work::improper,   &Work::divided,   &Work::predicates,    &Work::constructed,
-    &Work::triangles,  &Work::messages,  &Work::rounded_pairs, &Work::bytes,
-    &Work::memory};
+    &Work::homes,         &Work::faces,      &Work::owned,       &Work::candidates, &Work::improper,
+    &Work::divided,       &Work::predicates, &Work::constructed, &Work::triangles,  &Work::messages,
+    &Work::rounded_pairs, &Work::bytes,      &Work::memory};
 
 /// Sums up what the blocks report.
 Result<DistributedReport> summary_of(Supersteps& blocks) {
@@ -169,7 +169,8 @@ Result<DistributedReport> arrange_in_blocks(Supersteps& blocks, const FileReader
 BlockPiece piece_of(const Block& b) {
     BlockPiece piece;
     for (std::uint32_t s = 0; s < b.entries.size(); ++s)
-        piece.mesh.surfaces.push_back({name_of_surface(b, s), static_cast<Role>(b.entries[s].role)});
+        piece.mesh.surfaces.push_back(
+            {name_of_surface(b, s), static_cast<Role>(b.entries[s].role)});
     std::vector<std::array<std::uint32_t, 2>> vertices; // number, name
     for (const Triangle& t : b.triangles)
         for (const std::uint32_t name : t) vertices.push_back({vertex_number(b, name), name});

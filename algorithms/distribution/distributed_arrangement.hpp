@@ -37,22 +37,22 @@ struct DistributedOptions {
 
 /// What all processes know of the result.
 struct DistributedReport {
-    bool clean = false;          ///< conforming in nearest doubles, by exact check of all pairs
-    std::uint64_t contacts = 0;  ///< pairs, points and triangles that are in the way
-    double deviation = 0;        ///< no vertex is farther from its exact point
-    double limit = 0;            ///< farthest that is allowed unless the user says otherwise
+    bool clean = false;         ///< conforming in nearest doubles, by exact check of all pairs
+    std::uint64_t contacts = 0; ///< pairs, points and triangles that are in the way
+    double deviation = 0;       ///< no vertex is farther from its exact point
+    double limit = 0;           ///< farthest that is allowed unless the user says otherwise
     std::uint64_t input_vertices = 0, input_triangles = 0;
     std::uint64_t vertices = 0, triangles = 0, intersection_edges = 0, regions = 0;
     std::string digest{}; ///< if it is wanted
-    Work largest{};              ///< of each count the largest of any block
-    Work total{};                ///< of each count the sum over all blocks; memory: as largest
+    Work largest{};       ///< of each count the largest of any block
+    Work total{};         ///< of each count the sum over all blocks; memory: as largest
 };
 
 /// The triangles of one block.
 struct BlockPiece {
-    Mesh mesh;                                 ///< without intersection edges
-    std::vector<std::uint32_t> vertex_ids;     ///< per vertex: its number through all blocks
-    std::vector<std::uint32_t> triangle_ids;   ///< per triangle, ascending
+    Mesh mesh;                               ///< without intersection edges
+    std::vector<std::uint32_t> vertex_ids;   ///< per vertex: its number through all blocks
+    std::vector<std::uint32_t> triangle_ids; ///< per triangle, ascending
 };
 
 /// Arranges. Errors: those of the reader and of arrange().

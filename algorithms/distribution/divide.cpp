@@ -44,7 +44,8 @@ class PartCollector {
 public:
     PartCollector(Block& b, const SoupOfFaces& soup, const Retriangulation& division,
                   const std::vector<bool>& is_own) :
-        b_(b), soup_(soup), division_(division), is_own_(is_own),
+        b_(b),
+        soup_(soup), division_(division), is_own_(is_own),
         number_of_(division.points.size(), unknown) {}
 
     void operator()() {
@@ -114,8 +115,7 @@ Status divide_own_faces(Block& b, Inbox& in, Outbox& out, const Run& run) {
     sort_unique(candidates);
     const Retriangulation division =
         retriangulate(soup.points, soup.triangles, candidates, {}, run);
-    if (run.stop.stop_requested())
-        return Error{ErrorCode::interrupted, "stopped on request", ""};
+    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
     PartCollector(b, soup, division, is_own)();
     b.work.divided = b.touched.size();
     b.work.constructed = b.points.size();

@@ -111,7 +111,7 @@ std::uint64_t count_improper(Block& b, const DoubleSoup& soup, const Run& run) {
 
 } // namespace
 
-/// Channel 0: ConformityVerdict, to all.
+/// Channel 0: BlockVerdict, to all.
 Status check_doubles(Block& b, Inbox& in, Outbox& out, const Run& run) {
     const std::uint32_t first = home_start(b, b.triangle_total());
     in.take<CountOfFace>(
@@ -120,7 +120,7 @@ Status check_doubles(Block& b, Inbox& in, Outbox& out, const Run& run) {
     auto divided = in.all<std::uint32_t>(2);
     sort_unique(divided);
     keep_records(b, in, 3);
-    ConformityVerdict verdict;
+    BlockVerdict verdict;
     const DoubleSoup soup = double_soup(b, parts, divided);
     verdict.unclean = count_collapsed(soup);
     if (verdict.unclean == 0 && !soup.dirty.empty()) verdict.unclean = count_improper(b, soup, run);

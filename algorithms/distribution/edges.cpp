@@ -66,7 +66,7 @@ std::uint32_t first_same(const Block& b, std::uint32_t triangle) {
 /// a hash of the ends points; channel 3: parents at shared vertices.
 Status send_shared_edges(Block& b, Inbox& in, Outbox& out) {
     std::uint32_t start = 0;
-    in.take<ConformityVerdict>(0, [&](std::uint32_t from, const ConformityVerdict& v) {
+    in.take<BlockVerdict>(0, [&](std::uint32_t from, const BlockVerdict& v) {
         b.unclean += v.unclean;
         b.deviation = std::max(b.deviation, v.deviation);
         if (from < b.index) start += static_cast<std::uint32_t>(v.triangles);

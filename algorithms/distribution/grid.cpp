@@ -7,10 +7,10 @@
 
 namespace terrane::distribution {
 
-CellGrid grid_over(const Box& box, std::size_t blocks) {
+BlockGrid grid_over(const Box& box, std::size_t blocks) {
     // Surfaces fill about 4^bits cells. Some hundred cells per block balance within a few per cent.
     constexpr unsigned most_bits = 12;
-    CellGrid grid;
+    BlockGrid grid;
     grid.bits = std::min(most_bits, 4 + static_cast<unsigned>(std::bit_width(blocks)) / 2);
     if (blocks == 1) grid.bits = 0;
     const double cells = static_cast<double>(std::uint32_t{1} << grid.bits);
@@ -72,8 +72,8 @@ std::vector<std::uint64_t> equal_runs(std::vector<CellCount> counts, std::size_t
     return splitters;
 }
 
-std::vector<std::uint32_t> blocks_of(const CellGrid& grid, std::span<const std::uint64_t> splitters,
-                                     const Box& box) {
+std::vector<std::uint32_t> blocks_of(const BlockGrid& grid,
+                                     std::span<const std::uint64_t> splitters, const Box& box) {
     std::array<std::uint32_t, 3> low{}, high{};
     for (unsigned k = 0; k < 3; ++k) {
         low[k] = grid.cell(k, box.low[k]);

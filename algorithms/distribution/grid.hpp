@@ -16,7 +16,7 @@
 namespace terrane::distribution {
 
 /// A grid of 2^bits cells along each axis over the box of all points.
-struct CellGrid {
+struct BlockGrid {
     std::array<double, 3> low{};
     std::array<double, 3> scale{}; ///< cells per unit; 0 where all coordinates are equal
     unsigned bits = 0;
@@ -41,7 +41,7 @@ struct CellGrid {
 };
 
 /// Returns the grid for so many blocks over a box.
-CellGrid grid_over(const Box& box, std::size_t blocks);
+BlockGrid grid_over(const Box& box, std::size_t blocks);
 
 /// Faces of a surface whose lowest corners are in a cell.
 struct CellCount {
@@ -65,12 +65,12 @@ inline std::uint32_t block_at(std::span<const std::uint64_t> splitters, std::uin
 }
 
 /// Returns the blocks whose cells a box overlaps, ascending.
-std::vector<std::uint32_t> blocks_of(const CellGrid& grid, std::span<const std::uint64_t> splitters,
-                                     const Box& box);
+std::vector<std::uint32_t> blocks_of(const BlockGrid& grid,
+                                     std::span<const std::uint64_t> splitters, const Box& box);
 
 /// Returns the block with the lowest corner of a box: it owns the face with this box, and the pair
 /// with this common part of its boxes.
-inline std::uint32_t owner_of(const CellGrid& grid, std::span<const std::uint64_t> splitters,
+inline std::uint32_t owner_of(const BlockGrid& grid, std::span<const std::uint64_t> splitters,
                               const std::array<double, 3>& lowest) {
     return block_at(splitters, grid.place_of(lowest));
 }

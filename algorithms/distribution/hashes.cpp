@@ -21,8 +21,8 @@ Hash hash_of_coordinates(const std::array<std::string, 3>& xyz) {
 
 Hash hash_of_input(const Point3& p) {
     const Exact one(1);
-    return hash_of_coordinates(
-        {fraction(Exact(p.x), one, 16), fraction(Exact(p.y), one, 16), fraction(Exact(p.z), one, 16)});
+    return hash_of_coordinates({fraction(Exact(p.x), one, 16), fraction(Exact(p.y), one, 16),
+                                fraction(Exact(p.z), one, 16)});
 }
 
 Hash tagged_hash(std::string_view tag, std::vector<Hash> list, std::string_view tail) {

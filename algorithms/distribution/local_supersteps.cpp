@@ -60,8 +60,7 @@ LocalSupersteps::LocalSupersteps(LocalOptions options, const Run& run) :
         block.index = b;
         block.count = static_cast<std::uint32_t>(options_.blocks);
     }
-    if (!spools())
-        inboxes_.assign(2, std::vector<Inbox>(options_.blocks, Inbox(options_.blocks)));
+    if (!spools()) inboxes_.assign(2, std::vector<Inbox>(options_.blocks, Inbox(options_.blocks)));
 }
 
 LocalSupersteps::~LocalSupersteps() {
@@ -168,8 +167,7 @@ Status LocalSupersteps::deliver(std::size_t index, Outbox& out) {
 }
 
 Status LocalSupersteps::step_of(std::size_t index, const Step& work) {
-    if (run_.stop.stop_requested())
-        return Error{ErrorCode::interrupted, "stopped on request", ""};
+    if (run_.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
     return guarded("for a block of the arrangement", "arrange", [&]() -> Status {
         if (auto done = load(index); !done) return done;
         Inbox in(blocks());

@@ -99,8 +99,7 @@ Status find_first_vertices(Block& b, Inbox& in, Outbox& out) {
             lead = k;
             continue;
         }
-        out.put(home_of(v.id, b.vertex_total(), b.count), 0,
-                FirstVertex{v.id, first.id, first.at});
+        out.put(home_of(v.id, b.vertex_total(), b.count), 0, FirstVertex{v.id, first.id, first.at});
     }
     return Done{};
 }
@@ -137,9 +136,8 @@ Status weigh_cells(Block& b, Inbox& in, Outbox& out) {
     std::sort(known.begin(), known.end(),
               [](const FirstVertex& u, const FirstVertex& v) { return u.id < v.id; });
     const auto corner = [&](std::uint32_t v) -> const FirstVertex& {
-        return *std::lower_bound(
-            known.begin(), known.end(), v,
-            [](const FirstVertex& u, std::uint32_t id) { return u.id < id; });
+        return *std::lower_bound(known.begin(), known.end(), v,
+                                 [](const FirstVertex& u, std::uint32_t id) { return u.id < id; });
     };
     const std::uint32_t first = home_start(b, b.triangle_total());
     std::map<std::pair<std::uint64_t, std::uint32_t>, std::uint32_t> count_of; // place, surface

@@ -77,10 +77,10 @@ PointStore store_of(const std::vector<PointToOrder>& points) {
     for (const PointToOrder& p : points) {
         Construction how = p.how;
         for (unsigned k = 0; k < vertices_of(how); ++k)
-            how.v[k] = static_cast<std::uint32_t>(
-                std::lower_bound(vertices.begin(), vertices.end(),
-                                 std::pair(how.v[k], Point3{}), lower) -
-                vertices.begin());
+            how.v[k] =
+                static_cast<std::uint32_t>(std::lower_bound(vertices.begin(), vertices.end(),
+                                                            std::pair(how.v[k], Point3{}), lower) -
+                                           vertices.begin());
         constructions.push_back(how);
     }
     PointStore store(std::move(inputs));
@@ -118,8 +118,7 @@ Status send_points(Block& b, Inbox& in, Outbox& out) {
         out.put(to, 0, record);
     }
     b.used = used_vertices(b);
-    for (const UsedVertex& v : b.used)
-        out.put(home_of(v.id, b.vertex_total(), b.count), 1, v.id);
+    for (const UsedVertex& v : b.used) out.put(home_of(v.id, b.vertex_total(), b.count), 1, v.id);
     release(b.constructions);
     release(b.geometry);
     return Done{};

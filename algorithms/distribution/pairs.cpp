@@ -132,12 +132,10 @@ private:
     const SoupOfFaces& soup_;
 };
 
-std::vector<CandidatePair> own_candidates(const Block& b, const SoupOfFaces& soup,
-                                          const Run& run) {
+std::vector<CandidatePair> own_candidates(const Block& b, const SoupOfFaces& soup, const Run& run) {
     const EdgeSides edges = group_edges(soup.triangles, soup.points.size(), run);
     const auto groups = smooth_groups(b, soup, edges);
-    const auto patches =
-        find_injective_patches(soup.points, soup.triangles, groups, edges, run);
+    const auto patches = find_injective_patches(soup.points, soup.triangles, groups, edges, run);
     auto candidates =
         candidate_pairs({soup.points, soup.triangles}, patches.of, Search::automatic, run);
     const PairTest test(b, soup);
@@ -159,8 +157,8 @@ std::vector<Found> improper_pairs(Block& b, const SoupOfFaces& soup,
         PredicateCounts predicates;
     };
     const PairTest test(b, soup);
-    const auto parts = for_blocks<Some>(
-        candidates.size(), 1024, run, [&](std::size_t first, std::size_t last) {
+    const auto parts =
+        for_blocks<Some>(candidates.size(), 1024, run, [&](std::size_t first, std::size_t last) {
             Some some;
             const PredicateCounts before = predicate_counts();
             for (std::size_t k = first; k < last; ++k)

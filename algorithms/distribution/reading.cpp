@@ -50,8 +50,8 @@ Status make_tables(Block& b, std::vector<SurfaceEntry> entries, std::vector<char
     }
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max() / 2;
     if (vertices > most || triangles > most)
-        return Error{ErrorCode::unsupported,
-                     "there are more than 2147483647 vertices or triangles", ""};
+        return Error{ErrorCode::unsupported, "there are more than 2147483647 vertices or triangles",
+                     ""};
     b.first_vertex.push_back(static_cast<std::uint32_t>(vertices));
     b.first_triangle.push_back(static_cast<std::uint32_t>(triangles));
     return Done{};
@@ -60,9 +60,9 @@ Status make_tables(Block& b, std::vector<SurfaceEntry> entries, std::vector<char
 } // namespace
 
 std::uint32_t surface_of(const Block& b, std::uint32_t triangle) {
-    return static_cast<std::uint32_t>(std::upper_bound(b.first_triangle.begin(),
-                                                       b.first_triangle.end(), triangle) -
-                                      b.first_triangle.begin() - 1);
+    return static_cast<std::uint32_t>(
+        std::upper_bound(b.first_triangle.begin(), b.first_triangle.end(), triangle) -
+        b.first_triangle.begin() - 1);
 }
 
 std::string name_of_surface(const Block& b, std::uint32_t surface) {
@@ -91,8 +91,7 @@ Status announce(Block& b, std::size_t files, const ReadFile& read, Outbox& out) 
             }
             b.read_files.insert(b.read_files.end(), {entry.file, entry.surface});
             b.read_vertices.insert(b.read_vertices.end(), s.vertices.begin(), s.vertices.end());
-            b.read_triangles.insert(b.read_triangles.end(), s.triangles.begin(),
-                                    s.triangles.end());
+            b.read_triangles.insert(b.read_triangles.end(), s.triangles.begin(), s.triangles.end());
             s = {};
         }
     }

@@ -101,9 +101,8 @@ void send_parents_of_shared(Block& b, Outbox& out, std::size_t channel) {
 void decide_shared_vertices(Block& b, Inbox& in, std::size_t from, Outbox& out, std::size_t to) {
     auto all = in.all<VertexParent>(from);
     const auto key = [](const VertexParent& v) { return std::pair(v.vertex, v.parent); };
-    std::sort(all.begin(), all.end(), [&](const VertexParent& u, const VertexParent& v) {
-        return key(u) < key(v);
-    });
+    std::sort(all.begin(), all.end(),
+              [&](const VertexParent& u, const VertexParent& v) { return key(u) < key(v); });
     for (std::size_t k = 0, end = 0; k < all.size(); k = end) {
         std::vector<Hash> inputs;
         for (; end < all.size() && all[end].vertex == all[k].vertex; ++end)

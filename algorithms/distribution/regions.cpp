@@ -125,7 +125,8 @@ Status number_regions(Block& b, Inbox& in, Outbox& out) {
 
 Status receive_regions(Block& b, Inbox& in, Outbox&) {
     std::vector<std::uint32_t> number(b.component_of.size());
-    in.take<NumberedSet>(0, [&](std::uint32_t, const NumberedSet& s) { number[s.slot] = s.region; });
+    in.take<NumberedSet>(0,
+                         [&](std::uint32_t, const NumberedSet& s) { number[s.slot] = s.region; });
     in.take<std::uint64_t>(1, [&](std::uint32_t, std::uint64_t n) { b.regions = n; });
     b.region_of.resize(b.component_of.size());
     for (std::size_t s = 0; s < b.component_of.size(); ++s)

@@ -20,7 +20,7 @@ struct ContainedPart {
     std::array<std::uint32_t, 3> corners{};
     std::uint32_t parent = 0;
     std::uint32_t first = 0; ///< the first input triangle with the corners of the parent
-    Hash hash{}; ///< of the input triangle, if a digest is wanted
+    Hash hash{};             ///< of the input triangle, if a digest is wanted
 
     [[nodiscard]] auto key() const { return std::tie(corners, parent); }
 };
@@ -232,8 +232,7 @@ Status settle(Block& b, Inbox& in, Outbox& out) {
     }
     for (const auto& [face, n] : count) {
         out.put(home_of(face, b.triangle_total(), b.count), 0, FaceCount{face, n});
-        for (const std::uint32_t to :
-             blocks_of(b.grid, b.splitters, box_of(face_with(b, face).at)))
+        for (const std::uint32_t to : blocks_of(b.grid, b.splitters, box_of(face_with(b, face).at)))
             out.put(to, 2, face);
     }
     if (b.wants_digest) add_records_of_parents(b, out, 3);

@@ -74,8 +74,8 @@ Result<RepairedWhole> repair_in_one_process(Supersteps& blocks, const Run& run) 
         whole.piece = whole_piece(*rounded);
         whole.report = std::move(rounded->report);
         const RoundingReport& r = whole.report;
-        out.put_to_all(
-            0, ReportedNumbers{r.clean, r.rounds, r.naive_contacts, r.surface_deviation, r.max_move});
+        out.put_to_all(0, ReportedNumbers{r.clean, r.rounds, r.naive_contacts, r.surface_deviation,
+                                          r.max_move});
         return Done{};
     };
     if (auto done = blocks.step("repair", repair); !done) return done.error();

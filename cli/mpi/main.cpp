@@ -57,8 +57,7 @@ Status check_command(const MpiCommand& command, MpiSupersteps& blocks) {
     });
 }
 
-Result<ExitStatus> arrange_files(const MpiCommand& command, MpiSupersteps& blocks,
-                                 const Run& run) {
+Result<ExitStatus> arrange_files(const MpiCommand& command, MpiSupersteps& blocks, const Run& run) {
     if (auto sound = check_command(command, blocks); !sound) return sound.error();
     const auto read = [&](std::size_t file) { return read_surfaces(command.inputs[file]); };
     const DistributedOptions options{command.inputs.size(), command.digest};
@@ -76,18 +75,18 @@ Result<ExitStatus> arrange_files(const MpiCommand& command, MpiSupersteps& block
             return ExitStatus::negative;
         }
     }
-    const auto written =
-        write_pvtp(blocks, command.output, report->clean ? nullptr : &whole.piece);
+    const auto written = write_pvtp(blocks, command.output, report->clean ? nullptr : &whole.piece);
     if (!written) return written.error();
     if (!blocks.is_first()) return ExitStatus::done;
     const RoundingReport* repaired = report->clean ? nullptr : &whole.report;
     const std::size_t count = blocks.blocks();
-    say(stdout, distribution_text(*report, repaired,
-                                  std::to_string(count) + (count == 1 ? " process" : " processes")) +
-                    "wrote " + command.output + "\n");
+    say(stdout,
+        distribution_text(*report, repaired,
+                          std::to_string(count) + (count == 1 ? " process" : " processes")) +
+            "wrote " + command.output + "\n");
     if (command.stats.empty()) return ExitStatus::done;
-    const auto stats = write_file(
-        command.stats, distribution_json(*report, repaired, count).dump(2) + "\n");
+    const auto stats =
+        write_file(command.stats, distribution_json(*report, repaired, count).dump(2) + "\n");
     if (!stats) return stats.error();
     return ExitStatus::done;
 }

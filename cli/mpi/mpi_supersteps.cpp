@@ -77,8 +77,8 @@ Status MpiSupersteps::step(std::string_view, const Step& work) {
         return work(block_, inbox_, out);
     });
     if (auto all = agreed(own); !all) return all;
-    block_.work.memory = std::max<std::uint64_t>(
-        block_.work.memory, std::max(before, block_.size() + out.size()));
+    block_.work.memory =
+        std::max<std::uint64_t>(block_.work.memory, std::max(before, block_.size() + out.size()));
     return exchange(out);
 }
 

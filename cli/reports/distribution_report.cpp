@@ -53,9 +53,10 @@ std::string distribution_text(const DistributedReport& r, const RoundingReport* 
     auto text = fmt::format("{}: {} triangles -> {}, {}\n", blocks, r.input_triangles, r.triangles,
                             counted(r.intersection_edges, "intersection edge"));
     if (repaired != nullptr)
-        text += fmt::format("doubles: repaired in one process, in {}; no surface moved farther than "
-                            "{:.3g}\n",
-                            counted(repaired->rounds, "round"), repaired->surface_deviation);
+        text +=
+            fmt::format("doubles: repaired in one process, in {}; no surface moved farther than "
+                        "{:.3g}\n",
+                        counted(repaired->rounds, "round"), repaired->surface_deviation);
     else
         text += fmt::format("doubles: no vertex is more than {:.3g} from its exact place\n",
                             r.deviation);

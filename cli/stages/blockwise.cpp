@@ -60,9 +60,9 @@ private:
 
 /// Refuses options that arrangements in blocks do not have.
 Status check_alone(const CLI::App& command) {
-    constexpr std::array allowed{"IN",       "--output", "--memory", "--digest", "--stats",
-                                 "--threads", "--quiet",  "--color",  "--format", "--input-format",
-                                 "--depth",  "--unit",   "--column", "--max-edge"};
+    constexpr std::array allowed{"IN",        "--output", "--memory", "--digest",  "--stats",
+                                 "--threads", "--quiet",  "--color",  "--format",  "--input-format",
+                                 "--depth",   "--unit",   "--column", "--max-edge"};
     for (const CLI::Option* option : command.get_options()) {
         if (option->count() == 0) continue;
         const std::string name = option->get_lnames().empty() ? option->get_name(true, false)
@@ -196,11 +196,12 @@ Result<ExitStatus> arrange_blockwise(const FileOptions& files, const BlockwiseOp
     if (!report) return report.error();
     say(summary_stream(files), distribution_text(*report, nullptr, counted(count, "block")));
     if (!report->clean)
-        return Error{ErrorCode::unsupported,
-                     fmt::format("the nearest doubles are not a conforming mesh ({} in the way), and "
-                                 "their repair needs the whole model in memory; leave out --memory",
-                                 counted(report->contacts, "pair or point")),
-                     memory_option};
+        return Error{
+            ErrorCode::unsupported,
+            fmt::format("the nearest doubles are not a conforming mesh ({} in the way), and "
+                        "their repair needs the whole model in memory; leave out --memory",
+                        counted(report->contacts, "pair or point")),
+            memory_option};
     if (const auto written = write_in_blocks(files, blocks, *report, session); !written)
         return written.error();
     Json statistics = distribution_json(*report, nullptr, count);

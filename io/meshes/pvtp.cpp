@@ -158,8 +158,7 @@ private:
         const auto field = data.child("FieldData");
         if (named(field, "surfaces")) {
             mesh.surfaces_of.values = numbers(named(field, "surfaces"), "surfaces");
-            mesh.surfaces_of.offsets =
-                numbers(named(field, "surfaces_offset"), "surfaces_offset");
+            mesh.surfaces_of.offsets = numbers(named(field, "surfaces_offset"), "surfaces_offset");
         }
         check_lists();
     }

@@ -200,6 +200,7 @@ def write_json_files(program, folder):
         "--stats", "sealed_statistics.json")
     run("volume", *model, *box, "--suggest-seal", "--stats", "suggest.json")
     run("volume", *model, *box, "-o", "merged", "--seal", "auto", "--min-volume", "4e8", "--stats", "merged.json")
+    run("arrange", *model, "-o", "blocks.vtp", "--memory", "1GiB", "--digest", "--stats", "blocks.json")
     run("fill", "fold.ts", "-o", "f.vtp", "--stats", "fill.json")
     run("fill", "fold.ts", "-o", "r.vtp", "--method", "rbf", "--stats", "rbf.json")
     run("check", "twice.obj", "--json", out="check.json")
@@ -225,7 +226,7 @@ def write_json_files(program, folder):
     with (folder / "top.ts").open("a") as changed:
         changed.write("\n")
     run("verify", "certificate.json", "--json", out="refuted.json")
-    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "fill.json", "rbf.json"]
+    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "fill.json", "rbf.json", "blocks.json"]
     if has_tetgen(program):
         run("tetrahedralize", *model, *box, "-o", "t.vtu", "--stats", "tetrahedra.json")
         (folder / "refined.json").write_text(json.dumps({

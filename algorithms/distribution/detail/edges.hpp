@@ -20,7 +20,7 @@ struct EdgeSide {
 
 /// What a block found in the check of the doubles, and triangles of the result under the input
 /// triangles whose home it is.
-struct ConformityVerdict {
+struct BlockVerdict {
     std::uint64_t unclean = 0, triangles = 0;
     double deviation = 0;
 };

@@ -118,8 +118,9 @@ TEST_CASE("distribution: certified cases have the digest of one process in any n
     }
 }
 
-TEST_CASE("distribution: soups on a lattice, with overlaps, repeated triangles and ones without area",
-          "[distribution]") {
+TEST_CASE(
+    "distribution: soups on a lattice, with overlaps, repeated triangles and ones without area",
+    "[distribution]") {
     for (unsigned seed = 0; seed < 20; ++seed) {
         CAPTURE(seed);
         const auto surfaces = lattice_soup(seed);
@@ -146,8 +147,8 @@ TEST_CASE("distribution: blocks in files, in threads and in memory do the same",
         in_files({5, folder.path()}, alone);
     const auto expected = arranged(in_memory, surfaces);
     const Mesh mesh = joined(in_memory, expected);
-    for (Supersteps* blocks : {static_cast<Supersteps*>(&in_threads),
-                               static_cast<Supersteps*>(&in_files)}) {
+    for (Supersteps* blocks :
+         {static_cast<Supersteps*>(&in_threads), static_cast<Supersteps*>(&in_files)}) {
         const auto report = arranged(*blocks, surfaces);
         CHECK(report.digest == expected.digest);
         CHECK(report.total.bytes == expected.total.bytes);
