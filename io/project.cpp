@@ -322,7 +322,8 @@ private:
     }
 
     unsigned order(const Json& value, const std::string& path) {
-        if (value.is_number_integer() && (value == 1 || value == 2)) return value.get<unsigned>();
+        if (value.is_number_integer() && (value.get<double>() == 1 || value.get<double>() == 2))
+            return value.get<unsigned>();
         in_.fail(path, "must be 1 or 2");
         return 1;
     }
