@@ -331,13 +331,15 @@ private:
     }
 
     unsigned rounds(const Json& value, const std::string& path) {
-        if (value.is_number_unsigned() && value <= most_rounds) return value.get<unsigned>();
+        const double count = value.is_number_integer() ? value.get<double>() : -1;
+        if (count >= 0 && count <= most_rounds) return value.get<unsigned>();
         in_.fail(path, fmt::format("must be a whole number from 0 to {}", most_rounds));
         return 0;
     }
 
     unsigned order(const Json& value, const std::string& path) {
-        if (value.is_number_integer() && (value == 1 || value == 2)) return value.get<unsigned>();
+        if (value.is_number_integer() && (value.get<double>() == 1 || value.get<double>() == 2))
+            return value.get<unsigned>();
         in_.fail(path, "must be 1 or 2");
         return 1;
     }

@@ -3,16 +3,15 @@
 
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/io/text/json.hpp>
 #include <terrane/io/text/names.hpp>
 
 namespace terrane {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using detail::Json;
 
 Json position(const Point3& p) {
     return {p.x, p.y, p.z};
@@ -157,22 +156,19 @@ Json leaks_json(const StructureExtras& extras) {
 /// Writes one line per element of each array, so that people can read the text and programs can
 /// compare it line by line.
 std::string text_of(const Json& json) {
-    const auto dump = [](const Json& value) {
-        return value.dump(-1, ' ', false, Json::error_handler_t::replace);
-    };
     std::string text = "{\n";
     bool first = true;
     for (const auto& [key, value] : json.items()) {
         text += first ? "" : ",\n";
         first = false;
-        text += dump(Json(key)) + ": ";
+        text += Json(key).dump() + ": ";
         if (!value.is_array() || value.empty()) {
-            text += dump(value);
+            text += value.dump();
             continue;
         }
         text += "[\n";
         for (std::size_t i = 0; i < value.size(); ++i)
-            text += (i > 0 ? ",\n" : "") + dump(value[i]);
+            text += (i > 0 ? ",\n" : "") + value[i].dump();
         text += "\n]";
     }
     return text + "\n}\n";

@@ -298,7 +298,10 @@ Result<std::vector<Surface>> box_boundary(const Point3& low, const Point3& high)
                          "box"};
         const std::array<Point2, 4> ring{Point2{low.x, low.y}, Point2{high.x, low.y},
                                          Point2{high.x, high.y}, Point2{low.x, high.y}};
-        return polygon_boundary(ring, low.z, high.z);
+        auto sides = polygon_boundary(ring, low.z, high.z);
+        if (!sides && sides.error().code == ErrorCode::bad_number)
+            return Error{ErrorCode::bad_number, "the box is too large for doubles", "box"};
+        return sides;
     });
 }
 

@@ -51,8 +51,7 @@ void add_statistics(Json& json, const Arrangement& a) {
 void add_arrangement_times(Json& json, const std::string& stage, const StageTimes& times) {
     for (const char* step : {"prepare", "search", "intersect", "triangulate", "stitch"})
         json["seconds"][step] = times.latest(stage + "/" + step);
-    double& stitch = *json["seconds"]["stitch"].get_ptr<double*>();
-    stitch += times.latest(stage + "/assemble");
+    json["seconds"]["stitch"] = times.latest(stage + "/stitch") + times.latest(stage + "/assemble");
 }
 
 void add_statistics(Json& json, const RoundedMesh& rounded, const StageTimes& times) {
@@ -107,7 +106,7 @@ Status write_statistics(Json json, const std::string& path, double total_seconds
 }
 
 std::string text_of(const Json& json) {
-    const auto dumped = json.dump(2, ' ', false, Json::error_handler_t::replace);
+    const auto dumped = json.dump(2);
     std::string text;
     for (std::size_t i = 0; i < dumped.size(); ++i) {
         const auto code = static_cast<unsigned char>(dumped[i]);

@@ -6,17 +6,16 @@
 #include <span>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/stage_times.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/cli/options/files.hpp>
+#include <terrane/io/text/json.hpp>
 
 namespace terrane::cli {
 
-using Json = nlohmann::ordered_json;
+using Json = detail::Json;
 
 /// Starts the document with the version, the input's counts, and the time and the constants of
 /// reading. add_statistics adds the keys of the stages that were run.

@@ -8,7 +8,7 @@
 namespace terrane::cli {
 
 using namespace distribution;
-using Json = nlohmann::ordered_json;
+using Json = terrane::detail::Json;
 
 namespace {
 

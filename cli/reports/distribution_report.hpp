@@ -6,16 +6,15 @@
 #include <cstddef>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
+#include <terrane/io/text/json.hpp>
 
 namespace terrane::cli {
 
 /// Returns the counts of all blocks and of the one with most of each; `repaired` is null unless the
 /// doubles were repaired in one process. docs/reference/statistics.md lists the keys.
-nlohmann::ordered_json distribution_json(const distribution::DistributedReport& report,
-                                         const RoundingReport* repaired, std::size_t blocks);
+detail::Json distribution_json(const distribution::DistributedReport& report,
+                               const RoundingReport* repaired, std::size_t blocks);
 
 /// Returns the lines that sum the result up.
 std::string distribution_text(const distribution::DistributedReport& report,

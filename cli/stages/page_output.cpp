@@ -79,7 +79,8 @@ page::CertificateVerdict judged_by_verifier(const FileOptions& files,
 /// Returns what differs from run to run: seconds by stage, memory, threads.
 Json run_json(const Json& statistics, double total_seconds, const FileOptions& files) {
     Json run;
-    run["seconds"] = statistics.value("seconds", Json::object());
+    const Json* const seconds = statistics.find("seconds");
+    run["seconds"] = seconds == nullptr ? Json::object() : *seconds;
     run["seconds"]["total"] = total_seconds;
     run["peak_rss_mb"] = peak_memory();
     run["threads"] = files.threads;

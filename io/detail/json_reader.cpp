@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
 
 #include <terrane/io/text/names.hpp>
 
@@ -44,42 +43,26 @@ std::size_t line_of(std::string_view text, std::size_t byte) {
     return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
 }
 
-/// Finds the first key that is repeated in its object. JSON permits this and counts the last one,
-/// which is hardly ever intended.
-class RepeatedKeys {
-public:
-    bool operator()(int, Json::parse_event_t event, const Json& value) {
-        if (event == Json::parse_event_t::object_start) met_.emplace_back();
-        if (event == Json::parse_event_t::object_end) met_.pop_back();
-        if (event == Json::parse_event_t::key) {
-            const auto key = value.get<std::string>();
-            if (!met_.back().insert(key).second && repeated.empty()) repeated = key;
-        }
-        return true;
-    }
-
-    std::string repeated{};
-
-private:
-    std::vector<std::set<std::string>> met_{};
-};
-
 } // namespace
 
 Result<Json> parse_json(std::string_view text, std::string_view source) {
-    try {
-        RepeatedKeys keys;
-        Json json = Json::parse(
-            text, [&](int depth, auto event, Json& value) { return keys(depth, event, value); });
-        if (keys.repeated.empty()) return json;
-        return Error{ErrorCode::bad_option,
-                     "the key " + one_line(keys.repeated) + " is there twice", std::string(source)};
-    } catch (const Json::parse_error& broken) {
+    using State = ParsedJson::State;
+    ParsedJson parsed = parse_json_text(text);
+    switch (parsed.state) {
+    case State::good:
+        break;
+    case State::no_json:
         return Error{ErrorCode::bad_syntax, "this is not JSON",
-                     fmt::format("{}:{}", source, line_of(text, broken.byte))};
-    } catch (const Json::exception&) { // no double can hold the number
+                     fmt::format("{}:{}", source, line_of(text, parsed.byte))};
+    case State::number_too_large:
         return Error{ErrorCode::bad_syntax, "a number is too large", std::string(source)};
+    case State::nested_too_deeply:
+        return Error{ErrorCode::bad_syntax, "lists and objects are nested too deeply",
+                     std::string(source)};
     }
+    if (parsed.repeated.empty()) return std::move(parsed.value);
+    return Error{ErrorCode::bad_option, "the key " + one_line(parsed.repeated) + " is there twice",
+                 std::string(source)};
 }
 
 std::string listed(Keys words) {
@@ -107,8 +90,7 @@ bool JsonReader::object(const Json& value, const std::string& path, Keys keys) {
 }
 
 const Json* JsonReader::find(const Json& object, std::string_view key) const {
-    const auto at = object.find(key);
-    return at == object.end() || error_ ? nullptr : &*at;
+    return error_ ? nullptr : object.find(key);
 }
 
 const Json* JsonReader::need(const Json& object, std::string_view key, const std::string& path) {
@@ -118,7 +100,7 @@ const Json* JsonReader::need(const Json& object, std::string_view key, const std
 }
 
 std::string JsonReader::text(const Json& value, const std::string& path) {
-    if (!value.is_string() || value.get_ref<const std::string&>().empty()) {
+    if (!value.is_string() || value.text().empty()) {
         fail(path, "must be a string, not empty");
         return {};
     }

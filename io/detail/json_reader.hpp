@@ -14,18 +14,17 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <terrane/algorithms/core/result.hpp>
+#include <terrane/io/text/json.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane::detail {
 
-using Json = nlohmann::ordered_json;
 using Keys = std::span<const std::string_view>;
 
 /// Parses a JSON text. Errors: bad_syntax with "source:line", or with `source` for a number that no
-/// double can hold; bad_option for a key that is repeated in an object, which JSON permits.
+/// double can hold, or for more than 100 levels; bad_option for a key that is repeated in an object, which JSON permits.
 Result<Json> parse_json(std::string_view text, std::string_view source);
 
 /// Lists words in a sentence: "a, b or c".

@@ -17,7 +17,7 @@ std::string policy_hash(std::string_view content) {
 /// Returns JSON that an HTML element can hold: no '<' can end it.
 std::string embedded(const Json& json) {
     std::string text;
-    for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace))
+    for (const char c : json.dump(-1, true))
         if (c == '<')
             text += "\\u003c";
         else
@@ -26,7 +26,7 @@ std::string embedded(const Json& json) {
 }
 
 std::string block_of(const Json& content, const Arrays& arrays) {
-    const std::string json = content.dump(-1, ' ', false, Json::error_handler_t::replace);
+    const std::string json = content.dump();
     std::string bytes;
     for (unsigned i = 0; i < 4; ++i) bytes += static_cast<char>(json.size() >> (8 * i) & 255U);
     return bytes + json + arrays.bytes();

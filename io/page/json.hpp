@@ -5,11 +5,11 @@
 #include <string>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
+#include <terrane/io/text/json.hpp>
 
 namespace terrane::page {
 
-using Json = nlohmann::ordered_json;
+using Json = terrane::detail::Json;
 
 /// Returns the count with its noun: "1 edge", "2 edges", "3 new vertices".
 std::string counted(std::size_t count, std::string_view noun);

@@ -22,13 +22,12 @@ std::string names_of(const std::vector<std::uint32_t>& surfaces,
 
 void add_values(Json& rows, const std::string& path, const Json& value) {
     constexpr std::size_t most = 64; // entries of a list
-    if (value.is_object() || (value.is_array() && value.size() <= most)) {
-        std::size_t i = 0;
-        for (const auto& [key, entry] : value.items()) {
-            const std::string name = value.is_array() ? fmt::format("[{}]", i++) : key;
-            const char* const dot = path.empty() || value.is_array() ? "" : ".";
-            add_values(rows, fmt::format("{}{}{}", path, dot, name), entry);
-        }
+    if (value.is_object()) {
+        for (const auto& [key, entry] : value.items())
+            add_values(rows, fmt::format("{}{}{}", path, path.empty() ? "" : ".", key), entry);
+    } else if (value.is_array() && value.size() <= most) {
+        for (std::size_t i = 0; i < value.size(); ++i)
+            add_values(rows, fmt::format("{}[{}]", path, i), value[i]);
     } else if (value.is_array()) {
         rows.push_back({path, fmt::format("{} entries", value.size())});
     } else {

@@ -7,9 +7,10 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/io/points/shape_outline.hpp>
+#include <terrane/io/text/json.hpp>
 #include <terrane/io/text/text.hpp>
 
 namespace terrane {
@@ -18,7 +19,6 @@ using namespace detail;
 
 namespace {
 
-using OutlineJson = nlohmann::json;
 using Ring = std::vector<std::array<double, 2>>;
 
 /// Finds the one polygon of a GeoJSON text.
@@ -27,20 +27,22 @@ public:
     explicit GeoJsonReader(std::string_view source) : source_(source) {}
 
     Result<Ring> read(std::string_view contents) {
-        OutlineJson json;
-        try {
-            json = OutlineJson::parse(contents);
-        } catch (const OutlineJson::parse_error& flaw) {
-            const auto end = std::min(contents.size(), flaw.byte);
+        using State = ParsedJson::State;
+        const ParsedJson parsed = parse_json_text(contents);
+        if (parsed.state == State::no_json) {
+            const auto end = std::min(contents.size(), parsed.byte);
             const auto line =
                 1 + std::count(contents.begin(),
                                contents.begin() + static_cast<std::ptrdiff_t>(end), '\n');
             return Error{ErrorCode::bad_syntax, "this is not well-formed JSON",
                          fmt::format("{}:{}", source_, line)};
-        } catch (const OutlineJson::exception&) { // a number beyond the doubles
-            return Error{ErrorCode::bad_number, "a number is too large", std::string(source_)};
         }
-        if (auto trouble = find(json, "")) return *trouble;
+        if (parsed.state == State::number_too_large)
+            return Error{ErrorCode::bad_number, "a number is too large", std::string(source_)};
+        if (parsed.state == State::nested_too_deeply)
+            return Error{ErrorCode::bad_syntax, "lists and objects are nested too deeply",
+                         std::string(source_)};
+        if (auto trouble = find(parsed.value, "")) return *trouble;
         if (!ring_) return error("", ErrorCode::nothing_to_do, "there is no polygon");
         return std::move(*ring_);
     }
@@ -54,13 +56,13 @@ private:
         return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
     }
 
-    static std::string text_at(const OutlineJson& json, const char* key) {
-        const auto found = json.find(key);
-        return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+    static std::string text_at(const Json& json, const char* key) {
+        const Json* const found = json.find(key);
+        return found != nullptr && found->is_string() ? found->text() : "";
     }
 
     /// Looks for polygons in an object of GeoJSON. Objects nest at most a few deep.
-    MaybeError find(const OutlineJson& json, const std::string& path, unsigned depth = 0) {
+    MaybeError find(const Json& json, const std::string& path, unsigned depth = 0) {
         if (!json.is_object() || depth > 16)
             return error(path, ErrorCode::bad_syntax, "this is no object of GeoJSON");
         const auto type = text_at(json, "type");
@@ -68,8 +70,8 @@ private:
                                  : type == "GeometryCollection" ? "geometries"
                                                                 : nullptr;
         if (list != nullptr) {
-            const auto members = json.find(list);
-            if (members == json.end() || !members->is_array())
+            const Json* const members = json.find(list);
+            if (members == nullptr || !members->is_array())
                 return error(path, ErrorCode::bad_syntax, fmt::format("{} is missing", list));
             for (std::size_t i = 0; i < members->size(); ++i)
                 if (auto trouble =
@@ -78,14 +80,14 @@ private:
             return std::nullopt;
         }
         if (type == "Feature") {
-            const auto geometry = json.find("geometry");
-            if (geometry == json.end() || geometry->is_null()) return std::nullopt;
+            const Json* const geometry = json.find("geometry");
+            if (geometry == nullptr || geometry->is_null()) return std::nullopt;
             return find(*geometry, below(path, "geometry"), depth + 1);
         }
         return find_in_geometry(json, type, path);
     }
 
-    MaybeError find_in_geometry(const OutlineJson& json, const std::string& type,
+    MaybeError find_in_geometry(const Json& json, const std::string& type,
                                 const std::string& path) {
         if (type == "Point" || type == "MultiPoint" || type == "LineString" ||
             type == "MultiLineString")
@@ -94,9 +96,9 @@ private:
             return error(path, ErrorCode::bad_syntax,
                          type.empty() ? std::string("it has no type")
                                       : shown(type) + " is no type of GeoJSON");
-        const auto at = json.find("coordinates");
+        const Json* const at = json.find("coordinates");
         const auto place = below(path, "coordinates");
-        if (at == json.end() || !at->is_array())
+        if (at == nullptr || !at->is_array())
             return error(place, ErrorCode::bad_syntax, "an array is needed");
         if (type == "Polygon") return add_polygon(*at, place);
         for (std::size_t i = 0; i < at->size(); ++i)
@@ -105,7 +107,7 @@ private:
         return std::nullopt;
     }
 
-    MaybeError add_polygon(const OutlineJson& rings, const std::string& path) {
+    MaybeError add_polygon(const Json& rings, const std::string& path) {
         if (!rings.is_array() || rings.empty() || !rings[0].is_array())
             return error(path, ErrorCode::bad_syntax, "an array of rings is needed");
         if (rings.size() > 1)
@@ -116,7 +118,7 @@ private:
                          "this is a second polygon; an outline is one, so keep one in the file");
         Ring ring;
         for (std::size_t i = 0; i < rings[0].size(); ++i) {
-            const OutlineJson& corner = rings[0][i];
+            const Json& corner = rings[0][i];
             const bool sound = corner.is_array() && corner.size() >= 2 && corner[0].is_number() &&
                                corner[1].is_number();
             if (!sound || !std::isfinite(corner[0].get<double>()) ||
@@ -170,10 +172,12 @@ Result<Ring> read_columns(std::string_view contents, std::string_view source) {
 } // namespace
 
 Result<Ring> read_outline(std::string_view contents, std::string_view source) {
-    const std::string ending = lower(source.substr(std::min(source.size(), source.rfind('.'))));
-    if (ending == ".geojson" || ending == ".json") return GeoJsonReader(source).read(contents);
-    if (ending == ".shp") return read_shape_outline(contents, source);
-    return read_columns(contents, source);
+    return guard_memory(source, [&]() -> Result<Ring> {
+        const std::string ending = lower(source.substr(std::min(source.size(), source.rfind('.'))));
+        if (ending == ".geojson" || ending == ".json") return GeoJsonReader(source).read(contents);
+        if (ending == ".shp") return read_shape_outline(contents, source);
+        return read_columns(contents, source);
+    });
 }
 
 } // namespace terrane

@@ -250,6 +250,8 @@ std::vector<Mistake> refused() {
         {"units mixed in a file", {{"a.ts", ts("top", at_height(-900), units("m", "m")) + ts("base", at_height(-900), units("m", "ft"))}}, "arrange in/a.ts -o out.obj", "", "AXIS_UNIT"},
         {"a box of five numbers", two, volume_of + " --box 0,0,0,1,1", "", "--box"},
         {"a box without extent", two, volume_of + " --box 0,0,0,0,1,1", "", "the first corner must be below"},
+        {"a box beyond doubles", two, volume_of + " --box -1e308,-1e308,-1e308,1e308,1e308,1e308", "",
+         "box: the box is too large for doubles"},
         {"a box that is not a number", two, volume_of + " --box 0,0,nan,1,1,1", "", "--box: needs a finite number"},
         {"a polygon of two corners", two, volume_of + " --polygon 0,0,1,1 --between 0,1", "", "a polygon needs three corners"},
         {"a polygon without heights", two, volume_of + " --polygon 0,0,1,0,1,1", "", "--between"},

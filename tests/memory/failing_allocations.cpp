@@ -121,7 +121,7 @@ int main(int argc, char** argv) {
     for (const auto& part :
          {stages_of_meshes(), stages_of_models(), stages_of_surfaces(), stages_of_files()})
         for (const Stage& stage : part) {
-            if (!stage.name.starts_with(wanted) || stage.uses_json) continue;
+            if (!stage.name.starts_with(wanted)) continue;
             ++stages;
             flaws += Trial(stage, stage.starts_process ? std::max(1L, most / 10) : most)();
             std::fflush(stdout);

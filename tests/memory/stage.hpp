@@ -29,9 +29,6 @@ struct Stage {
     std::string name;
     bool returns_errors = true;  ///< else it may throw std::bad_alloc: it returns no Result
     bool starts_process = false; ///< a call takes milliseconds
-    /// Uses JSON, whose trees need memory to be destroyed: nlohmann/json ends the process where
-    /// that fails, so that no allocation may fail here.
-    bool uses_json = false;
     std::function<Answer(long n, Mode mode)> call;
 };
 
@@ -67,7 +64,7 @@ Stage stage_of(std::string name, Prepare prepare, Work work, Text text) {
         }
         return answer;
     };
-    return {std::move(name), is_result<Made>, false, false, call};
+    return {std::move(name), is_result<Made>, false, call};
 }
 
 template <class Work, class Text>

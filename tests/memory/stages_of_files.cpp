@@ -6,6 +6,7 @@
 
 #include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/io/points/outline.hpp>
 
 #include "fixture.hpp"
 #include "stage.hpp"
@@ -106,7 +107,14 @@ std::vector<Stage> reading_json() {
     stages.push_back(stage(
         "read_exact", [exact] { return read_exact(exact, "a file with a name that needs memory"); },
         [](const ExactText& read) { return to_text(read); }));
-    for (Stage& reading : stages) reading.uses_json = true;
+    const std::string outline = R"({"type": "FeatureCollection", "features": [{"type": "Feature",
+        "properties": {"name": "a property that needs memory"}, "geometry": {"type": "Polygon",
+        "coordinates": [[[0, 0], [8, 0], [8, 8], [0, 8], [0, 0]]]}}]})";
+    stages.push_back(stage(
+        "read_outline", [outline] { return read_outline(outline, "an outline in a file.geojson"); },
+        [](const std::vector<std::array<double, 2>>& corners) {
+            return std::to_string(corners.size());
+        }));
     stages.push_back(stage_of(
         "record_input", [] { return std::string("a name in the certificate, with memory"); },
         [obj](std::string name) { return record_input(obj, std::move(name), 1); },
@@ -132,7 +140,6 @@ std::vector<Stage> formatting() {
         as_it_is));
     stages.push_back(stage(
         "to_json", [&f] { return to_json(*f.mesh, f.model.structure, {}); }, as_it_is));
-    stages.back().uses_json = true;
     return stages;
 }
 

@@ -30,8 +30,9 @@ struct Cluster {
     std::size_t contacts = 0;
 };
 
-/// A cluster counts with the first of its parents only: the others are in its planes, too.
-constexpr std::size_t most_parents = 4;
+/// How many parents of a triangle in contact are looked at: all are in its plane. Where very many
+/// are in contact, the first one of each says enough.
+constexpr std::size_t most_parents = 4, most_contacts_of_all = 100'000;
 /// A normal of a triangle that is lower than so many tolerances says little.
 constexpr double least_height = 64;
 /// Directions are told apart from a plane if they are at least so far out of it.
@@ -44,10 +45,12 @@ Point3 scaled(const Point3& v, double factor) {
 
 std::vector<TrianglePair> parents_in_contact(const RoundedMesh& rounded) {
     std::vector<TrianglePair> pairs;
+    const std::size_t most =
+        rounded.report.contacts.size() > most_contacts_of_all ? 1 : most_parents;
     for (const ImproperContact& c : rounded.report.contacts) {
         const auto of = [&](unsigned i) {
             const auto parents = rounded.mesh->parents_of[c.triangles[i]];
-            return parents.first(std::min(parents.size(), most_parents));
+            return parents.first(std::min(parents.size(), most));
         };
         for (const std::uint32_t p : of(0))
             for (const std::uint32_t q : of(1))
