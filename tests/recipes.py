@@ -32,7 +32,7 @@ DEPENDENCIES = {
     "nettle": ("nettle", "nettle", "nettle"), "shp": ("shapelib", "shapelib", "shapelib"), "gmp": ("gmp", "gmp", "gmp"),
     "mpfr": ("mpfr", "mpfr", "mpfr"), "nanoflann": ("nanoflann", "nanoflann", "nanoflann"),
 }
-LEFT_OUT = {"Threads", "TetGen", "gmsh"}  # part of the system; AGPL; GPL
+LEFT_OUT = {"Threads", "TetGen", "gmsh", "MPI"}  # part of the system; AGPL; GPL; chosen by sites
 CMAKE = (ROOT / "CMakeLists.txt").read_text() + (ROOT / "cli/CMakeLists.txt").read_text()
 OPTIONS = set(re.findall(r"^option\((TERRANE_\w+)", CMAKE, re.M)) | {"BUILD_SHARED_LIBS"}
 

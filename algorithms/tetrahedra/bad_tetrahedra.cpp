@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<std::array<unsigned, 4>, 6> edges_of_tetrahedron{
     {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
 
-Triangle ascending(Triangle face) {
+Triangle sorted_face(Triangle face) {
     std::sort(face.begin(), face.end());
     return face;
 }
@@ -81,7 +81,7 @@ void mark_sharp_corners(const TetrahedralMesh& mesh, std::vector<bool>& at_input
 
 BadCauses::BadCauses(const TetrahedralMesh& mesh) : on_surface_(mesh.vertices.size(), false) {
     for (const Triangle& face : mesh.faces) {
-        faces_.push_back(ascending(face));
+        faces_.push_back(sorted_face(face));
         for (const std::uint32_t v : face) on_surface_[v] = true;
     }
     std::sort(faces_.begin(), faces_.end());
@@ -89,7 +89,7 @@ BadCauses::BadCauses(const TetrahedralMesh& mesh) : on_surface_(mesh.vertices.si
 
 bool BadCauses::is_given(const std::array<std::uint32_t, 4>& t, std::size_t k) const {
     return std::binary_search(faces_.begin(), faces_.end(),
-                              ascending({t[(k + 1) % 4], t[(k + 2) % 4], t[(k + 3) % 4]}));
+                              sorted_face({t[(k + 1) % 4], t[(k + 2) % 4], t[(k + 3) % 4]}));
 }
 
 bool BadCauses::is_between_surfaces(const std::array<std::uint32_t, 4>& t, std::size_t i) const {

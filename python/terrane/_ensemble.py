@@ -26,7 +26,20 @@ _LARGEST = 2 ** 63 - 1
 
 
 class Failure(NamedTuple):
-    """A realisation that could not be built: its number, the code and the reason of the error."""
+    """A realisation that could not be built: its number, the code and the reason of the error.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[-1, -1, 0], [9, -1, 0], [-1, 9, 0]], [[0, 1, 2]], "top", "horizon")
+    >>> flat.save("top.ts")
+    >>> project = {"format": "terrane-project 1", "surfaces": [{"file": "top.ts"}],
+    ...     "volume_of_interest": {"box": {"low": [0, 0, -1], "high": [2, 2, 1]}}, "outputs": {"blocks": "vtp"},
+    ...     "uncertainty": [{"surface": "top", "shift": 0.1}]}
+    >>> made = terrane.ensemble(project, realisations=3, engine="serial")
+    >>> made.failures
+    []
+    """
 
     number: int
     code: str
@@ -34,7 +47,21 @@ class Failure(NamedTuple):
 
 
 class Juxtaposed(NamedTuple):
-    """Two blocks that touch across a surface: in what share of realisations, and the area where they do."""
+    """Two blocks that touch across a surface: in what share of realisations, and the area where they do.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[-1, -1, 0], [9, -1, 0], [-1, 9, 0]], [[0, 1, 2]], "top", "horizon")
+    >>> flat.save("top.ts")
+    >>> project = {"format": "terrane-project 1", "surfaces": [{"file": "top.ts"}],
+    ...     "volume_of_interest": {"box": {"low": [0, 0, -1], "high": [2, 2, 1]}}, "outputs": {"blocks": "vtp"},
+    ...     "uncertainty": [{"surface": "top", "shift": 0.1}]}
+    >>> made = terrane.ensemble(project, realisations=3, engine="serial")
+    >>> touching = made.juxtaposed[0]
+    >>> touching.surface, touching.blocks, touching.probability
+    ('top', ('above top', 'below top'), 1.0)
+    """
 
     surface: str
     blocks: Tuple[str, str]
@@ -48,6 +75,18 @@ class BlockOutcome(NamedTuple):
     ``measures`` has, by name, a dict with ``p90``, ``p50``, ``p10``, ``mean``, ``sd``, ``least``, ``largest`` and
     ``count``; P90 is exceeded with a probability of 90 %. Realisations in which the block is merged with another one
     do not count; one in which it has vanished counts with the volume 0.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[-1, -1, 0], [9, -1, 0], [-1, 9, 0]], [[0, 1, 2]], "top", "horizon")
+    >>> flat.save("top.ts")
+    >>> project = {"format": "terrane-project 1", "surfaces": [{"file": "top.ts"}],
+    ...     "volume_of_interest": {"box": {"low": [0, 0, -1], "high": [2, 2, 1]}}, "outputs": {"blocks": "vtp"},
+    ...     "uncertainty": [{"surface": "top", "shift": 0.1}]}
+    >>> made = terrane.ensemble(project, realisations=3, engine="serial")
+    >>> made.blocks["below top"].states
+    {'whole': 3, 'split': 0, 'vanished': 0, 'merged': 0}
     """
 
     name: str
@@ -82,6 +121,21 @@ class Ensemble(Result):
         x, y, width and height of a cell.
     model_record : dict
         The measures of the model as it was given.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[-1, -1, 0], [9, -1, 0], [-1, 9, 0]], [[0, 1, 2]], "top", "horizon")
+    >>> flat.save("top.ts")
+    >>> project = {"format": "terrane-project 1", "surfaces": [{"file": "top.ts"}],
+    ...     "volume_of_interest": {"box": {"low": [0, 0, -1], "high": [2, 2, 1]}}, "outputs": {"blocks": "vtp"},
+    ...     "uncertainty": [{"surface": "top", "shift": 0.1}]}
+    >>> made = terrane.ensemble(project, realisations=3, engine="serial")
+    >>> made.count, sorted(made.blocks)
+    (3, ['above top', 'below top'])
+    >>> volume = made.blocks["below top"].measures["volume"]
+    >>> volume["p90"] <= volume["p50"] <= volume["p10"]
+    True
     """
 
     __slots__ = ("_task", "_records", "_model", "seed", "count", "blocks", "failures", "new", "juxtaposed", "table",
@@ -181,12 +235,40 @@ class Ensemble(Result):
         """Write tables, percentiles, maps, failures and a report into a new folder, which appears complete.
 
         HDF5 needs h5py; without it that file is left out. docs/how-to/ensemble.md lists the files.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[-1, -1, 0], [9, -1, 0], [-1, 9, 0]], [[0, 1, 2]], "top", "horizon")
+        >>> flat.save("top.ts")
+        >>> project = {"format": "terrane-project 1", "surfaces": [{"file": "top.ts"}],
+        ...     "volume_of_interest": {"box": {"low": [0, 0, -1], "high": [2, 2, 1]}}, "outputs": {"blocks": "vtp"},
+        ...     "uncertainty": [{"surface": "top", "shift": 0.1}]}
+        >>> made = terrane.ensemble(project, realisations=3, engine="serial")
+        >>> made.save("run", report=False)
+        >>> import pathlib
+        >>> pathlib.Path("run", "blocks.csv").is_file()
+        True
         """
         from ._ensemble_output import save
         save(self, os.fspath(folder), report=report)
 
     def write_project(self, number: int, folder: Path) -> None:
-        """Write the moved surfaces of a realisation, and a project that builds them, into a folder."""
+        """Write the moved surfaces of a realisation, and a project that builds them, into a folder.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[-1, -1, 0], [9, -1, 0], [-1, 9, 0]], [[0, 1, 2]], "top", "horizon")
+        >>> flat.save("top.ts")
+        >>> project = {"format": "terrane-project 1", "surfaces": [{"file": "top.ts"}],
+        ...     "volume_of_interest": {"box": {"low": [0, 0, -1], "high": [2, 2, 1]}}, "outputs": {"blocks": "vtp"},
+        ...     "uncertainty": [{"surface": "top", "shift": 0.1}]}
+        >>> made = terrane.ensemble(project, realisations=3, engine="serial")
+        >>> made.write_project(2, "two")
+        >>> terrane.build("two/project.json").model == made.realisation(2).model
+        True
+        """
         from ._ensemble_output import write_project
         write_project(self._task, number, os.fspath(folder))
 

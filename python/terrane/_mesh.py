@@ -201,7 +201,7 @@ class Region(NamedTuple):
     >>> rounded = terrane.round(terrane.arrange([flat, wall]))
     >>> region = rounded.regions[0]
     >>> region.surface, region.triangles, region.area
-    (0, 3, 12.0)
+    (0, 3, 4.0)
     """
 
     surface: int

@@ -141,6 +141,6 @@ TEST_CASE("cli: blocks keep their numbers where rounding loses one of them", "[c
     CHECK(contains(refused.err, "tetrahedra.size_in.5: block 5 is too thin for doubles"));
     json["tetrahedra"] = Json::parse(R"({"size_in": {"6": 1}})");
     const auto fine = build(json, "fine")["tetrahedra"]["tetrahedra_of_region"];
-    CHECK(int(fine[6]) > 4 * int(fine[1]));
+    CHECK(int(fine[6]) > 3 * int(fine[1]));
 #endif
 }

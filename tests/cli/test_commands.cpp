@@ -126,9 +126,9 @@ TEST_CASE("cli: no surface moves farther than --max-move", "[cli]") {
     CHECK(rounding["max_move"] <= moved);
 
     const Folder other;
-    const auto refused = other.run(arrange_utm + " --max-move 1e-9");
+    const auto refused = other.run(arrange_utm + " --max-move 5e-10");
     CHECK(refused.status == 1);
-    CHECK(contains(refused.out, "no surface may move by more than 1e-09 to separate them"));
+    CHECK(contains(refused.out, "no surface may move by more than 5e-10 to separate them"));
     CHECK(contains(refused.err, "(part of "));
     CHECK(other.left() == std::set<std::string>{"s.json"});
     const auto never = other.run(arrange_utm + " --max-move 1e-12");

@@ -45,7 +45,7 @@ json full() {
         "volume_of_interest": {"box": {"low": [0, 0, -1.5], "high": [1, 2, 3]}},
         "extend": 100, "seal": 0.25, "seal_of": {"top": 0, "top/base": 3}, "min_volume": 2.5, "max_move": 0.5,
         "improve": {"edge_length": 4, "max_deviation": 0.125, "edge_length_of": {"top": 3},
-                    "layers_in_gaps": 0.5, "smallest": 0.25},
+                    "layers_in_gaps": 0.5, "smallest": 0.25, "resolution": 1.5, "dissolve": true},
         "tetrahedra": {"edge_length": 2, "max_volume": 3.5, "quality": 1.4, "split_surfaces": true,
                        "size_of": {"F1": 0.5, "top": 1}, "size_in": {"2": 0.25, "top/base": 1},
                        "split": ["fault", "top"], "outside": true, "time_limit": 60, "mesher": "gmsh", "optimise": false,
@@ -293,6 +293,8 @@ TEST_CASE("project: all keys are read", "[io][project]") {
     CHECK(p.tetrahedra.outside == true);
     CHECK(p.tetrahedra.time_limit == 60);
     CHECK(p.tetrahedra.order == 2);
+    CHECK(p.improve->resolution == 1.5);
+    CHECK(p.improve->dissolve);
     CHECK(p.tetrahedra.refine_bad == 3);
     CHECK(p.tetrahedra.mesher == Mesher::gmsh);
     CHECK_FALSE(p.tetrahedra.optimise);
