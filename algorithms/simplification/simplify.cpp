@@ -82,6 +82,9 @@ public:
         for (std::uint32_t b = 1; b < locked.size(); ++b)
             if (locked[b]) result_.report.kept.push_back(b);
         if (auto measured = measure(); !measured) return measured.error();
+        if (!result_.report.is_shown)
+            return bad_resolution("the surfaces can't be joined so that all of each is shown to "
+                                  "stay within the allowed movement; try a smaller one");
         return std::move(result_);
     }
 
@@ -173,8 +176,8 @@ private:
         for (std::uint32_t v = 1; v < volumes.measures.size(); ++v) {
             const std::uint32_t b = result_.block_before[v];
             const bool is_part = b == none || largest[b] != v;
-            if (thickness[v] < options_.resolution && (is_part || options_.dissolve))
-                blocks.push_back(v);
+            const double most = (is_part ? tuning.part_share : 1) * options_.resolution;
+            if (thickness[v] < most && (is_part || options_.dissolve)) blocks.push_back(v);
         }
         return blocks;
     }
@@ -288,6 +291,7 @@ std::vector<NamedConstant> simplify_constants() {
             {"crossing", tuning.crossing},
             {"edge_length", tuning.edge_length},
             {"regular_share", tuning.regular_share},
+            {"part_share", tuning.part_share},
             {"joins", tuning.joins},
             {"passes", tuning.passes},
             {"rounds", tuning.rounds},

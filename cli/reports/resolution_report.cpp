@@ -99,6 +99,13 @@ std::string text_of(const SimplifyReport& report, const Inputs& inputs) {
            });
 }
 
+std::string resolution_text(Json& json, const Arranged& arranged, const Inputs& inputs) {
+    if (!arranged.simplified) return {};
+    add_statistics(json, arranged.simplified->report, inputs);
+    add_constants(json, "resolution", simplify_constants());
+    return text_of(arranged.simplified->report, inputs);
+}
+
 void add_statistics(Json& json, const SimplifyReport& report, const Inputs& inputs) {
     Json left = Json::array(), blocks = Json::array(), contacts = Json::array(),
          deviations = Json::object(), vanished = Json::array();
