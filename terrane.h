@@ -25,6 +25,7 @@
 
 #include <terrane/capi/arrangement.h>
 #include <terrane/capi/base.h>
+#include <terrane/capi/certificate.h>
 #include <terrane/capi/mesh.h>
 #include <terrane/capi/model.h>
 #include <terrane/capi/project.h>

@@ -32,8 +32,8 @@ std::vector<Layer> order_of(const terrane_layer* layers, std::size_t count) {
 using namespace terrane::capi::detail;
 
 terrane_layered::terrane_layered(terrane::Layered made) :
-    mesh(made.rounded, nullptr), is_stack(made.is_stack()), step_width(made.step_width) {
-    for (const terrane::LayerReport& r : made.reports)
+    layered(std::move(made)), mesh(layered.rounded, nullptr) {
+    for (const terrane::LayerReport& r : layered.reports)
         reports.push_back({r.surface, 0, r.dropped, r.taken, r.dropped_area, r.taken_area,
                            r.largest_move, r.step_length});
 }
@@ -66,7 +66,7 @@ void terrane_layered_free(terrane_layered* layered) {
 }
 
 int terrane_layered_is_stack(const terrane_layered* layered) {
-    return known(layered) && layered->is_stack ? 1 : 0;
+    return known(layered) && layered->layered.is_stack() ? 1 : 0;
 }
 
 const terrane_mesh* terrane_layered_mesh(const terrane_layered* layered) {
@@ -79,5 +79,5 @@ const terrane_layer_report* terrane_layered_reports(const terrane_layered* layer
 }
 
 double terrane_layered_step_width(const terrane_layered* layered) {
-    return known(layered) ? layered->step_width : std::numeric_limits<double>::quiet_NaN();
+    return known(layered) ? layered->layered.step_width : std::numeric_limits<double>::quiet_NaN();
 }

@@ -16,10 +16,10 @@ using namespace terrane::capi::detail;
 using terrane::Result;
 using terrane::Status;
 
-terrane_mesh::terrane_mesh(terrane::RoundedMesh rounded, Origin made_from) :
-    mesh(rounded.mesh), proof(std::move(rounded.conforming)), origin(std::move(made_from)),
-    contacts(contacts_of(rounded.report.contacts)) {
-    const terrane::RoundingReport& r = rounded.report;
+terrane_mesh::terrane_mesh(terrane::RoundedMesh made, Origin made_from) :
+    mesh(made.mesh), proof(made.conforming), rounded(std::move(made)), origin(std::move(made_from)),
+    contacts(contacts_of(rounded->report.contacts)) {
+    const terrane::RoundingReport& r = rounded->report;
     report.is_conforming = r.clean ? 1 : 0;
     report.rounds = r.rounds;
     report.naive_contacts = r.naive_contacts;
@@ -79,6 +79,7 @@ terrane_code terrane_mesh_prove(const terrane_mesh* mesh, const terrane_run* run
         auto proof = proven(given, run_of(run));
         if (!proof) return proof.error();
         auto made = std::make_unique<terrane_mesh>(*proof);
+        made->rounded = given.rounded;
         made->origin = given.origin;
         made->report = given.report;
         return made;

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>
+#include <terrane/io/model_folder.hpp>
 #include <terrane/io/structure_json.hpp>
 
 using namespace terrane::capi::detail;
@@ -238,6 +240,17 @@ terrane_code terrane_model_to_json(const terrane_model* model, char** text, terr
         std::memcpy(copy, json.c_str(), json.size() + 1);
         *text = copy;
         return Done{};
+    });
+}
+
+terrane_code terrane_model_write(const terrane_model* model, const char* folder,
+                                 const char* part_format, const terrane_run* run,
+                                 terrane_error** error) {
+    return call(error, [&]() -> Status {
+        const terrane::Model& m = needed(model, "model").model;
+        return terrane::write_model_folder({m, std::nullopt, std::nullopt},
+                                           part_format ? part_format : "vtp",
+                                           needed_text(folder, "folder"), run_of(run));
     });
 }
 

@@ -75,11 +75,12 @@ ExitStatus run(int argc, char** argv) {
     program.footer(main_footer);
     const std::array commands{
         // as --help lists them: what people use most comes first
-        arrange_command(program), volume_command(program),     tetrahedralize_command(program),
-        improve_command(program), build_command(program),      check_command(program),
-        fill_command(program),    layer_command(program),      report_command(program),
-        view_command(program),    convert_command(program),    verify_command(program),
-        bench_command(program),   completion_command(program), manual_command(program)};
+        arrange_command(program), volume_command(program), tetrahedralize_command(program),
+        improve_command(program), build_command(program),  ensemble_command(program),
+        check_command(program),   fill_command(program),   layer_command(program),
+        report_command(program),  view_command(program),   convert_command(program),
+        verify_command(program),  bench_command(program),  completion_command(program),
+        manual_command(program)};
     for (const Command& command : commands) offer_output_options(*command.options);
     try {
         program.parse(argc, argv);

@@ -135,6 +135,15 @@ OutputRecord record_output(std::string_view contents, std::string name, std::str
             surfaces};
 }
 
+std::string certified_format(Format format, bool ascii) {
+    if (format == Format::gocad) return "ts";
+    if (format == Format::stl) return ascii ? "stl-ascii" : "stl";
+    for (const char* name :
+         {"obj", "off", "ply", "vtp", "vtu", "msh", "msh22", "inp", "mesh", "poly", "smesh"})
+        if (format_named(name) == format) return name;
+    return "";
+}
+
 std::string certified_name(const fs::path& path, const fs::path& certificate) {
     std::error_code failed;
     const auto folder = certificate == "-" ? fs::path() : certificate.parent_path();

@@ -64,6 +64,7 @@
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/io/files.hpp>
 
 namespace terrane {
 
@@ -96,6 +97,10 @@ OutputRecord record_output(std::string_view contents, std::string name, std::str
 /// certificate.
 std::string certified_name(const std::filesystem::path& path,
                            const std::filesystem::path& certificate);
+
+/// Returns the name of an output's format in certificates, "stl-ascii" for an STL file in text;
+/// empty: the verifier does not read the format.
+std::string certified_format(Format format, bool ascii = false);
 
 /// A volume of interest, as it was asked for.
 struct VolumeRecord {

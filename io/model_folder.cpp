@@ -159,6 +159,17 @@ private:
 
 } // namespace
 
+std::vector<ModelFile> model_files(const Model& model, const std::string& part_format) {
+    std::vector<ModelFile> files{{"model.json", "json"}, {"result.vtp", "vtp"}};
+    const Structure& s = model.structure;
+    for (std::size_t b = 1; b < s.blocks.size(); ++b)
+        if (!s.blocks[b].interfaces.empty())
+            files.push_back({fmt::format("blocks/block_{}.{}", b, part_format), part_format});
+    for (std::size_t i = 0; i < s.interfaces.size(); ++i)
+        files.push_back({fmt::format("interfaces/interface_{}.{}", i, part_format), part_format});
+    return files;
+}
+
 std::vector<std::string> part_formats() {
     return {"vtp", "obj",   "ts",  "ply",  "off",  "stl",
             "msh", "msh22", "inp", "mesh", "poly", "smesh"};

@@ -23,6 +23,16 @@ struct ModelReports {
     const std::optional<LeakAdvice>& leaks;  ///< leaks that were judged; none: they were not
 };
 
+/// A file of the folder of a model.
+struct ModelFile {
+    std::filesystem::path path; ///< relative to the folder
+    std::string format;         ///< "json", "vtp", or that of blocks and interfaces
+};
+
+/// Lists the files that say what a model is: model.json, result.vtp, and those of blocks and
+/// interfaces in `part_format`. model.vtm, which only names others, is not among them.
+std::vector<ModelFile> model_files(const Model& model, const std::string& part_format);
+
 /// Lists the names of the formats of blocks and interfaces.
 std::vector<std::string> part_formats();
 

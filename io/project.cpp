@@ -11,6 +11,7 @@
 #include <terrane/io/detail/column_keys.hpp>
 #include <terrane/io/detail/json_reader.hpp>
 #include <terrane/io/detail/project_keys.hpp>
+#include <terrane/io/detail/uncertainty_keys.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/text/names.hpp>
 
@@ -69,6 +70,8 @@ private:
             project.max_move = in_.positive(*v, "max_move");
         if (const Json* v = in_.find(json, "improve")) project.improve = improve(*v);
         if (const Json* v = in_.find(json, "tetrahedra")) project.tetrahedra = tetrahedra(*v);
+        if (const Json* v = in_.find(json, "uncertainty"))
+            project.uncertainty = uncertainty_of(in_, *v, base_);
         const bool turned = std::any_of(project.surfaces.begin(), project.surfaces.end(),
                                         [](const ProjectSurfaces& s) { return s.depth; });
         const bool changed = turned || !project.unit.empty() || !project.fill.empty() ||
@@ -315,6 +318,8 @@ private:
         if (const Json* v = in_.find(json, "outside")) t.outside = in_.truth(*v, path + ".outside");
         if (const Json* v = in_.find(json, "optimise"))
             t.optimise = in_.truth(*v, path + ".optimise");
+        if (const Json* v = in_.find(json, "refine_bad"))
+            t.refine_bad = rounds(*v, path + ".refine_bad");
         if (const Json* v = in_.find(json, "order")) t.order = order(*v, path + ".order");
         if (const Json* v = in_.find(json, "time_limit"))
             t.time_limit = in_.positive(*v, path + ".time_limit");
@@ -323,6 +328,12 @@ private:
                                                      in_.one_of(*v, path + ".mesher", meshers)) -
                                            meshers.begin()); // in the order of the type
         return t;
+    }
+
+    unsigned rounds(const Json& value, const std::string& path) {
+        if (value.is_number_unsigned() && value <= most_rounds) return value.get<unsigned>();
+        in_.fail(path, fmt::format("must be a whole number from 0 to {}", most_rounds));
+        return 0;
     }
 
     unsigned order(const Json& value, const std::string& path) {
@@ -398,6 +409,8 @@ std::vector<std::string> project_keys() {
     add("volume_of_interest.polygon.", polygon_level);
     add("improve.", improve_level);
     add("tetrahedra.", tetrahedra_level);
+    add("uncertainty[].", uncertainty_level);
+    add("uncertainty[].field.", field_level);
     add("outputs.", outputs_level);
     std::sort(all.begin(), all.end());
     return all;

@@ -14,7 +14,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/reference/c.md"
 HEADERS = ("base", "surfaces", "arrangement", "mesh", "sealing", "structure", "model", "reconstruction",
-           "tetrahedra", "verification", "project")
+           "tetrahedra", "verification", "certificate", "project")
 START = """# C interface
 
 The header `<terrane/terrane.h>` declares the functions of this page; [Use the library from C](../how-to/c.md)

@@ -49,12 +49,17 @@ run "$terrane" tetrahedralize tests/data/ringmesh/modelA2.ml -o "$out/modelA2.vt
     -o "$out/modelA2.msh" --stats "$out/modelA2.json"
 expect "$out/modelA2.json" regions 13
 
+say "the same model for a simulator: in a box, its triangles improved; the share of bad tetrahedra"
+rm -rf "$out/simulator"
+run "$terrane" build tests/data/projects/simulator.json -o "$out/simulator" |
+    grep -E '^\$ |^[0-9]+ tetrahedra, |^dihedral angles|have an angle below|^SICN'
+
 say "written"
-ls -l "$out" | awk 'NF > 8 { printf "  %9d bytes  '"$out"'/%s\n", $5, $9 }'
+find "$out" -type f -printf '  %9s bytes  %p\n' | sort -k3
 cat <<END
 
 To look at it:
-  ParaView  open $out/modelA2.vtu, Threshold on region from 1, Explode Data, colour by region
+  ParaView  open $out/simulator/tetrahedra.vtu or $out/modelA2.vtu, Threshold on region from 1, Explode Data, colour by region
             open $out/faults-topography.vtp, colour by surface, "Surface With Edges"
   gmsh      gmsh $out/modelA2.msh
   picture   xvfb-run -a scripts/picture.py   (needs python3-vtk9, python3-numpy, xvfb)

@@ -21,13 +21,13 @@ ROOT = Path(__file__).resolve().parent.parent
 ORDER = (
     "kernel algorithms/core algorithms/mesh algorithms/plausibility algorithms/search algorithms/intersection "
     "algorithms/triangulation algorithms/arrangement algorithms/check algorithms/regions "
-    "algorithms/rounding algorithms/volumes algorithms/structure algorithms/layers "
+    "algorithms/rounding algorithms/distribution algorithms/volumes algorithms/structure algorithms/layers "
     "algorithms/quality algorithms/simplification algorithms/reconstruction/holes algorithms/reconstruction/joining "
     "algorithms/reconstruction/kriging algorithms/reconstruction/rbf algorithms/reconstruction "
     "algorithms/sealing algorithms/volume_of_interest algorithms/model algorithms/tetrahedra "
-    "algorithms/optimisation algorithms/tetgen algorithms/project algorithms/verify "
+    "algorithms/optimisation algorithms/tetgen algorithms/project algorithms/uncertainty algorithms/verify "
     "io/text io/atomic io/surfaces io/gocad io/grids io/points io/meshes io io/page capi "
-    "cli/session cli/options cli/paper cli/reports cli/stages cli/commands cli"
+    "cli/session cli/options cli/paper cli/reports cli/stages cli/commands cli/mpi cli"
 ).split()
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]terrane/([^>"]+)[>"]', re.M)

@@ -4,9 +4,9 @@
 # Makes Debian packages, judges them with lintian, and uses them in a clean Debian 12:
 #   scripts/packages.sh [BUILD]
 # BUILD is a build tree with the prefix /usr; without it the preset package is built. The packages are put
-# into out/packages; TERRANE_MAINTAINER is the name and address in them. Needs dpkg-dev and lintian; as
-# root, with debootstrap and a mirror of Debian, also a root of its own, into which the packages are
-# installed as apt does it. MIRROR, SUITE and ROOT say from where, what and where; BASE names a clean root that
+# into out/packages; TERRANE_MAINTAINER is the name and address in them, without which a tagged version, a
+# release, is refused. Needs dpkg-dev and lintian; as root, with debootstrap and a mirror of Debian, also a
+# root of its own, into which the packages are installed as apt does it. MIRROR, SUITE and ROOT say from where, what and where; BASE names a clean root that
 # was made before, which is copied. NO_ROOT=1 leaves that out.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -24,6 +24,14 @@ if [[ -z $build ]]; then
 fi
 grep -qx 'CMAKE_INSTALL_PREFIX:PATH=/usr' "$build/CMakeCache.txt" ||
     fail "$build is not for the prefix /usr: configure with -DCMAKE_INSTALL_PREFIX=/usr"
+
+# A placeholder is good enough to try packages, but nobody answers at its address.
+contact=$(sed -n 's/^TERRANE_MAINTAINER:STRING=//p' "$build/CMakeCache.txt")
+tag=$(git describe --exact-match --tags --match 'v[0-9]*' 2>/dev/null || true)
+if [[ $contact == *.invalid* ]]; then
+    [[ -z $tag ]] || fail "$tag is a release: TERRANE_MAINTAINER=\"NAME <ADDRESS>\" must name who answers for it"
+    echo "packages: without TERRANE_MAINTAINER they name $contact, and must not be published" >&2
+fi
 
 rm -rf "$packages"
 (cd "$build" && cpack -G DEB -B "$packages" >/dev/null)

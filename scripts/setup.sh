@@ -11,8 +11,10 @@ packages=(
     libcgal-dev libgmp-dev libmpfr-dev nettle-dev libeigen3-dev libnanoflann-dev libtbb-dev
     libcli11-dev libfmt-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev libshp-dev
     libtet1.5-dev libgmsh-dev catch2 libbenchmark-dev
+    libopenmpi-dev openmpi-bin                            # terrane-mpi
     python3-dev pybind11-dev python3-numpy                # the Python package
     python3-pytest python3-hypothesis mypy python3-pip python3-setuptools python3-wheel # its tests
+    python3-dask python3-distributed python3-h5py         # ensembles: engine and HDF5, optional
     python3-matplotlib               # draws the figures of the examples
     python3-vtk9 python3-meshio gmsh # these read the written files back, in tests only
     python3-netcdf4                  # likewise, with python3-cftime: 2 MB

@@ -283,5 +283,36 @@ class Conan(Filled):
         self.assertEqual(config["versions"], {self.values["VERSION"]: {"folder": "all"}})
 
 
+class Packages(unittest.TestCase):
+    """scripts/packages.sh refuses a release whose packages name nobody."""
+
+    def made(self, contact, tag):
+        """Run the script in a repository whose build tree says no more than this; return what it complains about."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "scripts").mkdir()
+            (folder / "build").mkdir()
+            script = folder / "scripts/packages.sh"
+            script.write_text((ROOT / "scripts/packages.sh").read_text())
+            (folder / "build/CMakeCache.txt").write_text(f"CMAKE_INSTALL_PREFIX:PATH=/usr\nTERRANE_MAINTAINER:STRING={contact}\n")
+            git = ["git", "-C", name, "-c", "user.name=n", "-c", "user.email=a@host.invalid", "-c", "commit.gpgsign=false"]
+            subprocess.run([*git, "init", "-q"], check=True)
+            subprocess.run([*git, "commit", "-q", "--allow-empty", "-m", "a commit"], check=True)
+            if tag:
+                subprocess.run([*git, "tag", tag], check=True)
+            done = subprocess.run(["bash", script, "build"], capture_output=True, text=True)
+            self.assertNotEqual(done.returncode, 0)  # there is nothing to pack
+            return done.stderr
+
+    def test_maintainer(self):
+        placeholder = re.search(r'set\(TERRANE_MAINTAINER "([^"]+)"', (ROOT / "scripts/cmake/packages.cmake").read_text()).group(1)
+        refused = "v0.1.0 is a release: TERRANE_MAINTAINER"
+        self.assertIn(refused, self.made(placeholder, "v0.1.0"))
+        for contact, tag in ((placeholder, ""), (placeholder, "tried"), ("Somebody <somebody@example.org>", "v0.1.0")):
+            said = self.made(contact, tag)
+            self.assertNotIn(refused, said)
+            self.assertEqual("must not be published" in said, contact == placeholder)
+
+
 if __name__ == "__main__":
     unittest.main()

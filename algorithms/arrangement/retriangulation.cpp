@@ -30,6 +30,26 @@ struct Part {
                                     ///< face is the first of them
 };
 
+/// Starts each part that is not the whole face with its lowest corner, and sorts the parts of a face by
+/// their corners. The triangles of a face depend on its points alone; so does their order then, and not
+/// on the order of work.
+void put_in_order(const TriangleSoup& soup, const PointOrder& order, std::span<Part> parts) {
+    const auto rank = [&](PointIndex p) { return order.rank[p]; };
+    for (Part& p : parts) {
+        const Triangle& whole = soup.triangles[p.face];
+        if (std::is_permutation(whole.begin(), whole.end(), p.corners.begin())) continue;
+        const auto lowest =
+            std::min_element(p.corners.begin(), p.corners.end(),
+                             [&](PointIndex a, PointIndex b) { return rank(a) < rank(b); });
+        std::rotate(p.corners.begin(), lowest, p.corners.end());
+    }
+    std::sort(parts.begin(), parts.end(), [&](const Part& a, const Part& b) {
+        return std::lexicographical_compare(
+            a.corners.begin(), a.corners.end(), b.corners.begin(), b.corners.end(),
+            [&](PointIndex x, PointIndex y) { return rank(x) < rank(y); });
+    });
+}
+
 /// Parts by face.
 struct PartBlock {
     std::vector<Part> parts;
@@ -67,8 +87,10 @@ public:
         finish_points();
         const std::uint32_t pool = contacts_.pools.led_by(f);
         if (pool != no_group) return divide_pool(contacts_.pools.faces[pool], out);
+        const std::size_t first = out.parts.size();
         for (const auto& part : triangulate_(contacts_.points, order_.rank, face_))
             out.parts.push_back({f, part});
+        put_in_order(soup_, order_, std::span(out.parts).subspan(first));
     }
 
 private:
@@ -156,6 +178,17 @@ std::vector<FaceRange> faces_with_contacts(const Contacts& contacts) {
     return faces;
 }
 
+/// Sorts parts by face, and those of one face as put_in_order() does.
+void put_pooled_in_order(const TriangleSoup& soup, const PointOrder& order,
+                         std::vector<Part>& parts) {
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const Part& a, const Part& b) { return a.face < b.face; });
+    for (std::size_t first = 0, end = 0; first < parts.size(); first = end) {
+        while (end < parts.size() && parts[end].face == parts[first].face) ++end;
+        put_in_order(soup, order, std::span(parts).subspan(first, end - first));
+    }
+}
+
 PartBlock divide_faces(const TriangleSoup& soup, const Contacts& contacts, const PointOrder& order,
                        const Run& run, RetriangulationStatistics& statistics) {
     const std::vector<FaceRange> faces = faces_with_contacts(contacts);
@@ -197,9 +230,7 @@ PartBlock divide_faces(const TriangleSoup& soup, const Contacts& contacts, const
             if (all.parts[k].cover != no_cover) all.parts[k].cover += first;
     }
     // The parts of a pool belong to several faces.
-    if (all.covers.size() > 0)
-        std::stable_sort(all.parts.begin(), all.parts.end(),
-                         [](const Part& a, const Part& b) { return a.face < b.face; });
+    if (all.covers.size() > 0) put_pooled_in_order(soup, order, all.parts);
     return all;
 }
 

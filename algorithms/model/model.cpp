@@ -8,6 +8,7 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
+#include <terrane/algorithms/structure/build_structure.hpp>
 
 namespace terrane {
 namespace {
@@ -27,7 +28,9 @@ GivenNames names_given(const Arrangement& arrangement, const Volumes& exact,
 /// Adds what follows from the volumes: structure, free borders and times.
 Result<Model> finished(Model model, const GivenNames& given, const Run& run) {
     StageTimer timer(run, "structure");
-    model.structure = build_structure(model.mesh, model.volumes);
+    auto structure = build_structure(model.mesh, model.volumes, run);
+    if (!structure) return structure.error();
+    model.structure = std::move(structure).value();
     if (!given.column.empty() || !given.regions.empty())
         name_blocks(model.mesh, model.volumes, given, model.structure);
     model.borders = find_free_borders(model.mesh, model.structure);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,10 +13,13 @@
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/project/detail/kept_results.hpp>
+#include <terrane/algorithms/project/detail/refinement.hpp>
 
 namespace terrane {
 namespace {
 
+using project::detail::bad_places;
+using project::detail::BadPlaces;
 using project::detail::bytes_of;
 using project::detail::improved_from;
 using project::detail::key_of;
@@ -59,7 +63,7 @@ public:
         if (!built_.arranged.rounded.conforming)
             return refused("the rounded mesh is not conforming");
         if (project_.improve)
-            if (auto done = stage(BuildStage::improve, &Builder::improve_mesh); !done)
+            if (auto done = stage(BuildStage::improve, &Builder::improve_in_rounds); !done)
                 return done.error();
         if (auto done = stage(BuildStage::blocks, &Builder::find_blocks); !done)
             return done.error();
@@ -70,6 +74,14 @@ public:
     }
 
 private:
+    /// The results of a round of improve_in_rounds().
+    struct Round {
+        unsigned number = 0;
+        std::optional<ImprovedAndMeasured> improved;
+        std::optional<Model> model;
+        std::optional<FilledBlocks> filled;
+    };
+
     Status stage(BuildStage which, Status (Builder::*work)()) {
         if (observer_.begins) observer_.begins(which);
         if (auto done = (this->*work)(); !done) return done;
@@ -116,6 +128,48 @@ private:
         return *built_.arranged.rounded.conforming;
     }
 
+    /// Improves the mesh; again, with smaller triangles where tetrahedra are bad, as often as the
+    /// project says. The best round counts: then blocks and tetrahedra are there, too.
+    Status improve_in_rounds() {
+        if (auto done = improve_mesh(); !done) return done;
+        const unsigned rounds =
+            project_.outputs.tetrahedra.empty() ? 0 : project_.tetrahedra.refine_bad;
+        if (rounds == 0) return Done{};
+        std::optional<Round> best;
+        for (unsigned round = 0;; ++round) {
+            if (auto done = find_blocks(); !done) return done;
+            if (auto done = fill_with_tetrahedra(); !done) return done;
+            const BadPlaces places =
+                bad_places(built_.filled->tetrahedra, project_.improve->smallest.value_or(0));
+            built_.rounds.push_back({built_.improved->improved.mesh->triangles.size(),
+                                     built_.filled->tetrahedra.tetrahedra.size(), places.bad,
+                                     places.apart});
+            Round now = take_round(round);
+            if (!best || is_better(round, best->number)) best = std::move(now);
+            if (round == rounds || places.sizes.empty()) break;
+            sizes_.insert(sizes_.end(), places.sizes.begin(), places.sizes.end());
+            if (auto done = improve_mesh(); !done) return done;
+        }
+        built_.kept_round = best->number;
+        built_.improved = std::move(best->improved);
+        built_.model = std::move(best->model);
+        built_.filled = std::move(best->filled);
+        return Done{};
+    }
+
+    [[nodiscard]] bool is_better(unsigned round, unsigned than) const {
+        const auto badness = [&](unsigned r) {
+            return std::pair(built_.rounds[r].apart, built_.rounds[r].bad);
+        };
+        return badness(round) < badness(than);
+    }
+
+    Round take_round(unsigned number) {
+        return {number, std::exchange(built_.improved, std::nullopt),
+                std::exchange(built_.model, std::nullopt),
+                std::exchange(built_.filled, std::nullopt)};
+    }
+
     Status improve_mesh() {
         const ProjectImprove& wanted = *project_.improve;
         const auto& surfaces = rounded()->surfaces;
@@ -125,6 +179,7 @@ private:
         options.max_deviation = wanted.max_deviation.value_or(0);
         options.layers_in_gaps = wanted.layers_in_gaps.value_or(0);
         options.smallest = wanted.smallest.value_or(0);
+        options.local_sizes = sizes_;
         if (!wanted.edge_length_of.empty()) options.edge_length_of.resize(surfaces.size());
         for (const auto& [name, length] : wanted.edge_length_of) {
             const auto found = surfaces_called(name, surfaces, built_.labels);
@@ -173,9 +228,10 @@ private:
     }
 
     Status find_blocks() {
+        if (built_.model) return Done{}; // since improve_in_rounds()
         const Arrangement& exact = built_.arranged.exact;
         BlockNaming naming{.column = project_.column};
-        if (!project_.layers) naming.regions = std::move(input_.regions);
+        if (!project_.layers) naming.regions = input_.regions;
         auto model = built_.improved
                          ? make_model(exact, rounded(), built_.improved->improved, run_, naming)
                          : make_model(exact, rounded(), run_, naming);
@@ -185,6 +241,7 @@ private:
     }
 
     Status fill_with_tetrahedra() {
+        if (built_.filled) return Done{}; // since improve_in_rounds()
         const TetrahedraRequest request = request_of(project_);
         const Model& model = *built_.model;
         const std::string key = key_for([&] { return key_of(model, request); });
@@ -226,6 +283,7 @@ private:
     const Run& run_;
     const BuildObserver& observer_;
     const StageStore& store_;
+    std::vector<LocalSize> sizes_; ///< wanted where tetrahedra were bad
     Built built_;
 };
 

@@ -42,14 +42,26 @@ struct BuildInput {
 /// The stages in their order. A stage that the project does not ask for is left out.
 enum class BuildStage : std::uint8_t { preprocess, arrange, improve, blocks, tetrahedra };
 
+/// What came of one round of making triangles smaller where tetrahedra are bad.
+struct RefinementRound {
+    std::size_t triangles = 0;  ///< of the improved mesh
+    std::size_t tetrahedra = 0; ///< that are left, without the outside if that is not wanted
+    std::size_t bad = 0;        ///< of these: with a dihedral angle below bad_angle
+    std::size_t apart = 0;      ///< of these: apart from such angles of the surfaces, see
+                                ///< BadTetrahedron::is_at_input_angle
+};
+
 /// The model of a project, and the result of each stage.
 struct Built {
     Preprocessed preprocessed{};       ///< filled holes and ordered layers; empty: none asked for
     std::vector<std::string> labels{}; ///< per surface of the mesh: its name, made unique
     Arranged arranged{};               ///< the arrangement and its rounded mesh
     std::optional<ImprovedAndMeasured> improved{}; ///< where the project asks for it
-    std::optional<Model> model{};                  ///< there at the end
-    std::optional<FilledBlocks> filled{};          ///< where the project has outputs.tetrahedra
+    std::vector<RefinementRound> rounds{}; ///< with tetrahedra.refine_bad: the first is the one
+                                           ///< without; empty: not asked for
+    std::size_t kept_round = 0;            ///< whose results these are
+    std::optional<Model> model{};          ///< there at the end
+    std::optional<FilledBlocks> filled{};  ///< where the project has outputs.tetrahedra
 };
 
 /// Callbacks that follow the progress of build(), which calls them from its caller's thread.

@@ -98,19 +98,49 @@ struct ProjectTetrahedra {
     bool split_surfaces = false;         ///< triangles of surfaces may be divided for `quality`
     std::optional<double> max_volume{};  ///< of a tetrahedron, cubic unit
     bool optimise = true;                ///< whether their shapes are improved
-    unsigned order = 1;                  ///< in files: 1, or 2 with nodes on edges
-    double time_limit = 600;             ///< seconds, > 0
-    Mesher mesher = Mesher::automatic;   ///< who makes them
-    std::vector<ProjectSize> size_of{};  ///< by surface
-    std::vector<ProjectSize> size_in{};  ///< by number or name of a block
-    std::vector<std::string> split{};    ///< names of surfaces, or "fault" for all with that role
-    std::optional<bool> outside{};       ///< whether region 0 is meshed; none: only if there is no
-                                         ///< volume of interest
+    unsigned refine_bad = 0; ///< how often, with `improve`, triangles are made smaller where
+                             ///< tetrahedra are bad, and tetrahedra made again
+    unsigned order = 1;      ///< in files: 1, or 2 with nodes on edges
+    double time_limit = 600; ///< seconds, > 0
+    Mesher mesher = Mesher::automatic;  ///< who makes them
+    std::vector<ProjectSize> size_of{}; ///< by surface
+    std::vector<ProjectSize> size_in{}; ///< by number or name of a block
+    std::vector<std::string> split{};   ///< names of surfaces, or "fault" for all with that role
+    std::optional<bool> outside{};      ///< whether region 0 is meshed; none: only if there is no
+                                        ///< volume of interest
 };
 
 /// Project files with `improve` ask for tetrahedra whose ratio of circumradius to shortest edge is
 /// at most this, unless they state another bound.
 inline constexpr double improved_quality = 1.3;
+
+/// A random field by which a surface moves (gaussian_field.hpp).
+struct ProjectField {
+    std::string model = "gaussian"; ///< of the variogram: spherical, exponential, gaussian, matern
+    double range = 0;               ///< at which covariance has gone to 5 %, 0 for spherical; > 0
+    double smoothness = 1.5;        ///< of matern: 1.5 or 2.5
+    double azimuth = 0; ///< of the direction of the longest range: degrees from y, clockwise
+    double ratio = 1;   ///< range across it / range, in (0, 1]
+    std::optional<double> sd{};  ///< standard deviation, unit of the surfaces
+    std::filesystem::path map{}; ///< instead of sd: a grid whose values are standard deviations
+    bool kriging = false;        ///< instead of sd: what "fill" foresees at new vertices
+};
+
+/// How uncertain the place of surfaces is. Each number is a standard deviation of a normal distribution.
+struct ProjectUncertainty {
+    std::string surface{};               ///< name of one or more surfaces
+    std::string group{};                 ///< entries of a group move alike; empty: by the name
+    std::optional<ProjectField> field{}; ///< none: no random field
+    double shift = 0; ///< of the whole surface, along z or a fault's normal, unit of the surfaces
+    double tilt = 0;  ///< of its slopes along x and along y, degrees; not for faults
+    double dip = 0;   ///< degrees; for faults
+    double slip =
+        0; ///< of the throw: horizons above the fault go down by it, unit of the surfaces;
+           ///< for faults
+    std::optional<double>
+        reach{}; ///< distance from the fault at which that has faded to 0; none: it
+                 ///< does not fade
+};
 
 /// The formats of the files in the folder of results.
 struct ProjectOutputs {
@@ -144,10 +174,11 @@ struct Project {
                                         ///< 0: "auto", see small_volume_for()
     std::optional<double> max_move{};   ///< of surfaces, when exact points become doubles, unit of
                                         ///< the surfaces; none: see RoundingOptions
-    std::optional<ProjectImprove> improve{}; ///< none: triangles stay as they are
-    ProjectTetrahedra tetrahedra{};          ///< made where outputs.tetrahedra asks for them
-    ProjectOutputs outputs{};                ///< what is written
-    unsigned threads = 0;                    ///< 0: all cores
+    std::optional<ProjectImprove> improve{};       ///< none: triangles stay as they are
+    ProjectTetrahedra tetrahedra{};                ///< made where outputs.tetrahedra asks for them
+    ProjectOutputs outputs{};                      ///< what is written
+    std::vector<ProjectUncertainty> uncertainty{}; ///< for ensembles; build() has no use for it
+    unsigned threads = 0;                          ///< 0: all cores
     /// How meshes are shown to be conforming, and that it is counted what decided each pair of
     /// triangles; no key of the file, as the result does not depend on it.
     PairCheckOptions check{PairCheck::bounds, SIZE_MAX};

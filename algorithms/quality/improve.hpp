@@ -54,6 +54,12 @@
 
 namespace terrane {
 
+/// A wanted edge length at a point. It grows with the distance from there, by `growth`.
+struct LocalSize {
+    Point3 place{};    ///< unit of the mesh
+    double length = 0; ///< > 0, unit of the mesh
+};
+
 /// Options of improve(). Lengths are in the unit of the mesh, angles in degrees.
 struct ImproveOptions {
     double edge_length = 0; ///< target edge length; 0: for each surface, that of as many
@@ -67,11 +73,13 @@ struct ImproveOptions {
                                ///< distance divided by this; no unit; 0: no adaptation
     double smallest = 0;       ///< layers_in_gaps asks for no shorter edges than this; 0: an eighth
                                ///< of the target length
-    double growth = 0.3;       ///< target lengths at two points differ by at most this multiple of
-                               ///< their distance; no unit
-    double crease_angle = 50;  ///< edges at which a surface turns by more are curves
-    double curve_angle = 45;   ///< vertices at which a curve turns by more are corners
-    unsigned passes = 6;       ///< rounds of the four operations, 1 to 100
+    std::vector<LocalSize> local_sizes{}; ///< edges are no longer near these points; each costs a
+                                          ///< distance per vertex and pass
+    double growth = 0.3;      ///< target lengths at two points differ by at most this multiple of
+                              ///< their distance; no unit
+    double crease_angle = 50; ///< edges at which a surface turns by more are curves
+    double curve_angle = 45;  ///< vertices at which a curve turns by more are corners
+    unsigned passes = 6;      ///< rounds of the four operations, 1 to 100
     double thickness_share =
         0.1; ///< where blocks are thin, points deviate by at most this share of
              ///< the distance to the next sheet, along the normal; > 0

@@ -14,6 +14,8 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/rounding/detail/attempt.hpp>
+#include <terrane/algorithms/rounding/detail/cluster_frame.hpp>
+#include <terrane/algorithms/rounding/detail/contact_clusters.hpp>
 #include <terrane/algorithms/rounding/detail/reports.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/detail/tuning.hpp>
@@ -23,6 +25,23 @@ namespace terrane {
 using namespace rounding::detail;
 
 namespace {
+
+/// Returns the largest absolute coordinate of the input triangles.
+double largest_coordinate(const Arrangement& a) {
+    double largest = 0;
+    for (const Triangle& t : a.state->corners)
+        for (const std::uint32_t v : t) {
+            const Point3& p = a.state->points.input(v);
+            largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+        }
+    return largest;
+}
+
+/// Returns 2^digits times the spacing of doubles at the largest coordinate.
+double spacing_at(double largest, int digits = 0) {
+    if (!(largest > 0)) return std::numeric_limits<double>::min();
+    return std::ldexp(1.0, std::max(std::ilogb(largest) - 52, -1074) + digits);
+}
 
 /// Makes the arrangement of the snapped input one of the original input: triangles that have the
 /// same points only because they were snapped do not count as duplicates.
@@ -63,6 +82,7 @@ public:
     /// Returns the first rounding that is conforming, or the one before any was attempted.
     Result<RoundedMesh> operator()() {
         if (auto done = as_decimals(); !done) return done.error();
+        if (auto done = as_clusters(); !done) return done.error();
         const auto points = arrangement_.state->points.inputs();
         double last = 0;
         for (const int digits : rounding_tuning.coarse_digits) {
@@ -79,6 +99,7 @@ public:
 
 private:
     Status as_decimals();
+    Status as_clusters();
     Status on_grid(const SnapGrid& grid);
     Status attempt(const std::vector<Surface>& surfaces);
     [[nodiscard]] double room(std::span<const Point3> points) const;
@@ -132,6 +153,19 @@ Status MovedAttempts::as_decimals() {
     return Done{};
 }
 
+/// Arranges the input in a frame in which nearly coplanar clusters are coplanar. Its axes are
+/// inclined, so that they can't keep the planes of a volume of interest.
+Status MovedAttempts::as_clusters() {
+    if (!may_go_on() || !arrangement_.state->whole) return Done{};
+    const double tolerance =
+        rounding_tuning.cluster_spacings * spacing_at(largest_coordinate(arrangement_));
+    const auto normals = cluster_directions(arrangement_, first_, tolerance);
+    const auto frame =
+        ClusterFrame::of(arrangement_.state->points.inputs(), input_.chosen(), normals, tolerance);
+    if (!frame || 2 * frame->largest_error() > task_.limit) return Done{};
+    return attempt(input_.surfaces(*frame));
+}
+
 /// Snaps the vertices of triangles in contact to a grid, then those of what is in contact then.
 Status MovedAttempts::on_grid(const SnapGrid& grid) {
     for (unsigned w = 0; w < rounding_tuning.widenings && may_go_on(); ++w) {
@@ -175,15 +209,11 @@ Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement, const Round
 }
 
 double default_max_move(const Arrangement& a) {
-    double largest = 0;
-    for (const Triangle& t : a.state->corners)
-        for (const std::uint32_t v : t) {
-            const Point3& p = a.state->points.input(v);
-            largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-        }
-    if (!(largest > 0)) return std::numeric_limits<double>::min();
-    const int digits = std::ilogb(largest) - 52 + rounding_tuning.allowed_digits;
-    return std::ldexp(1.0, std::max(digits, -1074 + rounding_tuning.allowed_digits));
+    return default_max_move(largest_coordinate(a));
+}
+
+double default_max_move(double largest) {
+    return spacing_at(largest, rounding_tuning.allowed_digits);
 }
 
 std::vector<NamedConstant> rounding_constants() {

@@ -90,6 +90,8 @@ struct RoundedMesh {
 /// Returns the largest move that is allowed unless options say otherwise: 1024 times the spacing of
 /// doubles at the largest coordinate (docs/explanation/rounding.md has the reason).
 double default_max_move(const Arrangement& arrangement);
+/// Does the same for the largest coordinate, which is not negative.
+double default_max_move(double largest);
 
 /// Rounds an arrangement. Errors: interrupted, out_of_memory, bad_option (no doubles are within
 /// max_move), bad_number (a constructed point is beyond the largest double), internal. Times:

@@ -2,7 +2,9 @@
 #include <terrane/algorithms/structure/structure.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -11,6 +13,7 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>
+#include <terrane/algorithms/structure/build_structure.hpp>
 #include <terrane/algorithms/structure/detail/parts.hpp>
 
 namespace terrane {
@@ -52,12 +55,17 @@ public:
         mesh_(mesh), volumes_(volumes), ranks_(ranks_of(mesh.vertices)),
         edges_(group_edges(mesh.triangles, mesh.vertices.size())) {}
 
-    Structure operator()() {
-        find_interfaces();
-        find_patches();
-        add_lines(mesh_, edges_, ranks_, out_);
-        add_blocks(mesh_, volumes_, out_);
-        name_blocks(mesh_, volumes_, {}, out_);
+    Result<Structure> operator()(const Run& run) {
+        const std::array<std::function<void()>, 5> steps{
+            [&] { find_interfaces(); }, [&] { find_patches(); },
+            [&] { add_lines(mesh_, edges_, ranks_, out_); },
+            [&] { add_blocks(mesh_, volumes_, out_); },
+            [&] { name_blocks(mesh_, volumes_, {}, out_); }};
+        for (const auto& step : steps) {
+            if (run.stop.stop_requested())
+                return Error{ErrorCode::interrupted, "stopped on request", "structure"};
+            step();
+        }
         return std::move(out_);
     }
 
@@ -170,8 +178,12 @@ Point3 area_vector(const Mesh& mesh, std::uint32_t triangle) {
 } // namespace structure::detail
 
 Structure build_structure(const Mesh& mesh, const Volumes& volumes) {
+    return build_structure(mesh, volumes, Run{}).value();
+}
+
+Result<Structure> build_structure(const Mesh& mesh, const Volumes& volumes, const Run& run) {
     const StandardArithmetic guard;
-    return Builder(mesh, volumes)();
+    return Builder(mesh, volumes)(run);
 }
 
 } // namespace terrane

@@ -22,6 +22,7 @@
 #include <terrane/algorithms/tetgen/detail/protocol.hpp>
 #include <terrane/algorithms/tetgen/detail/shapes.hpp>
 #include <terrane/algorithms/tetgen/detail/sizes.hpp>
+#include <terrane/algorithms/tetgen/detail/ways.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/algorithms/tetrahedra/sharpest_angle.hpp>
@@ -281,40 +282,6 @@ const char* name_of(Mesher mesher) {
     return mesher == Mesher::gmsh ? "Gmsh" : "TetGen";
 }
 
-/// A way of asking a mesher; see TetgenInput.
-struct Way {
-    Mesher mesher = Mesher::tetgen;
-    bool keep_facets = true, improve = true, sort_points = true, parallel_delaunay = false;
-    bool embed_all = false; ///< all triangles are embedded in one region; for Gmsh only
-};
-
-/// Returns the ways of asking TetGen: first with all it can do, then without its last step, the
-/// improvement of shapes, then with facets split. The points are inserted along a curve, TetGen's
-/// default, and after that in their own order: version 1.5.0 ends in an assertion with the former
-/// for points as regular as those of two overlapping cubes.
-std::vector<Way> ways_of_tetgen(bool keep_facets) {
-    std::vector<Way> ways;
-    for (const bool sort_points : {true, false})
-        for (const bool keep : {true, false})
-            for (const bool improve : {true, false})
-                if (keep_facets || !keep)
-                    ways.push_back({Mesher::tetgen, keep, improve, sort_points, false});
-    return ways;
-}
-
-/// Returns the ways of asking Gmsh. Its newer algorithm is faster and better, but knows no facet
-/// with the same region on both sides. With all triangles in one region, and no vertices but those
-/// that it needs, the other one recovers what it does not as borders of blocks.
-std::vector<Way> ways_of_gmsh(const Volumes& volumes) {
-    std::vector<Way> ways;
-    const bool all_separate = std::all_of(volumes.of_sides.begin(), volumes.of_sides.end(),
-                                          [](const auto& sides) { return sides[0] != sides[1]; });
-    if (all_separate) ways.push_back({Mesher::gmsh, true, true, true, true});
-    ways.push_back({Mesher::gmsh, true, true, true, false});
-    ways.push_back({Mesher::gmsh, true, false, true, false, true});
-    return ways;
-}
-
 /// Asks meshers in different ways until one gives tetrahedra that hold for the checks.
 class Attempts {
 public:
@@ -327,11 +294,14 @@ public:
     Result<std::optional<TetrahedralMesh>> operator()(const std::vector<Way>& ways,
                                                       const std::filesystem::path& helper) {
         std::optional<Error> first;
+        bool endless = false; // with a bound on shapes
         for (const Way& way : ways) {
+            if (endless && way.bound_shapes) continue;
             auto result = attempt(way, helper);
             if (result) return std::optional(std::move(result).value());
             if (is_final(result.error())) return result.error();
             if (!first) first = result.error();
+            if (is_brief(way) && result.error().code == ErrorCode::timed_out) endless = true;
         }
         if (!failure_) failure_ = Error{first->code, "", ""};
         failure_->sentence += failure_->sentence.empty() ? "" : "; ";
@@ -344,7 +314,22 @@ public:
     [[nodiscard]] Error failure() const { return with_causes(*failure_, mesh_); }
 
 private:
+    /// Tells whether a way has a part of the time only, as it may never end.
+    [[nodiscard]] bool is_brief(const Way& way) const {
+        return way.mesher == Mesher::tetgen && way.keep_facets && way.bound_shapes && ratio_;
+    }
+
+    /// Returns the seconds that a way has.
+    [[nodiscard]] double limit_of(const Way& way) const {
+        if (!is_brief(way)) return time_limit_;
+        return std::min(time_limit_, std::max(constants.bounded_share * time_limit_,
+                                              constants.bounded_seconds_per_point *
+                                                  static_cast<double>(input_.points.size())));
+    }
+
     Result<TetrahedralMesh> attempt(const Way& way, const std::filesystem::path& helper) {
+        input_.time_limit = limit_of(way);
+        input_.radius_edge_ratio = way.bound_shapes ? ratio_ : std::nullopt;
         input_.mesher = way.mesher;
         input_.keep_facets = way.keep_facets;
         input_.improve = way.improve;
@@ -362,6 +347,10 @@ private:
             return Error{numbered.error().code, numbered.error().sentence, ""};
         result.value().mesher = name_of(way.mesher);
         if (failure_) result.value().failure = failure_->sentence;
+        if (!way.bound_shapes)
+            result.value().failure =
+                "with a bound on the ratio of circumradius to shortest edge it "
+                "gave no result in its time, so it was asked without";
         return result;
     }
 
@@ -379,6 +368,8 @@ private:
     TetgenInput& input_;
     const Scale& scale_;
     const Run& run_;
+    double time_limit_ = input_.time_limit;
+    std::optional<double> ratio_ = input_.radius_edge_ratio; ///< the bound on shapes
     std::optional<Error> failure_;
 };
 
@@ -389,7 +380,7 @@ Result<TetrahedralMesh> try_in_turn(const Mesh& mesh, const Volumes& volumes,
     if (options.mesher != Mesher::gmsh) {
         const auto helper = find_tetgen_helper(options.helper);
         if (!helper) return helper.error();
-        auto made = attempt(ways_of_tetgen(input.keep_facets), *helper);
+        auto made = attempt(ways_of_tetgen(input), *helper);
         if (!made) return made.error();
         if (*made) return std::move(**made);
         if (options.mesher == Mesher::tetgen || !sizes_for_gmsh(options)) return attempt.failure();

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <vector>
 
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/tetrahedra/bad_tetrahedra.hpp>
 #include <terrane/kernel/polynomials.hpp>
 
 namespace terrane {
@@ -71,70 +71,20 @@ std::size_t quality_bin(double quality) {
     return std::min(static_cast<std::size_t>(scaled), quality_bins - 1);
 }
 
-/// Finds out why tetrahedra are bad.
-class BadFinder {
-public:
-    explicit BadFinder(const TetrahedralMesh& mesh) : on_surface_(mesh.vertices.size(), false) {
-        for (const Triangle& face : mesh.faces) {
-            faces_.push_back(sorted(face));
-            for (const std::uint32_t v : face) on_surface_[v] = true;
-        }
-        std::sort(faces_.begin(), faces_.end());
-    }
-
-    void add(const std::array<std::uint32_t, 4>& t, const std::array<Point3, 4>& corners,
-             const std::array<double, 6>& angles,
-             std::array<BadTetrahedra, bad_causes>& bad) const {
-        const double least = *std::min_element(angles.begin(), angles.end());
-        if (least >= bad_angle) return;
-        BadTetrahedra& of_cause = bad[static_cast<std::size_t>(cause(t, corners, angles))];
-        if (of_cause.count++ > 0 && least >= of_cause.least) return;
-        of_cause.least = least;
-        const auto mean = [&](double Point3::*x) {
-            return corners[0].*x / 4 + corners[1].*x / 4 + corners[2].*x / 4 + corners[3].*x / 4;
-        };
-        of_cause.place = {mean(&Point3::x), mean(&Point3::y), mean(&Point3::z)};
-    }
-
-private:
-    static Triangle sorted(Triangle face) {
-        std::sort(face.begin(), face.end());
-        return face;
-    }
-
-    [[nodiscard]] BadCause cause(const std::array<std::uint32_t, 4>& t,
-                                 const std::array<Point3, 4>& corners,
-                                 const std::array<double, 6>& angles) const {
-        std::array<bool, 4> given{}; // per corner: the face opposite to it is on a surface
-        for (std::size_t k = 0; k < 4; ++k)
-            given[k] = std::binary_search(faces_.begin(), faces_.end(),
-                                          sorted({t[(k + 1) % 4], t[(k + 2) % 4], t[(k + 3) % 4]}));
-        for (std::size_t i = 0; i < edges.size(); ++i)
-            if (angles[i] < bad_angle && given[edges[i][2]] && given[edges[i][3]])
-                return BadCause::input_angle;
-        for (std::size_t k = 0; k < 4; ++k)
-            if (given[k] && least_angle({corners[(k + 1) % 4], corners[(k + 2) % 4],
-                                         corners[(k + 3) % 4]}) < bad_angle)
-                return BadCause::thin_triangle;
-        const bool between =
-            std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return on_surface_[v]; });
-        return between ? BadCause::gap : BadCause::other;
-    }
-
-    /// Returns the least angle of a triangle in degrees.
-    static double least_angle(const std::array<Point3, 3>& p) {
-        double least = 180;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vector3 u = from_to(p[k], p[(k + 1) % 3]), v = from_to(p[k], p[(k + 2) % 3]);
-            least = std::min(least,
-                             std::atan2(length(cross(u, v)), dot(u, v)) * 180 / std::numbers::pi);
-        }
-        return least;
-    }
-
-    std::vector<Triangle> faces_;  ///< corners ascending; sorted
-    std::vector<bool> on_surface_; ///< per node
-};
+/// Counts a tetrahedron among the bad ones, if it is one.
+void add_bad(const BadCauses& causes, const std::array<std::uint32_t, 4>& t,
+             const std::array<Point3, 4>& corners, const std::array<double, 6>& angles,
+             std::array<BadTetrahedra, bad_causes>& bad) {
+    const double least = *std::min_element(angles.begin(), angles.end());
+    if (least >= bad_angle) return;
+    BadTetrahedra& of_cause = bad[static_cast<std::size_t>(causes.of(t, corners, angles))];
+    if (of_cause.count++ > 0 && least >= of_cause.least) return;
+    of_cause.least = least;
+    const auto mean = [&](double Point3::*x) {
+        return corners[0].*x / 4 + corners[1].*x / 4 + corners[2].*x / 4 + corners[3].*x / 4;
+    };
+    of_cause.place = {mean(&Point3::x), mean(&Point3::y), mean(&Point3::z)};
+}
 
 std::size_t radius_edge_bin(double ratio) {
     const auto* const at =
@@ -214,7 +164,7 @@ TetrahedraShape shape_of(const TetrahedralMesh& mesh) {
     TetrahedraShape shape;
     Gather dihedral, radius_edge, sicn, ratio_of_means;
     shape.count = mesh.tetrahedra.size();
-    BadFinder bad(mesh);
+    const BadCauses causes(mesh);
     for (const auto& [a, b, c, d] : mesh.tetrahedra) {
         const auto& v = mesh.vertices;
         const std::array<Point3, 4> corners{v[a], v[b], v[c], v[d]};
@@ -223,7 +173,7 @@ TetrahedraShape shape_of(const TetrahedralMesh& mesh) {
             dihedral.add(angle);
             ++shape.dihedral_histogram[dihedral_bin(angle)];
         }
-        bad.add({a, b, c, d}, corners, angles, shape.bad);
+        add_bad(causes, {a, b, c, d}, corners, angles, shape.bad);
         sicn.add(inverse_condition(corners));
         ++shape.sicn_histogram[quality_bin(inverse_condition(corners))];
         ratio_of_means.add(mean_ratio(corners));

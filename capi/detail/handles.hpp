@@ -32,6 +32,7 @@
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/capi/arrangement.h>
 #include <terrane/capi/base.h>
+#include <terrane/capi/certificate.h>
 #include <terrane/capi/mesh.h>
 #include <terrane/capi/model.h>
 #include <terrane/capi/project.h>
@@ -131,11 +132,12 @@ struct terrane_mesh : terrane::capi::detail::Handle<terrane::capi::detail::Kind:
     terrane_mesh() = default;
     explicit terrane_mesh(const terrane::ConformingMesh& proven) :
         mesh(proven.mesh()), proof(proven) {}
-    terrane_mesh(terrane::RoundedMesh rounded, terrane::capi::detail::Origin made_from);
+    terrane_mesh(terrane::RoundedMesh made, terrane::capi::detail::Origin made_from);
 
     terrane::SharedMesh mesh{};
     std::optional<terrane::ConformingMesh> proof{};
-    terrane::capi::detail::Origin origin{}; ///< the arrangement that was rounded; null: none
+    std::optional<terrane::RoundedMesh> rounded{}; ///< what rounding made; it shares the mesh
+    terrane::capi::detail::Origin origin{};        ///< the arrangement that was rounded; null: none
     terrane_rounding_report report{};
     std::vector<terrane_contact> contacts{};
 };
@@ -222,10 +224,9 @@ struct terrane_holes : terrane::capi::detail::Handle<terrane::capi::detail::Kind
 struct terrane_layered : terrane::capi::detail::Handle<terrane::capi::detail::Kind::layered> {
     explicit terrane_layered(terrane::Layered made);
 
+    terrane::Layered layered;
     terrane_mesh mesh;
     std::vector<terrane_layer_report> reports{};
-    bool is_stack = false;
-    double step_width = 0;
 };
 
 struct terrane_tetrahedra : terrane::capi::detail::Handle<terrane::capi::detail::Kind::tetrahedra> {

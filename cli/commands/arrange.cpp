@@ -5,6 +5,7 @@
 
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/stages/blockwise.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/outputs.hpp>
 #include <terrane/cli/stages/page_output.hpp>
@@ -17,6 +18,7 @@ struct ArrangeCommand {
     FileOptions files;
     ArrangeSettings settings;
     ProofOptions proof;
+    BlockwiseOptions blockwise;
     bool keep_unverified = false;
 };
 
@@ -30,7 +32,8 @@ Examples:
   terrane arrange *.obj -o model.obj -o model.vtp --stats model.json
   terrane arrange horizons.ts faults.ts -o part.vtp --box 0,0,-3000,10000,10000,500
   terrane arrange horizons.ts -o part.vtp --within salt.ts --certificate part.json
-  terrane arrange --format ts --output-format obj - -o - < in.ts > out.obj)";
+  terrane arrange --format ts --output-format obj - -o - < in.ts > out.obj
+  terrane arrange large.obj -o model.pvtp --memory 4GiB)";
 
 /// Checks before any work is done that a certificate can be made, if one is wanted.
 Status check_certificate(const ArrangeCommand& command) {
@@ -41,6 +44,8 @@ Status check_certificate(const ArrangeCommand& command) {
 
 Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session) {
     Stopwatch total;
+    if (command.blockwise.digest)
+        return usage("it needs --memory; a certificate has the digest, too", "--digest");
     const FileOptions& files = command.files;
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
@@ -106,13 +111,17 @@ Command arrange_command(CLI::App& program) {
     app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
     add_msh(*app, options->files);
     add_proof(*app, options->proof);
+    add_blockwise(*app, options->blockwise);
     add_threads(*app, options->files);
     add_stats(*app, options->files);
     add_report(*app, options->files);
     app->footer(arrange_footer);
     return {app, [options] {
                 Session session(options->files.threads);
-                const auto status = arrange_files(*options, session);
+                const auto status =
+                    options->blockwise.wanted()
+                        ? arrange_blockwise(options->files, options->blockwise, session)
+                        : arrange_files(*options, session);
                 return status ? status.value() : fail(status.error());
             }};
 }

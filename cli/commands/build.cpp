@@ -241,8 +241,9 @@ private:
             return doubt(*built.model);
         case BuildStage::tetrahedra:
             add_statistics(statistics_, *built.filled, session_.times());
+            add_rounds(statistics_, built);
             page_.add_tetrahedra(*built.filled);
-            return journal_.say(filled_text(*built.filled, inputs_.unit));
+            return journal_.say(rounds_text(built) + filled_text(*built.filled, inputs_.unit));
         }
     }
 

@@ -22,6 +22,7 @@ Command build_command(CLI::App& program);
 Command check_command(CLI::App& program);
 Command completion_command(CLI::App& program);
 Command convert_command(CLI::App& program);
+Command ensemble_command(CLI::App& program);
 Command fill_command(CLI::App& program);
 Command improve_command(CLI::App& program);
 Command layer_command(CLI::App& program);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <filesystem>
 #include <memory>
+#include <vector>
 
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
@@ -7,6 +9,7 @@
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/stages/page_output.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
+#include <terrane/io/meshes/pvtp.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -20,7 +23,7 @@ constexpr auto convert_footer =
     R"(Nothing is arranged, merged or repaired: the same triangles with the same coordinates, bit by bit.
 Binary STL holds float32 only, which is said. Reads .ts .ml .obj .off .stl .ply .vtp .vtu .vtk .msh .dxf .grdecl
 .sticks, writes .vtp .vtk .obj .ts .ply .off .stl .msh .inp .mesh .poly .smesh, and the vertices of
-surfaces as .vs, their borders as .pl.
+surfaces as .vs, their borders as .pl. The pieces that a .pvtp file names become the mesh that they were made of.
 Grids (Irap .irap .gri, ZMAP+ .zmap, CPS-3 .cps3, ESRI .asc) become surfaces with holes where heights
 are missing, points (.xyz .csv .dat .txt .poi .pol, GOCAD .vs .pl) by Delaunay triangles without
 edges longer than --max-edge. Corner-point grids (.grdecl) become top, base, layers, faults and sides.
@@ -37,6 +40,20 @@ bool loses_digits(const Mesh& mesh) {
     return false;
 }
 
+/// Joins the pieces of a .pvtp file to the mesh that they were made of.
+Result<ExitStatus> join_pieces(const FileOptions& files, const std::vector<Output>& outputs,
+                               Session& session) {
+    if (!files.report.empty())
+        return usage("there is no page of a model in pieces; convert it first", "--report");
+    session.begin("read", Phase::idle);
+    const auto mesh = read_pvtp(files.inputs.front());
+    session.end_stage();
+    if (!mesh) return mesh.error();
+    const auto written = write_output(*mesh, outputs.front(), {.ascii = files.ascii}, session);
+    if (!written) return written.error();
+    return ExitStatus::done;
+}
+
 Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session) {
     Stopwatch total;
     FileOptions files = command.files;
@@ -44,6 +61,8 @@ Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session)
     files.outputs = {command.output};
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
+    if (std::filesystem::path(command.input).extension() == ".pvtp")
+        return join_pieces(files, *outputs, session);
     auto page = plan_page(files);
     if (!page) return page.error();
     const auto inputs = read_inputs(files, session);

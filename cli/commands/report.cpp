@@ -75,7 +75,7 @@ Result<ExitStatus> report_files(const ReportCommand& command, Session& session) 
 
     auto arranged = arrange_and_round(*inputs, command.settings, session, statistics);
     if (!arranged) return arranged.error();
-    print(summary_stream(files), summary(*inputs, *arranged));
+    say(summary_stream(files), summary(*inputs, *arranged));
     page->add_arranged(*arranged);
     const bool clean = arranged->rounded.report.clean;
     if (!clean) {
@@ -85,7 +85,7 @@ Result<ExitStatus> report_files(const ReportCommand& command, Session& session) 
         if (!model) return model.error();
         const auto leaks = judge_leaks(*arranged, *model, session);
         if (!leaks) return leaks.error();
-        print(summary_stream(files), model_text(*inputs, *model, *leaks));
+        say(summary_stream(files), model_text(*inputs, *model, *leaks));
         page->add_model(*model, *leaks);
         if (const auto sound = examine(*model, *inputs, false, statistics); !sound)
             return sound.error();

@@ -15,15 +15,14 @@
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t most_changes = 20; ///< printed of each kind
+constexpr std::size_t most_lines = 20; ///< printed of each kind
 
 /// Writes the first lines of a list, and how many follow.
 template <class List, class Line>
 std::string listed(const List& list, const Line& line) {
     std::string text;
-    for (std::size_t i = 0; i < std::min(list.size(), most_changes); ++i) text += line(list[i]);
-    if (list.size() > most_changes)
-        text += fmt::format("  and {} more\n", list.size() - most_changes);
+    for (std::size_t i = 0; i < std::min(list.size(), most_lines); ++i) text += line(list[i]);
+    if (list.size() > most_lines) text += fmt::format("  and {} more\n", list.size() - most_lines);
     return text;
 }
 

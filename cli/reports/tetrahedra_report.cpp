@@ -255,4 +255,29 @@ void add_statistics(Json& json, const FilledBlocks& filled, const StageTimes& ti
     json["tetrahedra"]["check"] = report_json(filled.report);
 }
 
+std::string rounds_text(const Built& built) {
+    std::string text;
+    for (std::size_t k = 0; k < built.rounds.size(); ++k) {
+        const RefinementRound& round = built.rounds[k];
+        text +=
+            fmt::format("  round {:<3} {:>9} triangles {:>9} tetrahedra {:>6} below {} degrees, "
+                        "{} of them apart from such angles of the surfaces{}\n",
+                        k, round.triangles, round.tetrahedra, round.bad, bad_angle, round.apart,
+                        k == built.kept_round ? "; taken" : "");
+    }
+    return text.empty() ? text : "smaller triangles where tetrahedra were bad:\n" + text;
+}
+
+void add_rounds(Json& json, const Built& built) {
+    if (built.rounds.empty()) return;
+    Json rounds = Json::array();
+    for (const RefinementRound& round : built.rounds)
+        rounds.push_back({{"triangles", round.triangles},
+                          {"tetrahedra", round.tetrahedra},
+                          {"bad", round.bad},
+                          {"apart", round.apart}});
+    json["tetrahedra"]["rounds"] = rounds;
+    json["tetrahedra"]["taken_round"] = built.kept_round;
+}
+
 } // namespace terrane::cli

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/tetgen/fill_blocks.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/cli/options/statistics.hpp>
@@ -27,5 +28,12 @@ std::string filled_text(const FilledBlocks& filled, const std::string& unit);
 
 /// Adds counts, volumes, checks and times of the tetrahedra.
 void add_statistics(Json& json, const FilledBlocks& filled, const StageTimes& times);
+
+/// Says what the rounds came to in which triangles became smaller where tetrahedra were bad; empty
+/// if there were none.
+std::string rounds_text(const Built& built);
+
+/// Adds these rounds to the statistics of the tetrahedra, which are there.
+void add_rounds(Json& json, const Built& built);
 
 } // namespace terrane::cli

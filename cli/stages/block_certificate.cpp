@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/block_certificate.hpp>
+#include <terrane/io/model_folder.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -22,15 +21,9 @@ struct WrittenFile {
 
 std::vector<WrittenFile> files_in(const std::filesystem::path& folder, const Model& model,
                                   const std::string& part_format) {
-    std::vector<WrittenFile> files{{folder / "model.json", "json"}, {folder / "result.vtp", "vtp"}};
-    const Structure& s = model.structure;
-    for (std::size_t b = 1; b < s.blocks.size(); ++b)
-        if (!s.blocks[b].interfaces.empty())
-            files.push_back(
-                {folder / fmt::format("blocks/block_{}.{}", b, part_format), part_format});
-    for (std::size_t i = 0; i < s.interfaces.size(); ++i)
-        files.push_back(
-            {folder / fmt::format("interfaces/interface_{}.{}", i, part_format), part_format});
+    std::vector<WrittenFile> files;
+    for (const ModelFile& file : model_files(model, part_format))
+        files.push_back({folder / file.path, file.format});
     return files;
 }
 

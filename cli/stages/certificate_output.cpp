@@ -137,21 +137,6 @@ bool is_certifiable(Format format, unsigned order) {
     return order == 1 && holds_tetrahedra(format) && format <= Format::medit;
 }
 
-std::string certified_format(Format format, bool ascii) {
-    switch (format) {
-    case Format::gocad:
-        return "ts";
-    case Format::stl:
-        return ascii ? "stl-ascii" : "stl";
-    default:
-        break;
-    }
-    for (const char* name :
-         {"obj", "off", "ply", "vtp", "vtu", "msh", "msh22", "inp", "mesh", "poly"})
-        if (format_named(name) == format) return name;
-    return "smesh";
-}
-
 void add_certificate(CLI::App& command, std::string& certificate) {
     command
         .add_option("--certificate", certificate,

@@ -59,9 +59,6 @@ Result<std::vector<InputRecord>> record_inputs(const std::string& certificate,
                                                const std::vector<std::string>& files,
                                                const Inputs& inputs);
 
-/// Returns the name of the format of an output in a certificate; `ascii` is for STL.
-std::string certified_format(Format format, bool ascii);
-
 /// Tells whether a certificate can be about tetrahedra in this format and of this order.
 bool is_certifiable(Format format, unsigned order);
 

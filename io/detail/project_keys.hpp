@@ -9,11 +9,11 @@
 
 namespace terrane::detail {
 
-inline constexpr std::array<std::string_view, 17> project_level{
+inline constexpr std::array<std::string_view, 18> project_level{
     "format",     "folder",  "threads",    "surfaces",           "unit",
     "column",     "fill",    "layers",     "volume_of_interest", "extend",
     "seal",       "seal_of", "min_volume", "max_move",           "improve",
-    "tetrahedra", "outputs"};
+    "tetrahedra", "outputs", "uncertainty"};
 inline constexpr std::array<std::string_view, 5> surfaces_level{"file", "objects", "name", "role",
                                                                 "depth"};
 inline constexpr std::array<std::string_view, 8> fill_level{
@@ -30,12 +30,21 @@ inline constexpr std::array<std::string_view, 2> polygon_level{"corners", "betwe
 inline constexpr std::array<std::string_view, 7> improve_level{
     "edge_length", "max_deviation", "edge_length_of", "layers_in_gaps",
     "smallest",    "resolution",    "dissolve"};
-inline constexpr std::array<std::string_view, 12> tetrahedra_level{
-    "edge_length", "max_volume", "quality",    "split_surfaces", "size_of",  "size_in",
-    "split",       "outside",    "time_limit", "mesher",         "optimise", "order"};
+inline constexpr std::array<std::string_view, 13> tetrahedra_level{
+    "edge_length", "max_volume", "quality", "split_surfaces", "size_of",    "size_in", "split",
+    "outside",     "time_limit", "mesher",  "optimise",       "refine_bad", "order"};
+inline constexpr unsigned most_rounds = 20; ///< of tetrahedra.refine_bad
 inline constexpr std::array<std::string_view, 3> meshers{"auto", "tetgen", "gmsh"};
 inline constexpr std::array<std::string_view, 5> outputs_level{"surfaces", "tetrahedra", "blocks",
                                                                "certificate", "gocad"};
+
+inline constexpr std::array<std::string_view, 8> uncertainty_level{
+    "surface", "group", "field", "shift", "tilt", "dip", "throw", "throw_reach"};
+inline constexpr std::array<std::string_view, 7> field_level{
+    "model", "range", "smoothness", "azimuth", "ratio", "sd", "map"};
+inline constexpr std::array<std::string_view, 4> covariance_models{"spherical", "exponential",
+                                                                   "gaussian", "matern"};
+inline constexpr std::array<double, 2> smoothnesses{1.5, 2.5};
 
 inline constexpr std::array<std::string_view, 5> units{"m", "km", "cm", "ft", "ftUS"};
 inline constexpr std::array<std::string_view, 3> roles{"horizon", "fault", "boundary"};

@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/io/page/contact_lines.hpp>
 #include <terrane/io/page/html.hpp>
 #include <terrane/io/page/page_bundle.hpp>
 #include <terrane/io/page/plots.hpp>
@@ -64,6 +65,7 @@ Status Page::add_check(std::span<const Surface> surfaces, const CheckReport& rep
     if (!wanted_) return Done{};
     add_mesh(SharedMesh(concatenate(surfaces)));
     add_flaws(findings_, report, surfaces);
+    add_contact_lines(scene_, **mesh_, report.contacts);
     set_verdict(report.clean() ? "The surfaces are conforming, by an exact check."
                                : "The surfaces are not conforming, by an exact check.",
                 report.clean());
@@ -85,6 +87,7 @@ void Page::add_rounded(const SharedMesh& mesh, const RoundingReport& report) {
     if (!wanted_) return;
     add_mesh(mesh);
     add_contacts(findings_, *mesh, report, labels_);
+    add_contact_lines(scene_, *mesh, report.contacts);
     set_verdict(report.clean ? "The mesh is conforming, by an exact check of its doubles."
                              : fmt::format("The mesh is not conforming: {} left.",
                                            counted(report.contacts.size(), "improper contact")),

@@ -128,10 +128,27 @@ void add_triangle_plots(Json& plots, const Mesh& mesh, const Mesh* before) {
 
 void add_tetrahedra_plots(Json& plots, const TetrahedraShape& shape) {
     if (shape.count == 0) return;
-    Json plot = plot_of("Dihedral angles of tetrahedra", axis("dihedral angle", "angle"), "angles",
-                        even_bounds(0, 180, dihedral_bins));
-    plot["series"].push_back({{"name", "angles"}, {"values", shape.dihedral_histogram}});
-    plots.push_back(std::move(plot));
+    const auto add = [&](Json plot, const char* counted, const auto& values) {
+        plot["series"].push_back({{"name", counted}, {"values", values}});
+        plots.push_back(std::move(plot));
+    };
+    add(plot_of("Dihedral angles of tetrahedra", axis("dihedral angle", "angle"), "angles",
+                even_bounds(0, 180, dihedral_bins)),
+        "angles", shape.dihedral_histogram);
+    const auto tenths = even_bounds(0, 1, quality_bins);
+    add(plot_of("SICN of tetrahedra (1: regular)", axis("signed inverse condition", "quality"),
+                "tetrahedra", tenths),
+        "tetrahedra", shape.sicn_histogram);
+    add(plot_of("SHAPE of tetrahedra (1: regular)", axis("mean ratio", "quality"), "tetrahedra",
+                tenths),
+        "tetrahedra", shape.mean_ratio_histogram);
+    Json bad = plot_of("Tetrahedra with an angle below 10 degrees", axis("cause", "name"),
+                       "tetrahedra", {});
+    bad.erase("bounds");
+    bad["names"] = {"input angle", "thin triangle", "gap", "other"}; // in the order of BadCause
+    std::array<std::size_t, bad_causes> counts{};
+    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = shape.bad[i].count;
+    add(std::move(bad), "tetrahedra", counts);
 }
 
 void add_gap_plot(Json& plots, const std::vector<FreeBorder>& borders) {

@@ -15,7 +15,8 @@ namespace terrane::page {
 /// Adds the triangles' q, smallest angles and edge lengths; with a mesh `before`, of both. A plot is {"title", "x": {"label", "measure"}, "y": likewise, "bounds": ends of the classes,
 /// "series": [{"name", "values"}]}.
 void add_triangle_plots(Json& plots, const Mesh& mesh, const Mesh* before);
-/// Adds the dihedral angles of tetrahedra, by classes.
+/// Adds the dihedral angles of tetrahedra, their SICN and mean ratios by classes, and how many are
+/// bad for each cause.
 void add_tetrahedra_plots(Json& plots, const TetrahedraShape& shape);
 /// Adds the lengths of free borders by their distance from the nearest surface.
 void add_gap_plot(Json& plots, const std::vector<FreeBorder>& borders);

@@ -73,6 +73,7 @@ void bind_layers(py::module_& module);
 void bind_tetrahedra(py::module_& module);
 void bind_verify(py::module_& module);
 void bind_project(py::module_& module);
+void bind_ensemble(py::module_& module);
 void bind_report(py::module_& module);
 
 } // namespace terrane::python

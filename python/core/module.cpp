@@ -34,6 +34,7 @@ PYBIND11_MODULE(_core, module) {
     bind_tetrahedra(module);
     bind_verify(module);
     bind_project(module);
+    bind_ensemble(module);
     bind_report(module);
     py::module_::import("atexit").attr("register")(py::cpp_function(&wait_for_abandoned));
 }

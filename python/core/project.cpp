@@ -16,6 +16,7 @@
 #include <terrane/io/project.hpp>
 #include <terrane/io/project_inputs.hpp>
 
+#include "built_handle.hpp"
 #include "handles.hpp"
 #include "model_handle.hpp"
 #include "surfaces.hpp"
@@ -26,35 +27,6 @@ namespace terrane::python {
 using namespace py::literals;
 
 namespace {
-
-/// The model of a project, and what it asks to write.
-struct BuiltHandle {
-    Project project;
-    ModelPointer model;
-    TetrahedraPointer tetrahedra;  ///< nullptr: the project asks for none
-    std::vector<Surface> surfaces; ///< after preprocessing, sealing and so on
-};
-
-Result<BuiltHandle> built(const Project& project, const Run& run) {
-    auto inputs = read_inputs(project, run);
-    if (!inputs) return inputs.error();
-    auto made = build(project, std::move(inputs->build), run);
-    if (!made) return made.error();
-    BuiltHandle handle{project, std::make_shared<ModelHandle>(ModelHandle{std::move(*made->model)}),
-                       nullptr, std::move(made->arranged.surfaces)};
-    ModelHandle& m = *handle.model;
-    if (!made->arranged.sealed && !m.model.borders.empty()) {
-        auto judged = judge_leaks(made->arranged, m.model.borders, {}, run);
-        if (judged) m.leaks = std::move(*judged);
-    }
-    m.sealed = std::move(made->arranged.sealed);
-    m.cut = std::move(made->arranged.cut);
-    m.merged = std::move(made->arranged.merged);
-    m.choice = std::move(made->arranged.choice);
-    m.rounding = made->arranged.rounded.report;
-    if (made->filled) handle.tetrahedra = std::make_shared<FilledBlocks>(std::move(*made->filled));
-    return handle;
-}
 
 /// Writes what the project asks for, under the names that the program gives.
 class ResultFolder {
@@ -147,10 +119,34 @@ std::shared_ptr<BuiltHandle> build_text(const py::bytes& text, const py::object&
                        "certificates are made by the program: terrane build",
                        from_text(source) + ": outputs.certificate"}};
     return std::make_shared<BuiltHandle>(
-        run_stage(how, [project](const Run& run) { return built(project, run); }));
+        run_stage(how, [project](const Run& run) -> Result<BuiltHandle> {
+            auto inputs = read_inputs(project, run);
+            if (!inputs) return inputs.error();
+            return built_of(project, std::move(inputs->build), true, run);
+        }));
 }
 
 } // namespace
+
+Result<BuiltHandle> built_of(const Project& project, BuildInput input, bool judges_leaks,
+                             const Run& run) {
+    auto made = build(project, std::move(input), run);
+    if (!made) return made.error();
+    BuiltHandle handle{project, std::make_shared<ModelHandle>(ModelHandle{std::move(*made->model)}),
+                       nullptr, std::move(made->arranged.surfaces)};
+    ModelHandle& m = *handle.model;
+    if (judges_leaks && !made->arranged.sealed && !m.model.borders.empty()) {
+        auto judged = judge_leaks(made->arranged, m.model.borders, {}, run);
+        if (judged) m.leaks = std::move(*judged);
+    }
+    m.sealed = std::move(made->arranged.sealed);
+    m.cut = std::move(made->arranged.cut);
+    m.merged = std::move(made->arranged.merged);
+    m.choice = std::move(made->arranged.choice);
+    m.rounding = made->arranged.rounded.report;
+    if (made->filled) handle.tetrahedra = std::make_shared<FilledBlocks>(std::move(*made->filled));
+    return handle;
+}
 
 void bind_project(py::module_& module) {
     using Pointer = std::shared_ptr<BuiltHandle>;

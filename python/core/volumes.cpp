@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include <terrane/algorithms/structure/structure.hpp>
+#include <terrane/algorithms/structure/build_structure.hpp>
 #include <terrane/algorithms/structure/structure_meshes.hpp>
 #include <terrane/algorithms/volumes/point_location.hpp>
 #include <terrane/algorithms/volumes/region_points.hpp>
@@ -124,8 +124,8 @@ void bind_volumes(py::module_& module) {
     module.def(
         "structure",
         [](const MeshPointer& mesh, const VolumesPointer& volumes, const HowToRun& how) {
-            return to_dict(run_plainly(how, [mesh, volumes](const Run&) {
-                return build_structure(mesh->mesh, *volumes);
+            return to_dict(run_stage(how, [mesh, volumes](const Run& run) {
+                return build_structure(mesh->mesh, *volumes, run);
             }));
         },
         "mesh"_a, "volumes"_a, "how"_a);

@@ -16,20 +16,23 @@ stages take ``threads=`` and ``progress=``, run without the GIL, and stop at a K
 import os as _os
 
 from . import _core
-from ._arrangement import Arrangement, RoundedMesh, RoundingReport, arrange, check, regions, round
+from ._arrangement import Arrangement, RoundedMesh, arrange, check, regions, round
 from ._arrays import IndexLists, SurfaceInfo
 from ._blocks import (NO_INDEX, BlockParts, Corner, InterfaceParts, Line, Patch, Structure, Volumes,
                       structure, volumes)
+from ._ensemble import BlockOutcome, Ensemble, Failure, Juxtaposed, ensemble
 from ._errors import ERROR_CODES, Error, OutOfMemory
 from ._files import read, save
 from ._holes import BorderLoop, Filled, FilledHole, FillReport, fill, holes
 from ._layers import Layered, LayerReport, OutOfOrder, layers
 from ._mesh import CheckReport, Contact, Mesh, Region, Regions, mesh
-from ._model import Juxtaposition, Leak, Model, Relation, model
+from ._model import Model, model
 from ._parts import Block, Blocks, Interface
 from ._project import Built, build
 from ._quality import Improved, distance, improve
+from ._relations import Juxtaposition, Leak, Relation
 from ._report import HAS_REPORTS
+from ._rounding import RoundingReport
 from ._sealing import (ClosedGap, OpenGap, SealAdvice, SealChange, Sealed, SealTrial, seal,
                        suggest_seal)
 from ._surface import ROLES, Frame, Surface, as_surface, as_surfaces
@@ -47,15 +50,15 @@ for _name in ("tetgen", "gmsh"):
 __version__: str = _core.version
 
 __all__ = [
-    "Arrangement", "Block", "BlockParts", "Blocks", "BorderLoop", "Built", "CheckReport", "ClosedGap",
-    "Contact", "Corner", "ERROR_CODES", "Error", "FillReport", "Filled", "FilledHole", "Frame",
-    "HAS_REPORTS", "Improved", "IndexLists", "Interface", "InterfaceParts", "Juxtaposition", "LayerReport", "Layered",
+    "Arrangement", "Block", "BlockOutcome", "BlockParts", "Blocks", "BorderLoop", "Built", "CheckReport", "ClosedGap",
+    "Contact", "Corner", "ERROR_CODES", "Ensemble", "Error", "Failure", "FillReport", "Filled", "FilledHole", "Frame",
+    "HAS_REPORTS", "Improved", "IndexLists", "Interface", "InterfaceParts", "Juxtaposed", "Juxtaposition", "LayerReport", "Layered",
     "Leak", "Line", "Mesh", "Model", "NO_INDEX", "OpenBorder", "OpenGap", "OutOfMemory", "OutOfOrder",
     "Patch", "ROLES", "Region", "RegionVolume", "Regions", "Relation", "RoundedMesh", "RoundingReport",
     "RuleViolation", "SealAdvice", "SealChange", "SealTrial", "Sealed", "Structure", "Surface",
     "SurfaceCut", "SurfaceInfo", "Tetrahedra", "Verdict", "VerifiedFile", "Violation",
     "VolumeOfInterest", "Volumes", "arrange", "as_surface", "as_surfaces", "box", "build", "check",
-    "closed", "distance", "extend", "fill", "holes", "improve", "layers", "mesh", "model", "polygon",
+    "closed", "distance", "ensemble", "extend", "fill", "holes", "improve", "layers", "mesh", "model", "polygon",
     "read", "regions", "rotated_box", "round", "save", "seal", "structure", "suggest_seal",
     "tetrahedralize", "verify", "volume_of_interest", "volumes",
 ]

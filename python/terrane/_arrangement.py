@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from fractions import Fraction
-from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from ._errors import bad_option
 from ._mesh import CheckReport, Contact, Mesh, Path, Region, Regions, mesh_of, require_conforming
 from ._report import facts
 from ._results import Result, counted
+from ._rounding import RoundingReport, rounding_report
 from ._run import how
 from ._surface import Surface, as_surfaces, parts_of_surfaces, surface_of_parts
 
@@ -28,6 +29,15 @@ class Arrangement(Result):
 
     Input vertices and triangles are numbered through all surfaces. Pickling keeps the surfaces and makes the
     arrangement again, which gives the same one.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> terrane.arrange([flat, wall])
+    <Arrangement: 2 surfaces, 10 vertices, 13 triangles, 2 intersection edges>
     """
 
     __slots__ = ("_core", "_made_by", "_nearest")
@@ -109,6 +119,18 @@ class Arrangement(Result):
         """Return how a vertex is made of input vertices: its kind, and their numbers.
 
         Kinds are "input", "line_plane" (2 and 3 vertices), "three_planes" (3, 3 and 3) and "line_line" (2 and 2).
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+        ...     [0, 2, 3]], "flat", "horizon")
+        >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+        >>> exact = terrane.arrange([flat, wall])
+        >>> exact.construction(0)
+        ('input', (0,))
+        >>> exact.construction(len(exact.vertices) - 1)
+        ('line_plane', (2, 3, 4, 5, 6))
         """
         v = as_count(vertex, "vertex", 0, len(self._core.points) - 1)
         kind, numbers = self._core.construction(v)
@@ -153,7 +175,12 @@ class Arrangement(Result):
                                  facts("Arrangement.report", [s.name for s in surfaces], {}), how(threads, None))
 
     def to_pyvista(self) -> Any:
-        """Return a ``pyvista.PolyData`` of the nearest doubles. Needs PyVista."""
+        """Return a ``pyvista.PolyData`` of the nearest doubles. Needs PyVista.
+
+        Examples
+        --------
+        >>> terrane.arrange([flat, wall]).to_pyvista()  # doctest: +SKIP
+        """
         from ._interop import polydata
         return polydata(self.vertices, self.triangles, {"surface": self.surfaces_of.first})
 
@@ -217,49 +244,6 @@ def _sealed_again(surfaces: List[Surface], distance: float, distance_of: Dict[st
     return seal(surfaces, distance, distance_of=distance_of).arrangement
 
 
-class RoundingReport(NamedTuple):
-    """The moves, contacts and losses of rounding; distances in the unit of the input.
-
-    Attributes
-    ----------
-    clean : bool
-        Whether the doubles are a conforming mesh, by exact check.
-    surface_deviation : float
-        No point of the mesh is farther from the triangles of the input that it is part of, and no point of these is
-        farther from their parts, except for what vanished; at most `max_allowed`.
-    lost_length : float
-        Points of slivers that became narrower than doubles, and vanished, are at most so much farther from the rest.
-    max_move : float
-        No vertex is farther from its exact point.
-    arranged_again : bool
-        Whether exact points are those in which surfaces cross after they were moved, by at most `surface_deviation`.
-    deviation : float
-        What a certificate states of all points, vanished slivers included.
-    """
-
-    clean: bool
-    rounds: int
-    naive_contacts: int
-    contacts: List[Contact]
-    surface_deviation: float
-    max_allowed: float
-    lost_length: float
-    max_move: float
-    arranged_again: bool
-    deviation: float
-    moved_input_vertices: int
-    merged_vertices: int
-    collapsed_triangles: int
-    lost_regions: List[Tuple[int, int, int]]
-    vanished: UInt32Array
-
-
-def rounding_report(values: Dict[str, Any]) -> RoundingReport:
-    """Return the report of the extension module with names."""
-    named: Dict[str, Any] = {**values, "contacts": [Contact(*c) for c in values["contacts"]]}
-    return RoundingReport(**named)
-
-
 class RoundedMesh(Result):
     """The mesh of doubles of an arrangement, its regions, and the report of rounding.
 
@@ -271,6 +255,16 @@ class RoundedMesh(Result):
         Regions of the mesh; ``mesh.regions_of`` refers to them.
     report : RoundingReport
         Moves, contacts and losses.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> rounded = terrane.round(terrane.arrange([flat, wall]))
+    >>> rounded
+    <RoundedMesh: conforming, 13 triangles, 3 regions, moved by 0 at most>
     """
 
     __slots__ = ("mesh", "regions", "report")
@@ -287,21 +281,48 @@ class RoundedMesh(Result):
 
     def save(self, path: Path, format: Optional[str] = None, *, keep_unverified: bool = False,
              ascii: bool = False, compress: bool = True) -> None:
-        """Write the mesh as ``terrane arrange`` does: only if it is clean, or with `keep_unverified`."""
+        """Write the mesh as ``terrane arrange`` does: only if it is clean, or with `keep_unverified`.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+        ...     [0, 2, 3]], "flat", "horizon")
+        >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+        >>> rounded = terrane.round(terrane.arrange([flat, wall]))
+        >>> rounded.save("model.obj")
+        >>> len(terrane.read("model.obj"))
+        2
+        """
         if not keep_unverified:
             require_conforming(self.clean, len(self.report.contacts))
         self.mesh.save(path, format, ascii=ascii, compress=compress)
 
     def to_pyvista(self) -> Any:
-        """Return a ``pyvista.PolyData`` with the array ``surface``. Needs PyVista."""
+        """Return a ``pyvista.PolyData`` with the array ``surface``. Needs PyVista.
+
+        Examples
+        --------
+        >>> rounded.to_pyvista()  # doctest: +SKIP
+        """
         return self.mesh.to_pyvista()
 
     def to_meshio(self) -> Any:
-        """Return a ``meshio.Mesh`` with the array ``surface``. Needs meshio."""
+        """Return a ``meshio.Mesh`` with the array ``surface``. Needs meshio.
+
+        Examples
+        --------
+        >>> rounded.to_meshio()  # doctest: +SKIP
+        """
         return self.mesh.to_meshio()
 
     def plot(self, **options: Any) -> Any:
-        """Show the mesh in a window or notebook. Needs PyVista."""
+        """Show the mesh in a window or notebook. Needs PyVista.
+
+        Examples
+        --------
+        >>> rounded.plot()  # doctest: +SKIP
+        """
         return self.mesh.plot(**options)
 
     def _state(self) -> Tuple[Any, ...]:

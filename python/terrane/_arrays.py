@@ -168,14 +168,35 @@ class IndexLists:
         return out
 
     def contain(self, index: int) -> npt.NDArray[np.bool_]:
-        """Return, per list, whether it has this index."""
+        """Return, per list, whether it has this index.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+        ...     [0, 2, 3]], "flat", "horizon")
+        >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+        >>> exact = terrane.arrange([flat, wall])
+        >>> int(exact.surfaces_of.contain(1).sum())
+        7
+        """
         hits = np.concatenate([[0], np.cumsum(self.values == index)])
         counts = hits[self.offsets[1:]] - hits[self.offsets[:-1]]
         return np.asarray(counts > 0)
 
 
 class SurfaceInfo(NamedTuple):
-    """The name and the role of a surface of a mesh."""
+    """The name and the role of a surface of a mesh.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> terrane.mesh([flat, wall]).surfaces
+    [SurfaceInfo(name='flat', role='horizon'), SurfaceInfo(name='wall', role='fault')]
+    """
 
     name: str
     role: str

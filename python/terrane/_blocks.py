@@ -29,6 +29,15 @@ class Volumes(Result):
         Per triangle the volume in front of it (from where its corners are counterclockwise) and the one behind.
     measures : ndarray, shape (n,), float64
         Per volume the double nearest to its exact measure, cubic unit of the input; [0] is that of all blocks.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> m.volumes.measures.tolist()
+    [48.0, 16.0, 32.0]
     """
 
     __slots__ = ("_core", "_source")
@@ -86,6 +95,15 @@ class Volumes(Result):
         """Return the volume that contains each point, exactly; the volumes are those of a mesh.
 
         A point on a triangle counts to the side of greater x, then y, then z.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+        ...     [0, 2, 3]], "flat", "horizon")
+        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> m.volumes.locate([[1, 1, -0.5], [9, 9, 9]]).tolist()
+        [1, 0]
         """
         mesh = self._mesh()
         places = as_points(points, "points")
@@ -139,7 +157,18 @@ def volumes(source: Any, *, threads: Optional[int] = None, progress: Any = None)
 
 
 class Corner(NamedTuple):
-    """A vertex at which lines end."""
+    """A vertex at which lines end.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> corner = m.structure.corners[0]
+    >>> corner.vertex, len(corner.lines)
+    (8, 3)
+    """
 
     vertex: int
     lines: Tuple[int, ...]
@@ -150,6 +179,15 @@ class Line(NamedTuple):
 
     ``kind`` is "free border", "boundary line", "cutoff line", "branch line" or "intersection curve"; ``vertices``
     are those of the mesh, in order; ``corners`` are those at its ends, or `NO_INDEX` for a closed line.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> sorted({line.kind for line in m.structure.lines})
+    ['boundary line']
     """
 
     kind: str
@@ -161,7 +199,18 @@ class Line(NamedTuple):
 
 
 class Patch(NamedTuple):
-    """A connected part of an interface."""
+    """A connected part of an interface.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> patch = m.structure.patches[0]
+    >>> patch.interface, patch.area
+    (0, 4.0)
+    """
 
     interface: int
     triangles: UInt32Array
@@ -170,7 +219,18 @@ class Patch(NamedTuple):
 
 
 class InterfaceParts(NamedTuple):
-    """The triangles between the same two volumes that belong to the same surfaces."""
+    """The triangles between the same two volumes that belong to the same surfaces.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> part = m.structure.interfaces[0]
+    >>> part.volumes, part.surfaces, part.area
+    ((0, 1), (6,), 4.0)
+    """
 
     volumes: Tuple[int, int]
     surfaces: Tuple[int, ...]
@@ -180,7 +240,18 @@ class InterfaceParts(NamedTuple):
 
 
 class BlockParts(NamedTuple):
-    """A block by the surfaces around it; surfaces, interfaces and volumes by number."""
+    """A block by the surfaces around it; surfaces, interfaces and volumes by number.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> block = m.structure.blocks[1]
+    >>> block.name, block.above, block.volume
+    ('below flat', (0,), 16.0)
+    """
 
     name: str
     unit: str
@@ -204,6 +275,15 @@ class Structure(Result):
         Of `Corner`, `Line`, `Patch`, `InterfaceParts`, `BlockParts`; blocks[0] is the outside.
     patch_of, interface_of : ndarray, uint32
         Per triangle.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> m.structure
+    <Structure: 2 blocks, 11 interfaces, 11 patches, 20 lines, 12 corners>
     """
 
     __slots__ = ("corners", "lines", "patches", "interfaces", "blocks", "patch_of", "interface_of")

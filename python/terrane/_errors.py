@@ -46,7 +46,14 @@ class Error(Exception):
 
 
 class OutOfMemory(Error, MemoryError):
-    """Not enough memory: a `MemoryError` that is a `terrane.Error` as well."""
+    """Not enough memory: a `MemoryError` that is a `terrane.Error` as well.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> issubclass(terrane.OutOfMemory, MemoryError)
+    True
+    """
 
 
 def exception_of(code: int, sentence: str, place: str) -> Error:

@@ -24,6 +24,17 @@ class BorderLoop(NamedTuple):
 
     ``vertices`` are those of the surface, in order; ``area`` is that of the largest projection; ``throw`` and ``width``
     tell holes from gaps torn by faults.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> from itertools import product
+    >>> v = [(x, y, x * y % 3 / 4) for x, y in product(range(5), repeat=2)]
+    >>> q = [5 * x + y for x, y in product(range(4), repeat=2) if (x, y) != (2, 2)]
+    >>> holed = terrane.Surface(v, [t for a in q for t in ((a, a + 5, a + 6), (a, a + 6, a + 1))], "holed")
+    >>> loop = terrane.holes(holed)[0]
+    >>> loop.kind, len(loop.vertices), round(loop.area, 3)
+    ('hole', 4, 1.016)
     """
 
     kind: str
@@ -55,7 +66,19 @@ def holes(surface: Any, *, gap_slope: float = 0.25, outer: bool = False, threads
 
 
 class FillReport(NamedTuple):
-    """How a hole was filled, and how far that can be trusted; lengths in the unit of the surface."""
+    """How a hole was filled, and how far that can be trusted; lengths in the unit of the surface.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> from itertools import product
+    >>> v = [(x, y, x * y % 3 / 4) for x, y in product(range(5), repeat=2)]
+    >>> q = [5 * x + y for x, y in product(range(4), repeat=2) if (x, y) != (2, 2)]
+    >>> holed = terrane.Surface(v, [t for a in q for t in ((a, a + 5, a + 6), (a, a + 6, a + 1))], "holed")
+    >>> report = terrane.fill(holed).holes[0].report
+    >>> report.interpolated, report.model.split(',')[0]
+    (0, 'trend of degree 1')
+    """
 
     data: int
     interpolated: int
@@ -66,7 +89,19 @@ class FillReport(NamedTuple):
 
 
 class FilledHole(NamedTuple):
-    """A hole, from 1; its report where it was filled, or the reason why not."""
+    """A hole, from 1; its report where it was filled, or the reason why not.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> from itertools import product
+    >>> v = [(x, y, x * y % 3 / 4) for x, y in product(range(5), repeat=2)]
+    >>> q = [5 * x + y for x, y in product(range(4), repeat=2) if (x, y) != (2, 2)]
+    >>> holed = terrane.Surface(v, [t for a in q for t in ((a, a + 5, a + 6), (a, a + 6, a + 1))], "holed")
+    >>> hole = terrane.fill(holed).holes[0]
+    >>> hole.number, hole.border.kind, hole.refused
+    (1, 'hole', '')
+    """
 
     number: int
     border: BorderLoop
@@ -86,6 +121,16 @@ class Filled(Result):
     hole_of : ndarray, shape (m,), int32
         Per triangle the number of its hole, or 0.
     holes : list of FilledHole
+
+    Examples
+    --------
+    >>> import terrane
+    >>> from itertools import product
+    >>> v = [(x, y, x * y % 3 / 4) for x, y in product(range(5), repeat=2)]
+    >>> q = [5 * x + y for x, y in product(range(4), repeat=2) if (x, y) != (2, 2)]
+    >>> holed = terrane.Surface(v, [t for a in q for t in ((a, a + 5, a + 6), (a, a + 6, a + 1))], "holed")
+    >>> terrane.fill(holed)
+    <Filled: 1 of 1 hole, 2 new triangles>
     """
 
     __slots__ = ("surface", "given_vertices", "given_triangles", "expected_error", "hole_of", "holes", "_work", "_options")
@@ -103,7 +148,19 @@ class Filled(Result):
         self.holes = found
 
     def save(self, path: Path, format: Optional[str] = None) -> None:
-        """Write the surface."""
+        """Write the surface.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> from itertools import product
+        >>> v = [(x, y, x * y % 3 / 4) for x, y in product(range(5), repeat=2)]
+        >>> q = [5 * x + y for x, y in product(range(4), repeat=2) if (x, y) != (2, 2)]
+        >>> holed = terrane.Surface(v, [t for a in q for t in ((a, a + 5, a + 6), (a, a + 6, a + 1))], "holed")
+        >>> terrane.fill(holed).save("filled.ts")
+        >>> len(terrane.read("filled.ts")[0].triangles)
+        32
+        """
         self.surface.save(path, format)
 
     def report(self, path: Path, *, threads: Optional[int] = None) -> None:
@@ -133,14 +190,24 @@ class Filled(Result):
                             facts("Filled.report", [self.surface.name], self._options), run)
 
     def to_pyvista(self) -> Any:
-        """Return a ``pyvista.PolyData`` with ``hole`` and ``expected_error``. Needs PyVista."""
+        """Return a ``pyvista.PolyData`` with ``hole`` and ``expected_error``. Needs PyVista.
+
+        Examples
+        --------
+        >>> terrane.fill(holed).to_pyvista()  # doctest: +SKIP
+        """
         from ._interop import polydata
         made = polydata(self.surface.vertices, self.surface.triangles, {"hole": self.hole_of})
         made.point_data["expected_error"] = np.array(self.expected_error)
         return made
 
     def to_meshio(self) -> Any:
-        """Return a ``meshio.Mesh`` with ``hole`` and ``expected_error``. Needs meshio."""
+        """Return a ``meshio.Mesh`` with ``hole`` and ``expected_error``. Needs meshio.
+
+        Examples
+        --------
+        >>> terrane.fill(holed).to_meshio()  # doctest: +SKIP
+        """
         from ._interop import meshio_mesh
         made = meshio_mesh(self.surface.vertices, {"triangle": self.surface.triangles},
                            {"hole": [np.array(self.hole_of)]})
@@ -148,7 +215,12 @@ class Filled(Result):
         return made
 
     def plot(self, **options: Any) -> Any:
-        """Show the expected error. Needs PyVista."""
+        """Show the expected error. Needs PyVista.
+
+        Examples
+        --------
+        >>> terrane.fill(holed).plot()  # doctest: +SKIP
+        """
         return self.to_pyvista().plot(**{"scalars": "expected_error", **options})
 
     def _state(self) -> Tuple[Any, ...]:

@@ -6,17 +6,29 @@ from __future__ import annotations
 from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 from . import _core
-from ._arrangement import RoundingReport, as_move, rounding_report
+from ._arrangement import as_move
 from ._arrays import Point, as_number
 from ._errors import Error, bad_option
 from ._mesh import Mesh, Path
 from ._results import Result, counted
+from ._rounding import RoundingReport, rounding_report
 from ._run import how
 from ._surface import Surface, as_surfaces, parts_of_surfaces
 
 
 class LayerReport(NamedTuple):
-    """What became of one horizon; areas in squared units."""
+    """What became of one horizon; areas in squared units.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
+    >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
+    >>> report = stack.reports[0]
+    >>> report.surface, report.taken, round(report.taken_area, 3)
+    (0, 4, 8.0)
+    """
 
     surface: int
     dropped: int
@@ -29,7 +41,17 @@ class LayerReport(NamedTuple):
 
 
 class OutOfOrder(NamedTuple):
-    """Two triangles over one place in the wrong order."""
+    """Two triangles over one place in the wrong order.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
+    >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
+    >>> stack.out_of_order
+    []
+    """
 
     upper: int
     lower: int
@@ -50,6 +72,17 @@ class Layered(Result):
         Over strips of this width along steps the order is not claimed; unit of the input.
     is_stack : bool
         Whether exact checks have shown all that. Use the mesh only then.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
+    >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
+    >>> stack
+    <Layered: 2 layers, in order, 12 triangles>
+    >>> stack.is_stack
+    True
     """
 
     __slots__ = ("mesh", "reports", "step_width", "is_stack", "out_of_order", "rounding", "_report")
@@ -64,25 +97,61 @@ class Layered(Result):
         self.rounding: RoundingReport = rounding_report(report["rounding"])
 
     def surfaces(self) -> List[Surface]:
-        """Return the horizons as surfaces of their own."""
+        """Return the horizons as surfaces of their own.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
+        >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
+        >>> stack.surfaces()
+        [<Surface 'top': unknown, 9 vertices, 8 triangles>, <Surface 'flat': unknown, 9 vertices, 8 triangles>]
+        """
         return self.mesh.split()
 
     def save(self, path: Path, format: Optional[str] = None, **options: Any) -> None:
-        """Write the mesh as ``terrane layer`` does: only if `is_stack`."""
+        """Write the mesh as ``terrane layer`` does: only if `is_stack`.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
+        >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
+        >>> stack.save("stack.vtp")
+        >>> len(terrane.read("stack.vtp"))
+        2
+        """
         if not self.is_stack:
             raise Error("improper_contact", "the layers are not in order in doubles; nothing is written")
         self.mesh.save(path, format, **options)
 
     def to_pyvista(self) -> Any:
-        """Return a ``pyvista.PolyData``. Needs PyVista."""
+        """Return a ``pyvista.PolyData``. Needs PyVista.
+
+        Examples
+        --------
+        >>> stack.to_pyvista()  # doctest: +SKIP
+        """
         return self.mesh.to_pyvista()
 
     def to_meshio(self) -> Any:
-        """Return a ``meshio.Mesh``. Needs meshio."""
+        """Return a ``meshio.Mesh``. Needs meshio.
+
+        Examples
+        --------
+        >>> stack.to_meshio()  # doctest: +SKIP
+        """
         return self.mesh.to_meshio()
 
     def plot(self, **options: Any) -> Any:
-        """Show the mesh. Needs PyVista."""
+        """Show the mesh. Needs PyVista.
+
+        Examples
+        --------
+        >>> stack.plot()  # doctest: +SKIP
+        """
         return self.mesh.plot(**options)
 
     def _state(self) -> Tuple[Any, ...]:

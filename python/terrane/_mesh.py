@@ -118,18 +118,33 @@ class Mesh(Result):
         _core.write_mesh(self._core, os.fspath(path), format, ascii, compress, how(1, None))
 
     def to_pyvista(self) -> Any:
-        """Return a ``pyvista.PolyData`` with the array ``surface``. Needs PyVista."""
+        """Return a ``pyvista.PolyData`` with the array ``surface``. Needs PyVista.
+
+        Examples
+        --------
+        >>> terrane.mesh([flat, wall]).to_pyvista()  # doctest: +SKIP
+        """
         from ._interop import polydata
         return polydata(self.vertices, self.triangles, {"surface": self.surfaces_of.first})
 
     def to_meshio(self) -> Any:
-        """Return a ``meshio.Mesh`` with the array ``surface``. Needs meshio."""
+        """Return a ``meshio.Mesh`` with the array ``surface``. Needs meshio.
+
+        Examples
+        --------
+        >>> terrane.mesh([flat, wall]).to_meshio()  # doctest: +SKIP
+        """
         from ._interop import meshio_mesh
         return meshio_mesh(self.vertices, {"triangle": self.triangles},
                            {"surface": [self.surfaces_of.first.astype(np.int32)]})
 
     def plot(self, **options: Any) -> Any:
-        """Show the mesh in a window or notebook. Needs PyVista, which gets the options."""
+        """Show the mesh in a window or notebook. Needs PyVista, which gets the options.
+
+        Examples
+        --------
+        >>> terrane.mesh([flat, wall]).plot()  # doctest: +SKIP
+        """
         return self.to_pyvista().plot(**{"scalars": "surface", "show_edges": True, **options})
 
     def _state(self) -> Tuple[Any, ...]:
@@ -156,7 +171,18 @@ class Mesh(Result):
 
 
 class Contact(NamedTuple):
-    """Two triangles that meet other than in a shared vertex or edge."""
+    """Two triangles that meet other than in a shared vertex or edge.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> contact = terrane.check([flat, wall]).contacts[0]
+    >>> contact.kind, contact.triangles
+    ('crossing', (0, 2))
+    """
 
     triangles: Tuple[int, int]
     kind: str
@@ -164,7 +190,19 @@ class Contact(NamedTuple):
 
 
 class Region(NamedTuple):
-    """A part of a surface that hangs together without crossing an intersection edge."""
+    """A part of a surface that hangs together without crossing an intersection edge.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> rounded = terrane.round(terrane.arrange([flat, wall]))
+    >>> region = rounded.regions[0]
+    >>> region.surface, region.triangles, region.area
+    (0, 3, 12.0)
+    """
 
     surface: int
     first_triangle: int
@@ -182,6 +220,16 @@ class Regions(Result):
         Per triangle its region in each of its surfaces.
     regions : list of Region
         By surface, then by lowest triangle; areas in squared units of the input.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> rounded = terrane.round(terrane.arrange([flat, wall]))
+    >>> terrane.regions(rounded)
+    <Regions: 3 regions>
     """
 
     __slots__ = ("regions_of", "regions")
@@ -228,6 +276,16 @@ class CheckReport(Result):
         Edges with more than two triangles of one surface (no flaw by itself).
     free_border_edges, components : int
         Edges with one triangle of a surface; connected parts.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> report = terrane.check([flat, wall])
+    >>> report.clean, len(report.contacts), report.free_border_edges
+    (False, 2, 7)
     """
 
     __slots__ = ("_values",)

@@ -4,63 +4,28 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrangement import RoundingReport, as_move, rounding_report
+from ._arrangement import as_move
 from ._arrays import Point, as_count, as_number
 from ._blocks import Structure, Volumes
 from ._errors import Error, bad_option
 from ._mesh import Mesh, Path
 from ._parts import Block, Blocks, Interface
+from ._relations import Juxtaposition, Leak, Relation
 from ._report import facts
 from ._results import Result, counted
+from ._rounding import RoundingReport, rounding_report
 from ._run import how
 from ._surface import as_surfaces, parts_of_surfaces
 from ._volume_of_interest import as_boundary
 
 if TYPE_CHECKING:
     from ._tetrahedra import Tetrahedra
-
-
-class Leak(NamedTuple):
-    """Where a surface ends near another one without meeting it.
-
-    ``from_surface`` ends, ``to_surface`` is the nearest one; ``length`` is that of the border, ``least`` and
-    ``largest`` its distances, ``place`` where it is largest; unit of the input. ``verdict`` is "separates" (closing
-    the gap would separate blocks), "harmless", "wide" (wider than gaps that were tried), or "" (not judged).
-    """
-
-    from_surface: str
-    to_surface: str
-    length: float
-    least: float
-    largest: float
-    place: Point
-    verdict: str
-
-
-class Relation(NamedTuple):
-    """What two surfaces do where they meet or nearly meet: "stops at", "crosses", "meets", "overlaps", "ends near"."""
-
-    from_surface: str
-    to_surface: str
-    kind: str
-    length: float
-    least: float
-    largest: float
-    place: Point
-
-
-class Juxtaposition(NamedTuple):
-    """Two blocks that face each other across a surface, and the area."""
-
-    surface: str
-    blocks: Tuple[str, str]
-    area: float
 
 
 class Model(Result):
@@ -79,6 +44,17 @@ class Model(Result):
         By the numbers of the blocks.
     structure : Structure
         Corners, lines, patches, interfaces, blocks.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> m
+    <Model: 2 blocks, 7 surfaces, 34 triangles, 0 leaks>
+    >>> [b.volume for b in m.blocks.values()]
+    [16.0, 32.0]
     """
 
     __slots__ = ("_core", "_made_by", "_mesh", "_structure", "_labels", "_blocks")
@@ -188,7 +164,17 @@ class Model(Result):
         return self.volumes.locate(points, threads=threads, progress=progress)
 
     def names_of(self, points: Any, *, threads: Optional[int] = None) -> List[str]:
-        """Return the name of the block that each point lies in, as `block_of`."""
+        """Return the name of the block that each point lies in, as `block_of`.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+        ...     [0, 2, 3]], "flat", "horizon")
+        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> m.names_of([[1, 1, -0.5], [1, 1, 1], [9, 9, 9]])
+        ['below flat', 'above flat', 'outside']
+        """
         blocks = self.structure.blocks
         return [blocks[n].name for n in self.block_of(points, threads=threads)]
 
@@ -244,6 +230,16 @@ class Model(Result):
         """Write the model into a new folder, as ``terrane volume -o`` does.
 
         `format` is that of blocks and interfaces. The folder must not exist, or be empty.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+        ...     [0, 2, 3]], "flat", "horizon")
+        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> m.save("folder")
+        >>> len(terrane.read("folder/result.vtp"))
+        7
         """
         self._core.save(os.fspath(folder), format, how(threads, None))
 
@@ -290,7 +286,12 @@ class Model(Result):
         _core.report_model(self._core, tetrahedra, parts_of_surfaces(surfaces), os.fspath(path), about, how(threads, None))
 
     def to_pyvista(self) -> Any:
-        """Return a ``pyvista.MultiBlock`` of the blocks by name. Needs PyVista."""
+        """Return a ``pyvista.MultiBlock`` of the blocks by name. Needs PyVista.
+
+        Examples
+        --------
+        >>> m.to_pyvista()  # doctest: +SKIP
+        """
         import importlib
         blocks = importlib.import_module("pyvista").MultiBlock()
         for name, block in self.blocks.items():
@@ -298,7 +299,12 @@ class Model(Result):
         return blocks
 
     def to_meshio(self) -> Any:
-        """Return a ``meshio.Mesh`` of the surfaces, with the blocks on both sides. Needs meshio."""
+        """Return a ``meshio.Mesh`` of the surfaces, with the blocks on both sides. Needs meshio.
+
+        Examples
+        --------
+        >>> m.to_meshio()  # doctest: +SKIP
+        """
         from ._interop import meshio_mesh
         sides = self._core.volumes.of_sides.astype(np.int32)
         return meshio_mesh(self.mesh.vertices, {"triangle": self.mesh.triangles},
@@ -306,7 +312,12 @@ class Model(Result):
                             "volume_front": [sides[:, 0]], "volume_back": [sides[:, 1]]})
 
     def plot(self, **options: Any) -> Any:
-        """Show the blocks in a window or notebook. Needs PyVista, which gets the options."""
+        """Show the blocks in a window or notebook. Needs PyVista, which gets the options.
+
+        Examples
+        --------
+        >>> m.plot()  # doctest: +SKIP
+        """
         return self.to_pyvista().plot(**{"multi_colors": True, **options})
 
     def _state(self) -> Tuple[Any, ...]:
@@ -315,8 +326,8 @@ class Model(Result):
     @classmethod
     def _from_state(cls, *state: Any) -> "Model":
         if state[0] == "build":
-            from ._project import build
-            return build(*state[1:]).model
+            from ._project import Built
+            return Built._from_state(*state[1:]).model
         if state[0] == "improved":
             old = cls._from_state(*state[1])
             return cls(_core.improve_model(old._core, state[2], how(None, None)), tuple(state))

@@ -33,6 +33,17 @@ class Block:
         Names of the surfaces there.
     neighbours : tuple of str
         Names of the blocks next to it, with "outside".
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> m.blocks[2]
+    <Block 2 'above flat': volume 32>
+    >>> m.blocks[2].below, m.blocks[2].volume
+    (('flat',), 32.0)
     """
 
     __slots__ = ("_model", "number")
@@ -118,7 +129,19 @@ class Block:
 
 
 class Blocks(Mapping[str, Block]):
-    """The blocks of a model by name; also by number, and by ``"above/below|beside"`` where that is one block."""
+    """The blocks of a model by name; also by number, and by ``"above/below|beside"`` where that is one block.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> len(m.blocks), list(m.blocks)
+    (2, ['below flat', 'above flat'])
+    >>> m.blocks["flat/"].number
+    1
+    """
 
     __slots__ = ("_model", "_by_name")
 
@@ -164,6 +187,16 @@ class Interface:
         Squared unit of the input.
     triangles : ndarray, uint32
         Of the mesh of the model.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> parts = [i for i in m.interfaces if i.surfaces == ("flat",)]
+    >>> parts[0].area, parts[0].blocks
+    (16.0, ('below flat', 'above flat'))
     """
 
     __slots__ = ("_model", "number")

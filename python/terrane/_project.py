@@ -29,6 +29,16 @@ class Built(Result):
         After filling, ordering and sealing, with the boundary.
     folder : str
         Where the project wants its results; empty: not stated.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> terrane.save(terrane.box((0, 0, 0), (1, 1, 1)), "box.ts")
+    >>> built = terrane.build({"format": "terrane-project 1", "surfaces": [{"file": "box.ts"}], "outputs": {"surfaces": ["obj"]}})
+    >>> built
+    <Built: 1 block, 6 surfaces, 12 triangles, 0 leaks>
+    >>> built.model.blocks[1].volume
+    1.0
     """
 
     __slots__ = ("_core", "_made_by", "model", "tetrahedra")
@@ -55,6 +65,15 @@ class Built(Result):
 
         The folder must not exist, or be empty; that of the project unless given. Statistics, logs, tables of
         fillings and certificates are the program's.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> terrane.save(terrane.box((0, 0, 0), (1, 1, 1)), "box.ts")
+        >>> project = {"format": "terrane-project 1", "surfaces": [{"file": "box.ts"}], "outputs": {"surfaces": ["obj"]}}
+        >>> terrane.build(project).save("result")
+        >>> len(terrane.read("result/surfaces.obj"))
+        6
         """
         to = self.folder if folder is None else os.fspath(folder)
         if not to:
@@ -62,15 +81,30 @@ class Built(Result):
         self._core.save(to, how(threads, None))
 
     def to_pyvista(self) -> Any:
-        """Return a ``pyvista.MultiBlock`` of the blocks. Needs PyVista."""
+        """Return a ``pyvista.MultiBlock`` of the blocks. Needs PyVista.
+
+        Examples
+        --------
+        >>> terrane.build("project.json").to_pyvista()  # doctest: +SKIP
+        """
         return self.model.to_pyvista()
 
     def to_meshio(self) -> Any:
-        """Return a ``meshio.Mesh`` of the tetrahedra, or of the surfaces. Needs meshio."""
+        """Return a ``meshio.Mesh`` of the tetrahedra, or of the surfaces. Needs meshio.
+
+        Examples
+        --------
+        >>> terrane.build("project.json").to_meshio()  # doctest: +SKIP
+        """
         return self.model.to_meshio() if self.tetrahedra is None else self.tetrahedra.to_meshio()
 
     def plot(self, **options: Any) -> Any:
-        """Show the blocks. Needs PyVista."""
+        """Show the blocks. Needs PyVista.
+
+        Examples
+        --------
+        >>> terrane.build("project.json").plot()  # doctest: +SKIP
+        """
         return self.model.plot(**options)
 
     def _state(self) -> Tuple[Any, ...]:
@@ -78,6 +112,9 @@ class Built(Result):
 
     @classmethod
     def _from_state(cls, *state: Any) -> "Built":
+        if state[0] == "realisation":
+            from ._ensemble_work import Task, built
+            return built(Task(*state[1]), state[2])
         return build(*state)
 
     def _line(self) -> str:
@@ -89,6 +126,25 @@ class Built(Result):
 
     def _shape(self) -> Tuple[Any, Any]:
         return self.model.mesh.vertices, self.model.mesh.triangles
+
+
+def project_text(project: Union[Path, Mapping[str, Any]],
+                 folder: Optional[Path]) -> Tuple[bytes, str, str]:
+    """Return the text of a project, the folder of its files, and its name in messages."""
+    if isinstance(project, Mapping):
+        text = json.dumps(project)
+        base, source = os.fspath(folder) if folder is not None else os.getcwd(), "project"
+    else:
+        source = os.fspath(project)
+        try:
+            with open(source, encoding="utf-8", errors="surrogateescape") as file:
+                text = file.read()
+        except OSError as error:
+            raise Error("cannot_open", f"cannot be read: {error.strerror}", source) from None
+        base = os.path.dirname(source)
+        if folder is not None:
+            raise TypeError("folder is for a project given as a dict")
+    return text.encode("utf-8", "surrogateescape"), base, source
 
 
 def build(project: Union[Path, Mapping[str, Any]], folder: Optional[Path] = None, *,
@@ -117,18 +173,6 @@ def build(project: Union[Path, Mapping[str, Any]], folder: Optional[Path] = None
     >>> built
     <Built: 2 blocks, 7 surfaces, 34 triangles, 0 leaks>
     """
-    if isinstance(project, Mapping):
-        text = json.dumps(project)
-        base, source = os.fspath(folder) if folder is not None else os.getcwd(), "project"
-    else:
-        source = os.fspath(project)
-        try:
-            with open(source, encoding="utf-8", errors="surrogateescape") as file:
-                text = file.read()
-        except OSError as error:
-            raise Error("cannot_open", f"cannot be read: {error.strerror}", source) from None
-        base = os.path.dirname(source)
-        if folder is not None:
-            raise TypeError("folder is for a project given as a dict")
-    core = _core.build(text.encode("utf-8", "surrogateescape"), base, source, how(threads, progress))
+    text, base, source = project_text(project, folder)
+    core = _core.build(text, base, source, how(threads, progress))
     return Built(core, (project, folder))

@@ -37,6 +37,18 @@ class Improved(Result):
         Per surface the measured distance from the new to the old mesh, and back.
     report : dict
         Counts of changes, and why the worst triangle cannot be better.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> better = terrane.improve(m.mesh, 1.0)
+    >>> better
+    <Improved: 244 triangles, within 0.05 of the mesh before>
+    >>> bool(better.bounds.max() <= 0.05)
+    True
     """
 
     __slots__ = ("mesh", "volumes", "near_of", "bounds", "deviations", "report")
@@ -51,19 +63,46 @@ class Improved(Result):
         self.report = report
 
     def save(self, path: Path, format: Optional[str] = None, **options: Any) -> None:
-        """Write the mesh; see `Mesh.save`."""
+        """Write the mesh; see `Mesh.save`.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+        ...     [0, 2, 3]], "flat", "horizon")
+        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> better = terrane.improve(m.mesh, 1.0)
+        >>> better.save("better.obj")
+        >>> len(terrane.read("better.obj"))
+        7
+        """
         self.mesh.save(path, format, **options)
 
     def to_pyvista(self) -> Any:
-        """Return a ``pyvista.PolyData``. Needs PyVista."""
+        """Return a ``pyvista.PolyData``. Needs PyVista.
+
+        Examples
+        --------
+        >>> better.to_pyvista()  # doctest: +SKIP
+        """
         return self.mesh.to_pyvista()
 
     def to_meshio(self) -> Any:
-        """Return a ``meshio.Mesh``. Needs meshio."""
+        """Return a ``meshio.Mesh``. Needs meshio.
+
+        Examples
+        --------
+        >>> better.to_meshio()  # doctest: +SKIP
+        """
         return self.mesh.to_meshio()
 
     def plot(self, **options: Any) -> Any:
-        """Show the mesh. Needs PyVista."""
+        """Show the mesh. Needs PyVista.
+
+        Examples
+        --------
+        >>> better.plot()  # doctest: +SKIP
+        """
         return self.mesh.plot(**options)
 
     def _state(self) -> Tuple[Any, ...]:

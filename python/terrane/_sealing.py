@@ -15,7 +15,18 @@ from ._volume_of_interest import as_boundary
 
 
 class SealChange(NamedTuple):
-    """A border that was "extended" or "trimmed"; lengths in the unit of the input."""
+    """A border that was "extended" or "trimmed"; lengths in the unit of the input.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> short = terrane.Surface([[1.1, 1, 1], [3, 1, 1], [3, 3, 1], [1.1, 3, 1]], [[0, 1, 2],
+    ...     [0, 2, 3]], "short", "horizon")
+    >>> change = terrane.seal([wall, short], 0.2).changes[0]
+    >>> change.kind, change.surface, change.length
+    ('extended', 1, 2.0)
+    """
 
     kind: str
     surface: int
@@ -26,7 +37,18 @@ class SealChange(NamedTuple):
 
 
 class ClosedGap(NamedTuple):
-    """The free part of a border edge that was extended to another surface."""
+    """The free part of a border edge that was extended to another surface.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> short = terrane.Surface([[1.1, 1, 1], [3, 1, 1], [3, 3, 1], [1.1, 3, 1]], [[0, 1, 2],
+    ...     [0, 2, 3]], "short", "horizon")
+    >>> gap = terrane.seal([wall, short], 0.2).closed[0]
+    >>> gap.from_surface, gap.to_surface, round(gap.width, 3)
+    (1, 0, 0.1)
+    """
 
     from_surface: int
     to_surface: int
@@ -36,7 +58,18 @@ class ClosedGap(NamedTuple):
 
 
 class OpenGap(NamedTuple):
-    """Border edges that stay open, and why."""
+    """Border edges that stay open, and why.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> short = terrane.Surface([[1.1, 1, 1], [3, 1, 1], [3, 3, 1], [1.1, 3, 1]], [[0, 1, 2],
+    ...     [0, 2, 3]], "short", "horizon")
+    >>> gaps = terrane.seal([wall, short], 0.2).open
+    >>> [gap.reason for gap in gaps]
+    []
+    """
 
     from_surface: int
     to_surface: int
@@ -60,6 +93,18 @@ class Sealed(Result):
     open : list of OpenGap
     left : float
         Length of the free borders that remain this near to another surface.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> short = terrane.Surface([[1.1, 1, 1], [3, 1, 1], [3, 3, 1], [1.1, 3, 1]], [[0, 1, 2],
+    ...     [0, 2, 3]], "short", "horizon")
+    >>> sealed = terrane.seal([wall, short], 0.2)
+    >>> sealed
+    <Sealed: 1 change, 0 open gaps, 12 triangles>
+    >>> len(sealed.closed), len(sealed.open)
+    (1, 0)
     """
 
     __slots__ = ("arrangement", "surfaces", "changes", "closed", "open", "left")
@@ -124,7 +169,17 @@ def seal(surfaces: Any, distance: float, *,
 
 
 class SealTrial(NamedTuple):
-    """The model that results from one distance."""
+    """The model that results from one distance.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> short = terrane.Surface([[1.1, 1, 1], [3, 1, 1], [3, 3, 1], [1.1, 3, 1]], [[0, 1, 2],
+    ...     [0, 2, 3]], "short", "horizon")
+    >>> [trial.blocks for trial in terrane.suggest_seal([wall, short]).trials]
+    [0, 0]
+    """
 
     distance: float
     blocks: int
@@ -136,7 +191,18 @@ class SealTrial(NamedTuple):
 
 
 class SealAdvice(NamedTuple):
-    """The distance that the widths of gaps suggest, and the models that others give."""
+    """The distance that the widths of gaps suggest, and the models that others give.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> short = terrane.Surface([[1.1, 1, 1], [3, 1, 1], [3, 3, 1], [1.1, 3, 1]], [[0, 1, 2],
+    ...     [0, 2, 3]], "short", "horizon")
+    >>> advice = terrane.suggest_seal([wall, short])
+    >>> advice.distance, len(advice.trials)
+    (0.2, 2)
+    """
 
     distance: float
     trials: List[SealTrial]

@@ -16,7 +16,14 @@ ROLES: Tuple[str, ...] = ("unknown", "horizon", "fault", "boundary")
 
 
 class Frame(NamedTuple):
-    """What the file of a surface states about its coordinates. It influences no geometry."""
+    """What the file of a surface states about its coordinates. It influences no geometry.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> terrane.Frame("m", "m", "", "up", False)
+    Frame(horizontal_unit='m', vertical_unit='m', system='', vertical_axis='up', column_of_depths=False)
+    """
 
     horizontal_unit: str = ""
     vertical_unit: str = ""
@@ -145,17 +152,32 @@ class Surface:
         save([self], path, format=format)
 
     def to_pyvista(self) -> Any:
-        """Return a ``pyvista.PolyData``. Needs PyVista."""
+        """Return a ``pyvista.PolyData``. Needs PyVista.
+
+        Examples
+        --------
+        >>> surface.to_pyvista()  # doctest: +SKIP
+        """
         from ._interop import surface_to_pyvista
         return surface_to_pyvista(self)
 
     def to_meshio(self) -> Any:
-        """Return a ``meshio.Mesh``. Needs meshio."""
+        """Return a ``meshio.Mesh``. Needs meshio.
+
+        Examples
+        --------
+        >>> surface.to_meshio()  # doctest: +SKIP
+        """
         from ._interop import surface_to_meshio
         return surface_to_meshio(self)
 
     def plot(self, **options: Any) -> Any:
-        """Show the surface in a window or notebook. Needs PyVista, which gets the options."""
+        """Show the surface in a window or notebook. Needs PyVista, which gets the options.
+
+        Examples
+        --------
+        >>> surface.plot()  # doctest: +SKIP
+        """
         return self.to_pyvista().plot(**options)
 
     def _parts(self) -> Tuple[Any, ...]:

@@ -18,7 +18,18 @@ from ._run import how
 
 
 class Violation(NamedTuple):
-    """What the check of tetrahedra found wrong."""
+    """What the check of tetrahedra found wrong.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> cells = m.tetrahedra(edge_length=2)
+    >>> cells.violations
+    []
+    """
 
     defect: str
     occurrences: int
@@ -26,7 +37,19 @@ class Violation(NamedTuple):
 
 
 class RegionVolume(NamedTuple):
-    """The volume of a block and of its tetrahedra, cubic unit; `equal`: exactly."""
+    """The volume of a block and of its tetrahedra, cubic unit; `equal`: exactly.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> cells = m.tetrahedra(edge_length=2)
+    >>> volume = cells.volumes[1]
+    >>> volume.block, volume.equal
+    (16.0, True)
+    """
 
     block: float
     tetrahedra: float
@@ -56,6 +79,16 @@ class Tetrahedra(Result):
         Pairs of faces in front of and behind a split surface.
     block_names : list of str
         By number.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> cells = m.tetrahedra(edge_length=2)
+    >>> int(cells.region_of.max()), len(cells.tetrahedra) > 0
+    (2, True)
     """
 
     __slots__ = ("_core", "_model")
@@ -153,11 +186,33 @@ class Tetrahedra(Result):
         return report
 
     def shape(self) -> Dict[str, Tuple[float, float, float]]:
-        """Return least, mean and largest of: dihedral angles (degrees), radius-edge ratio, SICN, mean ratio."""
+        """Return least, mean and largest of: dihedral angles (degrees), radius-edge ratio, SICN, mean ratio.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+        ...     [0, 2, 3]], "flat", "horizon")
+        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> cells = m.tetrahedra(edge_length=2)
+        >>> sorted(cells.shape())
+        ['dihedral', 'mean_ratio', 'radius_edge', 'sicn']
+        """
         return self._core.shape()
 
     def of_block(self, block: Any) -> UInt32Array:
-        """Return the tetrahedra of a block, given by number or name."""
+        """Return the tetrahedra of a block, given by number or name.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+        ...     [0, 2, 3]], "flat", "horizon")
+        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> cells = m.tetrahedra(edge_length=2)
+        >>> len(cells.of_block(1)) > 0
+        True
+        """
         number = self.block_names.index(block) if isinstance(block, str) else int(block)
         return np.asarray(self.tetrahedra[self.region_of == number])
 
@@ -166,6 +221,16 @@ class Tetrahedra(Result):
 
         The extension tells the format: .vtu, .msh, .inp, .mesh, .exo (Exodus II) or .ugi (PFLOTRAN). `format` names others:
         "msh22", and "ogs" (OpenGeoSys), "geos" or "pylith". With `order` 2 tetrahedra have a node in the middle of each edge.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+        ...     [0, 2, 3]], "flat", "horizon")
+        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> cells = m.tetrahedra(edge_length=2)
+        >>> cells.save("cells.vtu")
+        ['cells.vtu']
         """
         if order not in (1, 2):
             raise Error("bad_option", f"must be 1 or 2, not {order!r}", "order")
@@ -193,12 +258,22 @@ class Tetrahedra(Result):
         self._model._report(path, "Tetrahedra.report", self._core, threads)
 
     def to_pyvista(self) -> Any:
-        """Return a ``pyvista.UnstructuredGrid`` with the array ``region``. Needs PyVista."""
+        """Return a ``pyvista.UnstructuredGrid`` with the array ``region``. Needs PyVista.
+
+        Examples
+        --------
+        >>> cells.to_pyvista()  # doctest: +SKIP
+        """
         from ._interop import unstructured_grid
         return unstructured_grid(self.vertices, self.tetrahedra, {"region": self.region_of})
 
     def to_meshio(self) -> Any:
-        """Return a ``meshio.Mesh`` of tetrahedra and faces. Needs meshio."""
+        """Return a ``meshio.Mesh`` of tetrahedra and faces. Needs meshio.
+
+        Examples
+        --------
+        >>> cells.to_meshio()  # doctest: +SKIP
+        """
         from ._interop import meshio_mesh
         kinds = {"tetra": self.tetrahedra, "triangle": self.faces}
         none = np.full(len(self.faces), -1, dtype=np.int32)
@@ -208,7 +283,12 @@ class Tetrahedra(Result):
                         self.surfaces_of.first.astype(np.int32)]})
 
     def plot(self, **options: Any) -> Any:
-        """Show the tetrahedra in a window or notebook. Needs PyVista."""
+        """Show the tetrahedra in a window or notebook. Needs PyVista.
+
+        Examples
+        --------
+        >>> cells.plot()  # doctest: +SKIP
+        """
         return self.to_pyvista().plot(**{"scalars": "region", "show_edges": True, **options})
 
     def _state(self) -> Tuple[Any, ...]:

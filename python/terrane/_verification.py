@@ -16,7 +16,18 @@ from ._surface import parts_of_surfaces
 
 
 class RuleViolation(NamedTuple):
-    """A rule that is broken, by which elements, and a sentence."""
+    """A rule that is broken, by which elements, and a sentence.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> found = terrane.verify(terrane.mesh([flat, wall]))
+    >>> found.violations[0].rule
+    'R5'
+    """
 
     rule: str
     elements: Tuple[int, ...]
@@ -24,7 +35,13 @@ class RuleViolation(NamedTuple):
 
 
 class VerifiedFile(NamedTuple):
-    """An output file of a certificate: "doubles", "numbers", "float32", "hash only", or "missing: ..."."""
+    """An output file of a certificate: "doubles", "numbers", "float32", "hash only", or "missing: ...".
+
+    Examples
+    --------
+    >>> terrane.verify("model.json").outputs[0].check  # doctest: +SKIP
+    'doubles'
+    """
 
     path: str
     check: str
@@ -36,6 +53,16 @@ class Verdict(NamedTuple):
 
     ``outputs`` are the files that a certificate names; ``deviation`` is the verifier's own bound of the distance of
     the doubles from the exact result, unit of the input; ``digest`` is that of the arrangement.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> verdict = terrane.verify(terrane.arrange([flat, wall]))
+    >>> bool(verdict), verdict.violations
+    (True, [])
     """
 
     violations: List[RuleViolation]

@@ -17,7 +17,18 @@ from ._surface import Surface, as_surfaces, parts_of_surfaces, surface_of_parts
 
 
 class SurfaceCut(NamedTuple):
-    """What a cut did to one surface; areas in squared units, lengths in units of the input."""
+    """What a cut did to one surface; areas in squared units, lengths in units of the input.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> cut = terrane.volume_of_interest([flat], ((0, 0, -1), (2, 4, 1))).surfaces[0]
+    >>> cut.area_inside, cut.area_outside
+    (8.0, 8.0)
+    """
 
     area_inside: float
     area_outside: float
@@ -28,7 +39,17 @@ class SurfaceCut(NamedTuple):
 
 
 class OpenBorder(NamedTuple):
-    """A border at which a surface ends inside the volume without meeting another one."""
+    """A border at which a surface ends inside the volume without meeting another one.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> short = terrane.Surface([[1, 0.5, 0], [3, 0.5, 0], [3, 3, 0.5], [1, 3, 0.5]], [[0, 1, 2],
+    ...     [0, 2, 3]], "short", "horizon")
+    >>> voi = terrane.volume_of_interest([short], ((0, 0, -2), (4, 4, 2)))
+    >>> voi.borders[0].surface, round(voi.borders[0].length, 3)
+    (0, 9.099)
+    """
 
     surface: int
     length: float
@@ -46,6 +67,15 @@ class VolumeOfInterest(Result):
         Effects on each surface.
     borders : list of OpenBorder
         Where surfaces end inside.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+    ...     [0, 2, 3]], "flat", "horizon")
+    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> terrane.volume_of_interest([flat, wall], ((0, 0, -1), (3, 3, 2)))
+    <VolumeOfInterest: 68 triangles inside, 2 open borders>
     """
 
     __slots__ = ("arrangement", "surfaces", "borders")

@@ -60,7 +60,9 @@ def test_functions_are_documented(name, function):
 
 @pytest.mark.parametrize("name, value", CLASSES + MEMBERS, ids=lambda v: v if isinstance(v, str) else "")
 def test_classes_and_members_are_documented(name, value):
-    assert inspect.getdoc(value), name
+    text = inspect.getdoc(value)
+    assert text, name
+    assert ">>> " in text or isinstance(value, property), "an example"
 
 
 def test_all_is_all():

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import terrane
-from conftest import DATA, SANITIZED, run_program, run_python, sheet, stack, wall
+from conftest import BOX, DATA, HAS_TETGEN, SANITIZED, run_program, run_python, sheet, stack, wall
 
 BAD_FILES = {
     "syntax.ts": "GOCAD TSurf 1\nVRTX 1 0 0\nEND\n", "number.ts": "GOCAD TSurf 1\nTFACE\nVRTX 1 0 0 abc\nEND\n",
@@ -110,17 +110,58 @@ def large():
     return [sheet(n, n, wave=0.3, slope=(0.01, 0)), sheet(n, n, wave=0.3, slope=(0.0, 0.02)), wall()]
 
 
-@pytest.mark.parametrize("stage", ["arrange", "check", "round", "volumes", "improve"])
-def test_keyboard_interrupt_stops_a_stage_within_a_second(stage):
-    surfaces = large()
-    if stage in ("arrange", "check"):
-        call, argument = getattr(terrane, stage), surfaces
-    else:
-        small = [sheet(40, 40, wave=0.3), wall()]
-        call, argument = getattr(terrane, stage), terrane.arrange(small if stage == "improve" else surfaces)
-        if stage == "improve":
-            argument = terrane.round(argument).mesh
+def holed(n):
+    """Return a surface with a hole in its middle."""
+    whole = sheet(n, n, wave=0.4)
+    centres = whole.vertices[whole.triangles].mean(axis=1)
+    return whole.replace(triangles=whole.triangles[np.any(np.abs(centres[:, :2] - 2.5) > 1.2, axis=1)])
 
+
+def stacked(n):
+    """Return two horizons, which cross, and a fault."""
+    return [sheet(n, n, wave=0.3, slope=(0.01, 0), name="a", role="horizon"), sheet(n, n, slope=(0.0, 0.02), name="b"), wall()]
+
+
+def moderate():
+    """Return surfaces of which the arrangement is no long work."""
+    return stacked(50 if SANITIZED else 150)
+
+
+def rounded_mesh():
+    return terrane.round(terrane.arrange(moderate()))
+
+
+N = 40 if SANITIZED else 100  # edges along a side of what costs more
+STAGES = {  # the stage, and what makes its argument
+    "arrange": (terrane.arrange, large),
+    "check": (terrane.check, large),
+    "round": (terrane.round, lambda: terrane.arrange(large())),
+    "regions": (terrane.regions, rounded_mesh),
+    "volumes": (terrane.volumes, lambda: terrane.arrange(large())),
+    "structure": (lambda m, threads: terrane.structure(m, terrane.volumes(m), threads=threads), rounded_mesh),
+    "volume_of_interest": (lambda s, threads: terrane.volume_of_interest(s, BOX, threads=threads), moderate),
+    "seal": (lambda s, threads: terrane.seal(s, 0.05, threads=threads), lambda: stacked(N)),
+    "extend": (lambda s, threads: terrane.extend(s, terrane.box((-5, -5, -5), (9, 9, 5)), 3.0, threads=threads), moderate),
+    "improve": (terrane.improve, lambda: terrane.round(terrane.arrange([sheet(40, 40, wave=0.3), wall()])).mesh),
+    "distance": (lambda s, threads: terrane.distance(*s[:2], threads=threads), lambda: stacked(2 * N)),
+    "kriging": (terrane.fill, lambda: holed(N)),
+    "rbf": (lambda s, threads: terrane.fill(s, method="rbf", threads=threads), lambda: holed(60)),
+    "layers": (lambda s, threads: terrane.layers(s, {"a": 1, "b": 2}, threads=threads), lambda: stacked(N)[:2]),
+    "model": (lambda s, threads: terrane.model(s, box=BOX, threads=threads), moderate),
+    "verify": (terrane.verify, lambda: terrane.arrange(stacked(N // 2))),
+    "locate": (lambda m, threads: m.block_of(np.full((100_000 if SANITIZED else 1_000_000, 3), 1.01), threads=threads),
+               lambda: terrane.model(stack(), box=BOX)),
+    "tetrahedralize": (lambda m, threads: terrane.tetrahedralize(m, edge_length=1.0, threads=threads),
+                       lambda: terrane.model(stack(), box=BOX)),
+}
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_keyboard_interrupt_stops_a_stage_within_a_second(stage):
+    if stage == "tetrahedralize" and not HAS_TETGEN:
+        pytest.skip("no terrane-tetgen")
+    call, make = STAGES[stage]
+    argument = make()
     began = time.monotonic()
     call(argument, threads=1)
     whole = time.monotonic() - began

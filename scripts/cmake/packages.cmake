@@ -123,7 +123,7 @@ file(CHMOD ${PROJECT_BINARY_DIR}/debian/python/postinst ${PROJECT_BINARY_DIR}/de
      PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 terrane_package(python python3-terrane python LGPL-3+ "exact meshes of geological surfaces - Python package"
     "${what}\n.\nThis package has the module terrane for Python 3." DEPENDS "python3, python3-numpy"
-    SUGGESTS "terrane-tetgen, python3-meshio"
+    SUGGESTS "terrane-tetgen, python3-meshio, python3-distributed, python3-h5py"
     CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/python/postinst ${PROJECT_BINARY_DIR}/debian/python/prerm)
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/scripts/cmake/compress_pages.cmake)
 

@@ -97,6 +97,7 @@ set(terrane_c_headers
     terrane.h
     capi/arrangement.h
     capi/base.h
+    capi/certificate.h
     capi/mesh.h
     capi/model.h
     capi/project.h

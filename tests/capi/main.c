@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
                  {"reconstruction", test_reconstruction},
                  {"tetrahedra", test_tetrahedra},
                  {"verification", test_verification},
+                 {"certificate", test_certificate},
                  {"project", test_project},
                  {"arguments", test_arguments},
                  {"forged_numbers", test_forged_numbers}};

@@ -21,16 +21,47 @@ def terrane(options, *arguments, folder):
         sys.exit(f"{arguments} in {folder}: status {done.returncode}\n{done.stderr}")
 
 
+def holed_square():
+    """A square of 12 x 12 cells without those in the middle, as OBJ."""
+    lines = ["o holed"]
+    lines += [f"v {i / 2} {j / 2} {(i * j % 5) / 16}" for j in range(13) for i in range(13)]
+    for j in range(12):
+        for i in range(12):
+            if not (4 <= i < 8 and 4 <= j < 8):
+                a = 13 * j + i + 1
+                lines += [f"f {a} {a + 1} {a + 14}", f"f {a} {a + 14} {a + 13}"]
+    return "\n".join(lines) + "\n"
+
+
+def prepare_certificates(options, folder):
+    """Has the program certify a result of each kind."""
+    (folder / "holed.obj").write_text(holed_square())
+    three, box = ("top.ts", "base.ts", "fault.ts"), ("--box", "0,0,-1700,2000,1500,-700")
+    for kind, output, words in (
+            ("arrangement", "arrangement.obj", ("arrange", *three)),
+            ("improved", "improved.vtp", ("improve", *three, "--edge-length", "150")),
+            ("cut", "cut.off", ("arrange", *three, *box)),
+            ("sealed", "sealed.stl", ("arrange", *three, "--seal", "20")),
+            ("volumes", "volumes", ("volume", *three, *box)),
+            ("tetrahedra", "tetrahedra.vtu", ("tetrahedralize", *three, *box, "--blocks-only", "--mesher", "tetgen")),
+            ("filled", "filled.vtp", ("fill", "holed.obj")),
+            ("layered", "layered.vtp", ("layer", "salt.ts", "shale.ts", "--layer", "shale=1", "--layer", "salt=2"))):
+        if kind == "tetrahedra" and not options.tetrahedra:
+            continue
+        terrane(options, *words, "-o", output, "--certificate", f"{kind}.json", folder=folder)
+
+
 def prepare(options):
     """Has the program write what the tests read, and what their files are compared with."""
     work = options.work
     shutil.rmtree(work, ignore_errors=True)
     certified = work / "certified"
     certified.mkdir(parents=True)
-    for name in ("top.ts", "fault.ts"):
-        shutil.copy(options.data / name, certified)
+    for name in ("top", "base", "fault", "salt", "shale"):
+        shutil.copy(options.data / f"{name}.ts", certified)
     terrane(options, "arrange", "top.ts", "fault.ts", "-o", "model.obj", "--certificate", "model.json",
             folder=certified)
+    prepare_certificates(options, certified)
     project = {
         "format": "terrane-project 1",
         "surfaces": [{"file": str(options.data / f"{name}.ts")} for name in ("top", "base", "fault")],

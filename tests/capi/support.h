@@ -55,6 +55,7 @@ void test_model(void);
 void test_reconstruction(void);
 void test_tetrahedra(void);
 void test_verification(void);
+void test_certificate(void);
 void test_project(void);
 void test_arguments(void);
 void test_forged_numbers(void);

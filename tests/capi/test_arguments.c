@@ -150,6 +150,7 @@ static void test_stages(void* h) {
     REFUSED(terrane_make_model(h, h, h, NULL, NULL, (terrane_model**)&out, &error));
     char* json = NULL;
     REFUSED(terrane_model_to_json(h, &json, &error));
+    REFUSED(terrane_model_write(h, "folder", NULL, NULL, &error));
     REFUSED(terrane_find_holes(h, NULL, 0, NULL, (terrane_holes**)&out, &error));
     REFUSED(terrane_fill(h, NULL, 0, NULL, (terrane_holes**)&out, &error));
     REFUSED(terrane_stack_layers(h, NULL, 0, NULL, NULL, (terrane_layered**)&out, &error));

@@ -140,8 +140,9 @@ def check_progress(folder):
     gaps = [b - a for (a, _), (b, _) in zip(drawn, drawn[1:])]
     seconds = drawn[-1][0] - drawn[0][0] if drawn else 0
     expect(len(gaps) <= 10 * seconds + 4, "progress is drawn ten times a second at most", len(gaps))
-    left = [int(x) for x in re.findall(r"(\d+) s left", seen.text)]
-    expect(all(a >= b >= 0 for a, b in zip(left, left[1:])), "the time left never rises", left)
+    for stage in ("improve", "measure"):
+        left = [int(x) for x in re.findall(stage + r" \d+ % \(\d+ s, (\d+) s left", seen.text)]
+        expect(all(a >= b >= 0 for a, b in zip(left, left[1:])), f"the time left of {stage} never rises", left)
     expect(not any(re.search(r" \(\d+ s", line) for line in seen.lines()), "progress is cleared", seen.lines())
     quiet = on_terminal(*command, "--quiet", interrupt_after=1.25, folder=folder)
     expect(quiet.lines() == ["^Cterrane: interrupted, nothing written"], "there is no progress with --quiet", quiet.lines())

@@ -200,6 +200,7 @@ def write_json_files(program, folder):
         "--stats", "sealed_statistics.json")
     run("volume", *model, *box, "--suggest-seal", "--stats", "suggest.json")
     run("volume", *model, *box, "-o", "merged", "--seal", "auto", "--min-volume", "4e8", "--stats", "merged.json")
+    run("arrange", *model, "-o", "blocks.vtp", "--memory", "1GiB", "--digest", "--stats", "blocks.json")
     run("fill", "fold.ts", "-o", "f.vtp", "--stats", "fill.json")
     run("fill", "fold.ts", "-o", "r.vtp", "--method", "rbf", "--stats", "rbf.json")
     run("check", "twice.obj", "--json", out="check.json")
@@ -225,10 +226,15 @@ def write_json_files(program, folder):
     with (folder / "top.ts").open("a") as changed:
         changed.write("\n")
     run("verify", "certificate.json", "--json", out="refuted.json")
-    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "fill.json", "rbf.json"]
+    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "fill.json", "rbf.json", "blocks.json"]
     if has_tetgen(program):
         run("tetrahedralize", *model, *box, "-o", "t.vtu", "--stats", "tetrahedra.json")
-        statistics.append("tetrahedra.json")
+        (folder / "refined.json").write_text(json.dumps({
+            "format": "terrane-project 1", "folder": "refined", "surfaces": [{"file": name} for name in model], "seal": 20,
+            "volume_of_interest": PROJECT["volume_of_interest"], "improve": {"edge_length": 200}, "tetrahedra": {"refine_bad": 1},
+            "outputs": {"tetrahedra": ["mesh"]}}))
+        run("build", "refined.json")
+        statistics += ["tetrahedra.json", "refined/statistics.json"]
     if has_pages(program):
         run("volume", *model, *box, "-o", "reported", "--certificate", "reported.json", "--report", "report.html")
         run("fill", "--depth", "seabed.asc", "-o", "p.vtp", "--report", "filled.html")

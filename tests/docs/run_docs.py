@@ -192,7 +192,9 @@ def has_tetgen(program):
 
 
 def run_all(options, tally):
-    known = {"tetgen": has_tetgen(options.program), "examples": bool(options.examples)}
+    package = options.program.parents[1] / "python" / "terrane"
+    known = {"tetgen": has_tetgen(options.program), "examples": bool(options.examples),
+             "ensembles": any(package.glob("_core*.so"))}
     for path in options.pages:
         page = str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(path)
         try:

@@ -49,7 +49,7 @@ json full() {
         "tetrahedra": {"edge_length": 2, "max_volume": 3.5, "quality": 1.4, "split_surfaces": true,
                        "size_of": {"F1": 0.5, "top": 1}, "size_in": {"2": 0.25, "top/base": 1},
                        "split": ["fault", "top"], "outside": true, "time_limit": 60, "mesher": "gmsh", "optimise": false,
-                       "order": 2},
+                       "order": 2, "refine_bad": 3},
         "outputs": {"surfaces": ["vtp", "obj"], "tetrahedra": ["vtu", "msh", "msh22"],
                     "blocks": "vtp", "certificate": false, "gocad": true}})");
 }
@@ -75,6 +75,14 @@ std::vector<json> samples() {
     all.back()["surfaces"][1]["depth"] = false;
     all.push_back(json::parse(R"({"format": "terrane-project 1", "surfaces": [{"file": "a"}],
                                   "outputs": {"blocks": "obj"}})"));
+    all.push_back(all.back());
+    all.back()["uncertainty"] = json::parse(
+        R"([{"surface": "top", "group": "velocity", "tilt": 0.5,
+             "field": {"model": "matern", "smoothness": 2.5, "range": 800, "azimuth": 30, "ratio": 0.5,
+                       "sd": 10}},
+            {"surface": "base", "field": {"range": 800, "map": "sd.asc"}, "shift": 5},
+            {"surface": "sea", "field": {"model": "spherical", "range": 90, "sd": "kriging"}},
+            {"surface": "F1", "dip": 2, "throw": 30, "throw_reach": 1000}])");
     return all;
 }
 
@@ -139,6 +147,10 @@ bool holds(const json& schema, const json& value) {
                         continue;
                     if (rule == false || !holds(rule, inner)) return false;
                 }
+        } else if (word == "anyOf") {
+            if (std::none_of(rule.begin(), rule.end(),
+                             [&](const json& one) { return holds(one, value); }))
+                return false;
         } else if (word == "oneOf") {
             if (std::count_if(rule.begin(), rule.end(),
                               [&](const json& one) { return holds(one, value); }) != 1)
@@ -281,6 +293,7 @@ TEST_CASE("project: all keys are read", "[io][project]") {
     CHECK(p.tetrahedra.outside == true);
     CHECK(p.tetrahedra.time_limit == 60);
     CHECK(p.tetrahedra.order == 2);
+    CHECK(p.tetrahedra.refine_bad == 3);
     CHECK(p.tetrahedra.mesher == Mesher::gmsh);
     CHECK_FALSE(p.tetrahedra.optimise);
     CHECK(p.outputs.surfaces == std::vector<std::string>{"vtp", "obj"});
@@ -313,6 +326,7 @@ TEST_CASE("project: all kinds of volumes are read", "[io][project]") {
     CHECK(least.tetrahedra.time_limit == 600);
     CHECK(least.tetrahedra.mesher == Mesher::automatic);
     CHECK(least.tetrahedra.optimise);
+    CHECK(least.tetrahedra.refine_bad == 0);
     CHECK_FALSE(least.tetrahedra.outside.has_value());
     CHECK_FALSE(least.surfaces[0].role.has_value());
 }

@@ -13,6 +13,8 @@ import { createRequire } from "node:module";
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import * as controls from "./controls.mjs";
+import { about, check, count, flaws, heading, near, panel, reach, state } from "./support.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const [terrane, packages, work, pictures] = process.argv.slice(2, 6).map((path) => resolve(path));
@@ -31,14 +33,6 @@ const data = resolve(here, "../data");
 mkdirSync(work, { recursive: true });
 rmSync(pictures, { recursive: true, force: true });
 mkdirSync(pictures, { recursive: true });
-
-const flaws = [];
-let where = "", checks = 0;
-function check(holds, what, ...details) {
-  ++checks;
-  if (!holds) flaws.push(`${where}: ${what}${details.length ? ": " + details.map((d) => JSON.stringify(d)).join(", ") : ""}`);
-}
-const near = (a, b, tolerance) => Math.abs(a - b) <= tolerance;
 
 // ------------------------------------------------------------------------------------------ pages
 
@@ -93,7 +87,7 @@ function makePages() {
 
 /** Opens a page and collects what it must not do. */
 async function open(browser, name, options = {}) {
-  where = name;
+  about(name);
   const context = await browser.newContext({ viewport: { width: 1600, height: 900 }, ...options });
   const page = await context.newPage();
   page.on("console", (message) => check(!["error", "warning"].includes(message.type()), "the console is silent", message.text()));
@@ -158,233 +152,6 @@ async function comparePicture(page, name) {
   check(off <= 4, "the picture is that of reference.json", `${off} of 144 cells differ`);
 }
 
-async function judgeAccess(page, what) {
-  await page.evaluate(axe);
-  const violations = await page.evaluate(async () => (await window.axe.run(document, {
-    resultTypes: ["violations"], runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"],
-  })).violations.filter((v) => ["serious", "critical"].includes(v.impact))
-    .map((v) => `${v.id}: ${v.nodes.slice(0, 2).map((n) => n.html.slice(0, 120)).join(" | ")}`));
-  check(violations.length === 0, `axe finds nothing serious in ${what}`, ...violations);
-}
-
-const state = (page) => page.evaluate(() => window.state());
-const setRange = (page, control, value) => page.locator(`[data-control="${control}"]`).evaluate((input, v) => {
-  input.value = v;
-  input.dispatchEvent(new Event("input"));
-}, value);
-const panel = (page, name) => page.getByRole("tab", { name }).click();
-
-// ------------------------------------------------------------------------------------------ controls
-
-async function tryExplode(page) {
-  await setRange(page, "Explode", 0.5);
-  const after = await state(page);
-  for (const item of after.items)
-    check(item.at.every((c, k) => near(c, item.kind === "block" ? item.centre[k] / 2 : 0, 1e-6 * Math.abs(c) + 1e-9)), "blocks move apart by their centres", item);
-  check(after.lines.every(([, shown]) => !shown), "lines are hidden then");
-  await setRange(page, "Explode", 0);
-  check((await state(page)).items.every((item) => item.at.every((c) => c === 0)), "blocks come back");
-}
-
-/** The areas of a block's sections along an axis add up to its volume: this judges each cap. */
-async function trySection(page, hasTetrahedra) {
-  for (const axis of ["x", "y", "z"]) {
-    await page.locator('[data-control="Section axis"]').selectOption(axis);
-    const { items } = await state(page);
-    const k = "xyz".indexOf(axis);
-    check(items.every((i) => i.planes.length === 1 && Math.abs(i.planes[0][k]) === 1), "all is cut by one plane across " + axis);
-    const sums = await page.evaluate(([k, count]) => {
-      const { view, report } = window.terrane;
-      const sum = {}, height = 2 * view.model.half.getComponent(k);
-      for (let i = 0; i < count; ++i) {
-        view.cutAt({ axis: k, share: (i + 0.5) / count, flipped: false });
-        for (const item of view.items.filter((i) => i.kind === "block"))
-          sum[item.number] = (sum[item.number] ?? 0) + item.cut.area * height / count;
-      }
-      return report.content.blocks.map((b) => [b.volume, sum[b.number] ?? 0, view.items.find((i) => i.kind === "block" && i.number === b.number)?.tetrahedra.length ?? 0]);
-    }, [k, axis === "z" ? 100 : 25]);
-    for (const [volume, sum, tetrahedra] of sums) {
-      check(near(sum, volume, 0.02 * volume), "sections add up to the volume across " + axis, volume, sum);
-      check(tetrahedra > 0 === hasTetrahedra, "sections are of tetrahedra where there are some");
-    }
-  }
-  await setRange(page, "Section place", 0.25);
-  const before = (await state(page)).items[0].planes[0];
-  await page.locator('[data-control="Section flip"]').click();
-  const after = (await state(page)).items[0].planes[0];
-  check(before.every((c, i) => near(c, -after[i], 1e-9 * Math.abs(c))), "the other side is kept", before, after);
-  await page.locator('[data-control="Section axis"]').selectOption("off");
-  check((await state(page)).items.every((i) => i.planes.length === 0 && i.cap === 0), "the section is off");
-}
-
-async function tryList(page) {
-  const row = page.locator(".list li").first();
-  await row.locator("input[type=checkbox]").uncheck();
-  check(!(await state(page)).items.find((i) => i.kind === "block").visible, "a block is hidden");
-  await row.locator("input[type=checkbox]").check();
-  await row.locator("input[type=color]").evaluate((input) => { input.value = "#123456"; input.dispatchEvent(new Event("input")); });
-  await row.locator("input[type=range]").evaluate((input) => { input.value = 0.5; input.dispatchEvent(new Event("input")); });
-  const block = (await state(page)).items.find((i) => i.kind === "block");
-  check(block.visible && block.colour === "123456" && block.opacity === 0.5, "a block has another colour and opacity", block);
-  await page.getByRole("button", { name: "Hide all blocks" }).click();
-  check((await state(page)).items.every((i) => i.kind !== "block" || !i.visible), "all blocks are hidden");
-  await page.getByRole("button", { name: "Show all surfaces" }).click();
-  check((await state(page)).items.every((i) => i.visible === (i.kind === "surface")), "all surfaces are shown");
-  await page.getByRole("button", { name: "Show all blocks" }).click();
-  const line = page.locator("section[aria-label=Lines] input").first();
-  await line.uncheck();
-  check(!(await state(page)).lines[0][1], "lines are hidden");
-  await line.check();
-  await page.locator('[data-control="Edges"]').check();
-  check((await state(page)).items.every((i) => i.edges), "edges are shown");
-  await page.locator('[data-control="Edges"]').uncheck();
-  check((await state(page)).items.every((i) => !i.edges), "edges are hidden");
-}
-
-const direction = ({ camera, target }) => {
-  const arm = camera.map((c, k) => c - target[k]), length = Math.hypot(...arm);
-  return arm.map((c) => c / length);
-};
-const heading = (s) => Math.atan2(direction(s)[1], direction(s)[0]) * 180 / Math.PI;
-const reach = ({ camera, target }) => Math.hypot(...camera.map((c, k) => c - target[k]));
-
-async function tryCamera(page) {
-  for (const [name, wanted] of [["From above", [0, 0, 1]], ["To the north", [0, -1, 0]], ["To the east", [-1, 0, 0]]]) {
-    await page.getByRole("button", { name }).click();
-    const s = await state(page);
-    check(direction(s).every((c, k) => near(c, wanted[k], 1e-3)) && !s.perspective, name, direction(s));
-  }
-  await page.getByRole("button", { name: "Perspective" }).click();
-  let before = await state(page);
-  check(before.perspective, "perspective");
-  await page.locator(".stage").focus();
-  await page.keyboard.press("ArrowRight");
-  let after = await state(page);
-  check(near(heading(after) - heading(before), 6, 0.01), "an arrow key turns by 6 degrees", heading(before), heading(after));
-  await page.keyboard.press("+");
-  check(near(reach(await state(page)), reach(after) / 1.2, 1e-6 * reach(after)), "plus zooms");
-  before = await state(page);
-  await page.keyboard.press("Shift+ArrowUp");
-  after = await state(page);
-  check(reach({ camera: before.target, target: after.target }) > 0, "Shift and an arrow move the target");
-  await page.keyboard.press("0");
-  before = await state(page);
-  await page.mouse.move(300, 350);
-  await page.mouse.down();
-  await page.mouse.move(400, 320, { steps: 4 });
-  await page.mouse.up();
-  after = await state(page);
-  check(Math.abs(heading(after) - heading(before)) > 5 && after.marked === 0, "dragging turns, and picks nothing");
-  await page.mouse.wheel(0, -300);
-  await page.waitForTimeout(60);
-  check(reach(await state(page)) < reach(after), "the wheel zooms");
-  before = await state(page);
-  await page.mouse.move(300, 350);
-  await page.mouse.down({ button: "right" });
-  await page.mouse.move(360, 350, { steps: 3 });
-  await page.mouse.up({ button: "right" });
-  check(reach({ camera: before.target, target: (await state(page)).target }) > 0, "the right button moves the target");
-  await page.keyboard.press("0");
-}
-
-async function tryPicking(page) {
-  await setRange(page, "Stretch z", 3);
-  check((await state(page)).scale === 3, "heights are stretched");
-  await page.mouse.click(290, 330);
-  await page.mouse.click(340, 350);
-  const found = await page.evaluate(() => {
-    const { view, picks, report } = window.terrane;
-    const { origin, half } = view.model;
-    return { count: picks.length, distance: window.terrane.distance(), places: picks.map((p) => p.place), name: picks[1]?.item.name,
-      inside: picks.every((p) => p.place.every((c, k) => Math.abs(c - origin[k]) <= half.getComponent(k) * 1.0001)),
-      text: document.querySelector(".picked").textContent, unit: report.content.unit };
-  });
-  check(found.count === 2 && found.inside, "two places are picked, in the model's coordinates", found);
-  if (found.count === 2) {
-    const [a, b] = found.places;
-    check(near(found.distance, Math.hypot(...a.map((c, k) => c - b[k])), 1e-9 * found.distance) && found.distance > 0, "the distance is that of the places");
-    check(found.text.includes("Distance") && found.text.includes(found.name) && /Volume|Area/.test(found.text), "the name, a measure and the distance are shown", found.text);
-    check((await state(page)).marked === 2, "both are marked");
-  }
-  await page.keyboard.press("Escape");
-  await setRange(page, "Stretch z", 1);
-}
-
-async function tryFindings(page) {
-  await panel(page, "Findings");
-  const finding = await page.evaluate(() => window.terrane.report.content.findings.list[0]);
-  await page.locator(".finding").first().click();
-  const s = await state(page);
-  const origin = await page.evaluate(() => window.terrane.view.model.origin);
-  check(s.target.every((c, k) => near(c, finding.place[k] - origin[k], 1e-6 * reach(s) + 1e-3)), "a click flies to a finding", s.target, finding.place);
-  check(s.marked === 1, "it is marked");
-  const sorted = await page.evaluate(() => {
-    const { list } = window.terrane.report.content.findings;
-    return list.every((f, i) => i === 0 || f.kind !== list[i - 1].kind || f.measure === "angle" || f.size <= list[i - 1].size);
-  });
-  check(sorted, "findings of a kind come by their size");
-}
-
-async function tryTables(page) {
-  await panel(page, "Tables");
-  const table = page.locator("section.table", { hasText: "Blocks" }).first();
-  const column = () => table.locator("tbody tr td:nth-child(1)").allTextContents();
-  await table.getByRole("button", { name: "Sort by volume" }).click();
-  const up = await column();
-  await table.getByRole("button", { name: "Sort by volume" }).click();
-  const down = await column();
-  const volumes = await page.evaluate(() => window.terrane.report.content.blocks.map((b) => [b.number, b.volume]));
-  const wanted = volumes.sort((a, b) => a[1] - b[1]).map(([n]) => String(n));
-  check(up.join() === wanted.join() && down.join() === wanted.reverse().join(), "a table sorts by volume, both ways", up, wanted);
-  await table.getByRole("button", { name: "Copy" }).click();
-  const copied = await page.evaluate(() => navigator.clipboard.readText());
-  check(copied.split("\n").length === volumes.length + 1 && copied.includes("\t"), "a table is copied", copied.slice(0, 80));
-  const waiting = page.waitForEvent("download");
-  await page.getByRole("button", { name: "Download all numbers as JSON" }).click();
-  const saved = JSON.parse(readFileSync(await (await waiting).path(), "utf8"));
-  check(saved.format === "terrane-report" && saved.blocks.length === volumes.length && saved.run.seconds.total > 0, "JSON is downloaded", Object.keys(saved));
-}
-
-/** Opens each tab for axe, in light and dark. */
-async function tryAccess(page) {
-  for (const tab of ["Model", "Findings", "Plots", "Tables", "About"]) {
-    await panel(page, tab);
-    await judgeAccess(page, tab);
-  }
-  await page.getByRole("button", { name: "Light or dark" }).click();
-  check(await page.evaluate(() => document.documentElement.dataset.theme) === "dark", "the theme changes");
-  await panel(page, "Plots");
-  await judgeAccess(page, "Plots, dark");
-  await panel(page, "Model");
-  await judgeAccess(page, "Model, dark");
-}
-
-/** What was filled is an item of its own, and its variogram is drawn. */
-async function tryFilled(page) {
-  const filled = await page.evaluate(() => window.terrane.view.items.map((i) => [i.name, i.geometry.index.count]));
-  const sizes = await page.locator("section[aria-label=Surfaces] .size").allTextContents();
-  const [given, invented] = sizes.map((text) => Number(text.replace(/[^\d.]/g, "")));
-  check(invented > 0 && given > invented, "each has the area of its own", sizes);
-  check(filled.length === 2 && filled[1][0] === "top: filled" && filled[1][1] > 0, "what was filled is apart", filled);
-  const plots = await page.evaluate(() => window.terrane.report.content.plots.filter((p) => p.lines).map((p) => [p.title, p.lines.map((l) => [l.name, l.x.length])]));
-  check(plots.length === 4 && plots.every(([, lines]) => lines.every(([, count]) => count > 1)), "each hole has a variogram and a cross-validation", plots);
-  await panel(page, "Plots");
-  check(await page.locator(".chart canvas").count() === await page.evaluate(() => window.terrane.report.content.plots.length), "all plots are drawn");
-}
-
-/** The policy allows no request and no other script. */
-async function tryPolicy(page) {
-  const { ran, fetched } = await page.evaluate(async () => {
-    const script = document.createElement("script");
-    script.textContent = "window.intruder = true";
-    document.body.append(script);
-    script.remove();
-    const fetched = await fetch("https://example.invalid/").then(() => true, () => false);
-    return { ran: window.intruder === true, fetched };
-  });
-  check(!ran && !fetched, "the page runs no other script and fetches nothing");
-}
-
 // ------------------------------------------------------------------------------------------ the tests
 
 async function desktop(browser, name, tries) {
@@ -402,7 +169,7 @@ async function desktop(browser, name, tries) {
 
 async function phone(browser, name) {
   const { context, page } = await open(browser, name, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true, colorScheme: "dark" });
-  where = `${name} on a phone`;
+  about(`${name} on a phone`);
   const before = await state(page);
   check(await page.evaluate(() => document.documentElement.scrollWidth <= 390), "nothing is wider than the screen");
   check((await picture(page)).drawn > 0.05, "the canvas is not blank");
@@ -450,18 +217,25 @@ async function extremes(browser) {
 /** Refusals of the policy are console errors, which are expected here. */
 async function tryPolicyQuietly(page) {
   const flawsBefore = flaws.length;
-  await tryPolicy(page);
+  await controls.tryPolicy(page);
   const own = flaws.splice(flawsBefore).filter((f) => !/Content Security Policy|no request/i.test(f));
   flaws.push(...own);
 }
 
 async function prints(browser) {
   const { context, page } = await open(browser, "modelA2");
-  where = "modelA2 printed";
+  about("modelA2 printed");
   const pdf = await page.pdf({ path: join(pictures, "modelA2.pdf"), format: "A4" });
   check(pdf.length > 50_000, "it prints", pdf.length);
   await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
   check(await page.evaluate(() => [...document.querySelectorAll(".panel")].every((p) => !p.hidden)), "all tabs are printed");
+  await page.setViewportSize({ width: 720, height: 1050 }); // A4 without its margins
+  await page.emulateMedia({ media: "print" });
+  const { wide, high } = await page.evaluate(() => ({
+    wide: [...document.querySelectorAll("table")].filter((t) => t.getBoundingClientRect().right > 720).length,
+    high: document.querySelector(".stage").getBoundingClientRect().height }));
+  check(wide === 0, "no table is wider than the paper", wide);
+  check(high > 200 && high < 560, "the picture leaves room for the lists", high);
   await context.close();
 }
 
@@ -474,10 +248,10 @@ try {
   const allowed = { permissions: ["clipboard-read", "clipboard-write"] };
   const original = browser.newContext.bind(browser);
   browser.newContext = (options) => original({ ...allowed, ...options });
-  await desktop(browser, "modelA1", [tryExplode, (page) => trySection(page, true), tryFindings, tryTables]);
-  await desktop(browser, "modelA2", [(page) => trySection(page, false), tryCamera, tryPicking, tryList, tryAccess]);
-  await desktop(browser, "faults", [tryFindings]);
-  await desktop(browser, "filled", [tryFilled]);
+  await desktop(browser, "modelA1", [controls.tryExplode, (page) => controls.trySection(page, true), controls.tryFindings, controls.tryTables]);
+  await desktop(browser, "modelA2", [(page) => controls.trySection(page, false), controls.tryCamera, controls.tryPicking, controls.tryList, (page) => controls.tryAccess(page, axe)]);
+  await desktop(browser, "faults", [controls.tryFindings, controls.tryPace]);
+  await desktop(browser, "filled", [controls.tryFilled]);
   const models = ["modelA1", "modelA2", "faults", "filled"];
   if (existsSync(join(work, "gfm2020.html"))) {
     await desktop(browser, "gfm2020", []);
@@ -494,5 +268,5 @@ try {
 }
 if (records) writeFileSync(referenceFile, JSON.stringify(references, null, 0).replace(/\],/g, "],\n") + "\n");
 for (const flaw of flaws) console.log(flaw);
-console.log(`${checks} checks, ${flaws.length} failed; pages and pictures are in ${pictures}`);
+console.log(`${count.checks} checks, ${flaws.length} failed; pages and pictures are in ${pictures}`);
 process.exit(flaws.length > 0 ? 1 : 0);

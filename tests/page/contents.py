@@ -118,12 +118,40 @@ def check_contents(folder):
     check(not content["verdict"]["good"], "the verdict says no")
     corners = array(content, arrays, "triangles")
     vertices = array(content, arrays, "vertices")
-    check(len(corners) == 12 and max(corners) == len(vertices) // 3 - 1, "all triangles are drawn")
+    check(len(corners) == 12 and max(corners) == 7, "all triangles are drawn")
     view = content["view"]
     points = {tuple(round(view["origin"][k] + vertices[3 * v + k] * view["step"], 5) for k in range(3)) for v in corners}
     check((9, 9, 10) in points and (0, 0, 5) in points and len(points) == 8, "they have the file's coordinates", points)
     digest = hashlib.sha256((folder / "two.ts").read_bytes()).hexdigest()
     check(any(digest in row for t in content["tables"] if t["title"] == "Input files" for row in t["rows"]), "the input's hash")
+
+
+def check_contact_lines(folder):
+    """`terrane check --report` draws where triangles meet: segments, borders of overlaps, crosses at points."""
+    first = "o a\nv 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\no b\n"
+    for name, other, count, length, low, high in (
+            ("segment", ((1, -1, -1), (1, 5, -1), (1, 2, 3)), 1, 3, (1, 0, 0), (1, 3, 0)),
+            ("end", ((1, 1, -1), (1, 1, 1), (9, 1, 0)), 1, 2, (1, 1, 0), (3, 1, 0)),
+            ("overlap", ((1, 1, 0), (5, 1, 0), (1, 5, 0)), 3, 4 + 8 ** 0.5, (1, 1, 0), (3, 3, 0)),
+            ("point", ((1, 1, 0), (1, 2, 4), (2, 1, 4)), 3, 0, None, None)):
+        text = first + "".join("v {} {} {}\n".format(*p) for p in other) + "f 4 5 6\n"
+        (folder / f"{name}.obj").write_text(text)
+        status, said = run(folder, "check", f"{name}.obj", "--report", f"{name}.html")
+        content, arrays, *_ = parts((folder / f"{name}.html").read_text())
+        lines = [line for line in content["lines"] if line["kind"] == "improper contact"]
+        check(status == 1 and len(lines) == 1 and lines[0]["count"] == count, f"contacts are drawn: {name}", status, content["lines"], said)
+        if not lines:
+            continue
+        check(abs(lines[0]["length"] - length) < 1e-9, f"they have their length: {name}", lines[0]["length"], length)
+        vertices, segments, view = array(content, arrays, "vertices"), array(content, arrays, "segments"), content["view"]
+        ends = segments[2 * lines[0]["first"]:2 * (lines[0]["first"] + count)]
+        points = [[view["origin"][k] + vertices[3 * v + k] * view["step"] for k in range(3)] for v in ends]
+        if low:
+            found = [[f(p[k] for p in points) for k in range(3)] for f in (min, max)]
+            check(all(abs(a - b) < 1e-5 for p, q in zip(found, (low, high)) for a, b in zip(p, q)), f"they are where they are: {name}", found)
+        else:
+            middle = [sum(p[k] for p in points) / 6 for k in range(3)]
+            check(all(abs(a - b) < 1e-5 for a, b in zip(middle, (1, 1, 0))), "a cross is round its point", points)
 
 
 def check_same_bytes(folder):
@@ -219,6 +247,13 @@ def check_certificates(folder):
     check(status == 0 and found == {"certificate.json": True, "certificate_blocks.json": True}, "those of a project", found, said, content["certificates"])
 
 
+def check_quiet(folder):
+    """`terrane report` and `terrane view` obey --quiet, as all commands do."""
+    done = subprocess.run([PROGRAM, "report", "two.ts", "-o", "quiet.html", "--quiet"], cwd=folder, capture_output=True, text=True)
+    check(done.returncode == 0 and done.stdout == done.stderr == "", "--quiet shows nothing", done.stdout, done.stderr)
+    check((folder / "quiet.html").is_file(), "the page is there")
+
+
 def opener(folder, name):
     """Writes a program that notes what it is asked to open."""
     script = folder / name
@@ -276,8 +311,8 @@ def check_without(folder):
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        tests = (check_without,) if "--without" in sys.argv else (check_names, check_contents, check_same_bytes, check_commands,
-                                                                       check_layers, check_certificates, check_view)
+        tests = (check_without,) if "--without" in sys.argv else (check_names, check_contents, check_contact_lines, check_same_bytes, check_commands,
+                                                                       check_layers, check_certificates, check_quiet, check_view)
         for test in tests:
             test(folder)
     print("\n".join(flaws) or "pages are what they must be")

@@ -58,8 +58,12 @@ static void fields(auto& archive, Is<Deviation> auto& d) {
     archive(d.out, d.back);
 }
 
+static void fields(auto& archive, Is<LocalSize> auto& s) {
+    archive(s.place, s.length);
+}
+
 static void fields(auto& archive, Is<ImproveOptions> auto& o) {
-    archive(o.edge_length, o.edge_length_of, o.max_deviation, o.curve_length, o.turn,
+    archive(o.local_sizes, o.edge_length, o.edge_length_of, o.max_deviation, o.curve_length, o.turn,
             o.layers_in_gaps, o.smallest, o.growth, o.crease_angle, o.curve_angle, o.passes,
             o.thickness_share, o.least_quality, o.max_volume_change, o.max_triangles);
 }

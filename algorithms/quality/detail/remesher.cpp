@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/thickness.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
@@ -109,6 +110,16 @@ void Remesher::shorten_in_gaps() {
     limit_growth(mesh_.points, used, options_.growth, mesh_.sizes);
 }
 
+/// Makes wanted lengths shorter round the places that the options name. Each pass does so anew, as
+/// the vertices of the first triangles are too far from them to tell where.
+void Remesher::shorten_at_places() {
+    for (std::uint32_t v = 0; v < mesh_.points.size(); ++v)
+        for (const LocalSize& local : options_.local_sizes)
+            mesh_.sizes[v] = std::min(
+                mesh_.sizes[v],
+                local.length + options_.growth * length(minus(mesh_.points[v], local.place)));
+}
+
 /// Returns whether another pass is worthwhile.
 bool Remesher::one_pass(bool is_first, bool with_jitter) {
     const std::size_t before = changes();
@@ -116,6 +127,7 @@ bool Remesher::one_pass(bool is_first, bool with_jitter) {
         clean_first();
     else
         shorten_in_gaps();
+    shorten_at_places();
     split_curves(context_);
     collapse_curves(context_);
     slide_curves(context_);

@@ -44,6 +44,7 @@ private:
     void regroup_if_needed();
     void clean_first();
     void shorten_in_gaps();
+    void shorten_at_places();
     [[nodiscard]] std::size_t changes() const;
     bool one_pass(bool is_first, bool with_jitter);
     void finish();

@@ -16,6 +16,7 @@
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/intersection/pencils.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
+#include <terrane/algorithms/rounding/detail/neighbouring_doubles.hpp>
 #include <terrane/algorithms/rounding/detail/reports.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
 #include <terrane/kernel/predicates.hpp>
@@ -105,6 +106,8 @@ void Rounding::repair(std::vector<CandidatePair>& pairs) {
         grids.insert(grids.end(), rounding_tuning.coarse_digits.begin(),
                      rounding_tuning.coarse_digits.end());
     for (auto digits = grids.begin(); digits != grids.end();) {
+        if (pairs.size() <= rounding_tuning.few) search_nearby(pairs);
+        if (pairs.empty()) return;
         if (out_.report.rounds == options_.max_rounds || run_.stop.stop_requested()) return;
         const auto grid =
             grid_of_digits(state_.points, *digits, task_.limit - deviation(), task_.kept);
@@ -120,6 +123,21 @@ void Rounding::repair(std::vector<CandidatePair>& pairs) {
         if (pairs.empty()) return;
         if (is_whole && rounding_tuning.shrinking * pairs.size() > count) return;
         if (is_whole || pairs.size() == count) ++digits;
+    }
+}
+
+/// Moves few vertices to doubles nearby, as one round, if that leaves fewer contacts.
+void Rounding::search_nearby(std::vector<CandidatePair>& pairs) {
+    if (out_.report.rounds == options_.max_rounds) return;
+    const RoundingState before = state_;
+    if (!search_neighbouring_doubles(state_, pairs, task_.kept, task_.limit - moved_.largest, run_))
+        return;
+    auto left = contacts();
+    if (left.size() < pairs.size() && deviation() <= task_.limit) {
+        ++out_.report.rounds;
+        pairs = std::move(left);
+    } else {
+        state_ = before;
     }
 }
 

@@ -68,6 +68,7 @@ private:
         if (run_.progress) run_.progress("round", share);
     }
     void repair(std::vector<CandidatePair>& pairs);
+    void search_nearby(std::vector<CandidatePair>& pairs);
     void to_nearest();
     void constructed_to_nearest(std::size_t v);
     [[nodiscard]] Point3 given(const Point3& input) const;

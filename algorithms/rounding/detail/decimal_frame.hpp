@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/rounding/detail/input_frame.hpp>
 
 namespace terrane::rounding::detail {
 
@@ -27,7 +28,7 @@ using KeptPlanes = std::array<std::vector<double>, 3>;
 /// (2) The way back is monotone on each axis, and takes what an input coordinate became to an input
 ///     coordinate that became the same. So what lies between two input coordinates stays there.
 /// (3) The powers are positive: orientations, order and parallel planes stay the same.
-class DecimalFrame {
+class DecimalFrame : public InputFrame {
 public:
     /// Returns the frame with the least number of digits, per axis, for which all chosen points are
     /// decimals; nothing if they are integers, or no decimals, on all axes. `chosen`: per point;
@@ -35,17 +36,10 @@ public:
     static std::optional<DecimalFrame> of(std::span<const Point3> points,
                                           const std::vector<bool>& chosen, const KeptPlanes& kept);
 
-    /// Returns the place of one of the points in the frame.
-    [[nodiscard]] Point3 into(const Point3& p) const;
-    /// Returns the doubles for a place in the frame.
-    [[nodiscard]] Point3 back(const Point3& q) const;
-
-    /// Bounds the distance between one of the points and its exact place in the frame, and that
-    /// between this exact place and where back() takes it.
-    [[nodiscard]] double largest_error() const { return largest_error_; }
-    /// Bounds the distance between an exact place in the frame and back(q), where no coordinate of
-    /// q is farther from it than `errors` (in the frame).
-    [[nodiscard]] double error_of(const Point3& q, const std::array<double, 3>& errors) const;
+    [[nodiscard]] Point3 into(const Point3& p) const override;
+    [[nodiscard]] Point3 back(const Point3& q) const override;
+    [[nodiscard]] double error_of(const Point3& q,
+                                  const std::array<double, 3>& errors) const override;
 
 private:
     /// What an input coordinate becomes.
@@ -66,7 +60,6 @@ private:
     void keep_places(std::span<const Point3> points, const KeptPlanes& kept);
 
     std::array<Axis, 3> axes_;
-    double largest_error_ = 0;
 };
 
 } // namespace terrane::rounding::detail

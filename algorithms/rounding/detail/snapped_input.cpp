@@ -84,7 +84,7 @@ std::vector<Surface> SnappedInput::surfaces(const SnapGrid& grid) {
 
 /// Statement (4) of docs/explanation/rounding.md has the factor of two: one error of the way into
 /// the frame, and one of the way back.
-std::vector<Surface> SnappedInput::surfaces(const DecimalFrame& frame) {
+std::vector<Surface> SnappedInput::surfaces(const InputFrame& frame) {
     const auto inputs = arrangement_.state->points.inputs();
     how_ = {};
     how_.largest = 2 * frame.largest_error();

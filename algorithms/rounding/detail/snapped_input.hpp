@@ -46,10 +46,10 @@ std::optional<SnapGrid> grid_of_digits(std::span<const Point3> points, int digit
 
 /// How the input of an arrangement differs from the surfaces that are rounded.
 struct MovedInput {
-    double largest = 0;                  ///< no point of a surface is farther from where it was
-    const DecimalFrame* frame = nullptr; ///< the arrangement is in this frame; null: in none
-    std::size_t moved = 0;               ///< number of vertices that moved
-    std::size_t merged = 0;              ///< by how many points distinct vertices became fewer
+    double largest = 0;                ///< no point of a surface is farther from where it was
+    const InputFrame* frame = nullptr; ///< the arrangement is in this frame; null: in none
+    std::size_t moved = 0;             ///< number of vertices that moved
+    std::size_t merged = 0;            ///< by how many points distinct vertices became fewer
     /// Per place in the arrangement: the largest distance of a vertex there from where it was; 0
     /// for places that are missing.
     std::unordered_map<Point3, double, PointHash> moves{};
@@ -74,7 +74,7 @@ public:
     /// grid.
     std::vector<Surface> surfaces(const SnapGrid& grid);
     /// Returns the surfaces in a frame.
-    std::vector<Surface> surfaces(const DecimalFrame& frame);
+    std::vector<Surface> surfaces(const InputFrame& frame);
 
     /// Returns whether each vertex was chosen.
     [[nodiscard]] const std::vector<bool>& chosen() const { return chosen_; }

@@ -82,8 +82,10 @@ struct RoundingState {
     /// Returns the gaps with those since the last round ended.
     [[nodiscard]] double total_gaps() const;
 
-private:
+    /// Moves a point, which is dirty then.
     void move_point(std::size_t v, const Point3& to);
+
+private:
     bool merge_points(const Run& run);
     void join_equal(std::span<const std::uint32_t> dirty, std::vector<bool>& gone);
     void find_gaps(const std::vector<bool>& gone);

@@ -15,6 +15,7 @@ namespace terrane::rounding::detail {
 /// The constants of rounding. A grid is given by the number of binary digits that it drops: its
 /// spacing is 2^digits units in the last place of the largest coordinate on each axis.
 ///
+/// (0) Few contacts are searched for doubles nearby that separate them.
 /// (1) Crossing triangles of the output are snapped first, to fine grids, so that as little as
 ///     possible moves. This removes isolated contacts. It multiplies the contacts of surfaces that
 ///     are nearly coplanar over an area (touching_ridges_turned).
@@ -33,11 +34,15 @@ struct RoundingTuning {
     int allowed_digits = 10;      ///< the largest move allowed by default, as digits of a grid
     double decimal_share = 0.125; ///< inputs are decimals only if the spacing of doubles is less
                                   ///< than this share of that of the decimals
-    std::size_t many = 1024;      ///< fewer contacts are never crowded
-    std::size_t crowded = 8;      ///< contacts are crowded if there are fewer triangles per contact
-    std::size_t multiplied = 8;   ///< growth of contacts in a round that counts as a failure
-    unsigned widenings = 3;       ///< attempts per grid of the input, each on more triangles
-    unsigned shrinking = 4;       ///< a round helps if it divides the contacts by at least this
+    double cluster_spacings = 16; ///< triangles are nearly coplanar if they are so many spacings of
+                                  ///< the doubles from one plane
+    std::size_t few = 64; ///< so few contacts are separated by moves to doubles nearby first
+    static constexpr int search_steps = 2; ///< how many doubles away along each axis
+    std::size_t many = 1024;               ///< fewer contacts are never crowded
+    std::size_t crowded = 8;    ///< contacts are crowded if there are fewer triangles per contact
+    std::size_t multiplied = 8; ///< growth of contacts in a round that counts as a failure
+    unsigned widenings = 3;     ///< attempts per grid of the input, each on more triangles
+    unsigned shrinking = 4;     ///< a round helps if it divides the contacts by at least this
 };
 
 inline constexpr RoundingTuning rounding_tuning;
@@ -57,6 +62,9 @@ inline std::vector<NamedConstant> named_constants() {
         {"coarse_digits_6", static_cast<double>(t.coarse_digits[5])},
         {"allowed_digits", static_cast<double>(t.allowed_digits)},
         {"decimal_share", t.decimal_share},
+        {"cluster_spacings", t.cluster_spacings},
+        {"few", static_cast<double>(t.few)},
+        {"search_steps", static_cast<double>(RoundingTuning::search_steps)},
         {"many", static_cast<double>(t.many)},
         {"crowded", static_cast<double>(t.crowded)},
         {"multiplied", static_cast<double>(t.multiplied)},

@@ -18,7 +18,7 @@ using Pair = std::array<std::uint32_t, 2>;
 
 /// The volumes in front of a cell and behind it, before, as its only layer tells.
 Pair sides_before(const Cell& cell, const Volumes& before) {
-    const Layer& layer = cell.layers.front();
+    const CellLayer& layer = cell.layers.front();
     Pair sides = before.of_sides[layer.origin];
     if (layer.is_turned) std::swap(sides[0], sides[1]);
     return sides;

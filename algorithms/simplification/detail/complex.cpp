@@ -54,7 +54,7 @@ Complex::Complex(std::vector<Point3> points, std::vector<Past> past, const std::
 
 void Complex::find_freedom(std::span<const SurfaceInfo> surfaces) {
     for (const Cell& cell : cells_) {
-        if (std::none_of(cell.layers.begin(), cell.layers.end(), [&](const Layer& l) {
+        if (std::none_of(cell.layers.begin(), cell.layers.end(), [&](const CellLayer& l) {
                 return surfaces[l.surface].role == Role::boundary;
             }))
             continue;
@@ -79,13 +79,13 @@ std::vector<std::uint32_t> Complex::star(std::uint32_t a, std::uint32_t b) const
     return cells;
 }
 
-void Complex::unite(Cell& cell, const Triangle& corners, const std::vector<Layer>& layers) {
+void Complex::unite(Cell& cell, const Triangle& corners, const std::vector<CellLayer>& layers) {
     const bool is_turned = runs_other_way(cell.corners, corners);
-    for (Layer layer : layers) {
+    for (CellLayer layer : layers) {
         layer.is_turned = layer.is_turned != is_turned;
         const auto at = std::lower_bound(
             cell.layers.begin(), cell.layers.end(), layer.surface,
-            [](const Layer& l, std::uint32_t surface) { return l.surface < surface; });
+            [](const CellLayer& l, std::uint32_t surface) { return l.surface < surface; });
         if (at != cell.layers.end() && at->surface == layer.surface)
             at->is_folded = at->is_folded == layer.is_folded; // even + even, odd + odd: even
         else
@@ -93,7 +93,7 @@ void Complex::unite(Cell& cell, const Triangle& corners, const std::vector<Layer
     }
 }
 
-void Complex::add_cell(const Triangle& corners, const std::vector<Layer>& layers) {
+void Complex::add_cell(const Triangle& corners, const std::vector<CellLayer>& layers) {
     for (const std::uint32_t t : star_[corners[0]])
         if (have_same_corners(cells_[t].corners, corners)) return unite(cells_[t], corners, layers);
     const auto number = static_cast<std::uint32_t>(cells_.size());
@@ -109,7 +109,7 @@ void Complex::remove_cell(std::uint32_t cell) {
 void Complex::remove_layer(std::uint32_t cell, std::uint32_t surface) {
     auto& layers = cells_[cell].layers;
     if (layers.size() == 1 && layers.front().surface == surface) return remove_cell(cell);
-    std::erase_if(layers, [&](const Layer& l) { return l.surface == surface; });
+    std::erase_if(layers, [&](const CellLayer& l) { return l.surface == surface; });
 }
 
 PlacedVertex Complex::between(std::span<const std::uint32_t> corners,

@@ -25,7 +25,7 @@ namespace terrane::simplification::detail {
 constexpr std::uint32_t none = UINT32_MAX;
 
 /// A surface of a cell.
-struct Layer {
+struct CellLayer {
     std::uint32_t surface = 0;
     std::uint32_t origin = 0; ///< triangle of the given mesh of which it is the image, or a part
     bool is_turned = false;   ///< the corners of the cell run the other way round
@@ -35,7 +35,7 @@ struct Layer {
 /// A triangle of the complex.
 struct Cell {
     Triangle corners{};
-    std::vector<Layer> layers{}; ///< by surface, ascending; empty: the cell is gone
+    std::vector<CellLayer> layers{}; ///< by surface, ascending; empty: the cell is gone
 };
 
 /// What a vertex may do. Coordinates in which the boundary of a volume of interest lies stay as
@@ -101,9 +101,9 @@ public:
     void remove_layer(std::uint32_t cell, std::uint32_t surface);
 
 private:
-    void add_cell(const Triangle& corners, const std::vector<Layer>& layers);
+    void add_cell(const Triangle& corners, const std::vector<CellLayer>& layers);
     void remove_cell(std::uint32_t cell);
-    void unite(Cell& cell, const Triangle& corners, const std::vector<Layer>& layers);
+    void unite(Cell& cell, const Triangle& corners, const std::vector<CellLayer>& layers);
     std::uint32_t add_vertex(std::span<const std::uint32_t> corners,
                              std::span<const double> weights);
     void find_freedom(std::span<const SurfaceInfo> surfaces);

@@ -13,8 +13,9 @@ namespace terrane::simplification::detail {
 namespace {
 
 bool have_same_surfaces(const Cell& a, const Cell& b) {
-    return std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(),
-                      [](const Layer& x, const Layer& y) { return x.surface == y.surface; });
+    return std::equal(
+        a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(),
+        [](const CellLayer& x, const CellLayer& y) { return x.surface == y.surface; });
 }
 
 /// Tells whether two cells at the edge ab turn by more than the crease angle.

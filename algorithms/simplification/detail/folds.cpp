@@ -13,12 +13,12 @@ namespace terrane::simplification::detail {
 void remove_folds(Complex& complex, double max_move) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> folded; // by surface: cells
     for (std::uint32_t t = 0; t < complex.cells().size(); ++t)
-        for (const Layer& layer : complex.cells()[t].layers)
+        for (const CellLayer& layer : complex.cells()[t].layers)
             if (layer.is_folded) folded[layer.surface].push_back(t);
     for (const auto& [surface, cells] : folded) {
         std::vector<Triangle> rest;
         for (const Cell& cell : complex.cells())
-            for (const Layer& layer : cell.layers)
+            for (const CellLayer& layer : cell.layers)
                 if (layer.surface == surface && !layer.is_folded) rest.push_back(cell.corners);
         if (rest.empty()) continue;
         const TriangleTree tree(complex.points(), rest);

@@ -221,7 +221,7 @@ private:
         std::vector<std::uint32_t> blocks;
         for (const std::uint32_t v : place.vertices())
             for (const std::uint32_t t : complex_.star(v))
-                for (const Layer& layer : complex_.cells()[t].layers)
+                for (const CellLayer& layer : complex_.cells()[t].layers)
                     for (const std::uint32_t b : options_.sides_of[layer.origin])
                         if (options_.locked[b]) blocks.push_back(b);
         return blocks;

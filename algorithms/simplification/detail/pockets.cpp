@@ -39,10 +39,10 @@ std::vector<std::uint32_t> largest(const Mesh& mesh, const Interfaces& interface
 
 /// Adds a layer that was on the other side of a block, so that the block is behind it where it was in
 /// front, and the other way round. `side`: of the cell, on which the block is; `was`: of the layer.
-void add_layer(Cell& cell, Layer layer, std::size_t side, std::size_t was) {
-    const auto at =
-        std::lower_bound(cell.layers.begin(), cell.layers.end(), layer.surface,
-                         [](const Layer& l, std::uint32_t surface) { return l.surface < surface; });
+void add_layer(Cell& cell, CellLayer layer, std::size_t side, std::size_t was) {
+    const auto at = std::lower_bound(
+        cell.layers.begin(), cell.layers.end(), layer.surface,
+        [](const CellLayer& l, std::uint32_t surface) { return l.surface < surface; });
     if (at != cell.layers.end() && at->surface == layer.surface) return;
     layer.is_turned = side == was;
     cell.layers.insert(at, layer);
@@ -83,12 +83,12 @@ std::size_t dissolve(const Mesh& mesh, const Volumes& volumes,
         ++count;
         const Cell& first = cells[gone.front()];
         const std::size_t side = volumes.of_sides[gone.front()][0] == block ? 0 : 1;
-        const std::vector<Layer> layers = first.layers;
+        const std::vector<CellLayer> layers = first.layers;
         for (const auto& [key, face] : interfaces.all) {
             is_used[key.first] = key.first != 0;
             if (face.second == gone) continue;
             for (const std::uint32_t t : face.second)
-                for (const Layer& layer : layers)
+                for (const CellLayer& layer : layers)
                     add_layer(cells[t], layer, volumes.of_sides[t][0] == block ? 0 : 1,
                               layer.is_turned ? 1 - side : side);
         }

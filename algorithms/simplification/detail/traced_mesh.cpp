@@ -30,7 +30,7 @@ struct FlatSoup {
     std::vector<Triangle> triangles;
 };
 
-FlatSoup flattened(const Soup& soup) {
+FlatSoup flattened(const MovedSoup& soup) {
     FlatSoup flat;
     for (const Surface& s : soup.surfaces) {
         const auto first = static_cast<std::uint32_t>(flat.points.size());
@@ -73,11 +73,11 @@ TracedMesh traced(const Mesh& mesh) {
     return result;
 }
 
-Soup soup_of(const Complex& complex, std::span<const SurfaceInfo> surfaces) {
-    Soup soup;
-    std::vector<std::vector<std::pair<Triangle, Layer>>> triangles(surfaces.size());
+MovedSoup soup_of(const Complex& complex, std::span<const SurfaceInfo> surfaces) {
+    MovedSoup soup;
+    std::vector<std::vector<std::pair<Triangle, CellLayer>>> triangles(surfaces.size());
     for (const Cell& cell : complex.cells())
-        for (const Layer& layer : cell.layers) {
+        for (const CellLayer& layer : cell.layers) {
             Triangle t = cell.corners;
             if (layer.is_turned) std::swap(t[1], t[2]);
             triangles[layer.surface].emplace_back(t, layer);
@@ -105,7 +105,7 @@ Soup soup_of(const Complex& complex, std::span<const SurfaceInfo> surfaces) {
     return soup;
 }
 
-TracedMesh traced(const Mesh& mesh, const Soup& soup, double rounded) {
+TracedMesh traced(const Mesh& mesh, const MovedSoup& soup, double rounded) {
     const FlatSoup flat = flattened(soup);
     std::vector<std::pair<Point3, Past>> known; // of soup vertices, by place
     for (std::size_t v = 0; v < flat.points.size(); ++v)
@@ -121,7 +121,7 @@ TracedMesh traced(const Mesh& mesh, const Soup& soup, double rounded) {
         Cell cell{mesh.triangles[t], {}};
         const Point3 normal = normal_of(mesh.vertices, cell.corners);
         for (const std::uint32_t parent : mesh.parents_of[t]) {
-            Layer layer = soup.layers[parent];
+            CellLayer layer = soup.layers[parent];
             const Triangle& whole = flat.triangles[parent];
             double most = 0;
             for (const std::uint32_t v : whole)

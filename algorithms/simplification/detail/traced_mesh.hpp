@@ -20,19 +20,19 @@ struct TracedMesh {
 };
 
 /// The surfaces of a complex, one by one, and where each of their triangles comes from.
-struct Soup {
+struct MovedSoup {
     std::vector<Surface> surfaces;
-    std::vector<Layer> layers; ///< per triangle, through all surfaces; its own orientation
-    std::vector<Past> past;    ///< per vertex, through all surfaces
+    std::vector<CellLayer> layers; ///< per triangle, through all surfaces; its own orientation
+    std::vector<Past> past;        ///< per vertex, through all surfaces
 };
 
 /// Numbers a mesh by place: vertices in lexicographic order, triangles by their corners.
 TracedMesh traced(const Mesh& mesh);
 
-Soup soup_of(const Complex& complex, std::span<const SurfaceInfo> surfaces);
+MovedSoup soup_of(const Complex& complex, std::span<const SurfaceInfo> surfaces);
 
 /// Traces the rounded arrangement of a soup, numbered as it is. `rounded`: how far vertices moved
 /// in rounding.
-TracedMesh traced(const Mesh& mesh, const Soup& soup, double rounded);
+TracedMesh traced(const Mesh& mesh, const MovedSoup& soup, double rounded);
 
 } // namespace terrane::simplification::detail

@@ -18,6 +18,9 @@ struct TetrahedraConstants {
     double least_ratio = 1.1;
     /// Largest expected number of tetrahedra; TetGen counts in int.
     double most_tetrahedra = 5e8;
+    /// Where TetGen has a bound on shapes and keeps all facets, it has this share of the time limit,
+    /// but so many seconds per point at least: 1.5.0 may then refine forever. Larger: longer waits.
+    double bounded_share = 0.1, bounded_seconds_per_point = 2e-3;
 };
 
 inline constexpr TetrahedraConstants constants;
@@ -28,6 +31,8 @@ inline std::vector<NamedConstant> named_constants() {
         {"least_margin", constants.least_margin},
         {"least_ratio", constants.least_ratio},
         {"most_tetrahedra", constants.most_tetrahedra},
+        {"bounded_share", constants.bounded_share},
+        {"bounded_seconds_per_point", constants.bounded_seconds_per_point},
     };
 }
 

@@ -284,6 +284,11 @@ TEST_CASE("improve: invalid options and meshes are refused", "[improve]") {
     options = {};
     options.layers_in_gaps = std::numeric_limits<double>::infinity();
     CHECK(refusal(mesh, options) == ErrorCode::bad_option);
+    options = {};
+    options.local_sizes = {{{0, 0, 0}, 0}};
+    CHECK(refusal(mesh, options) == ErrorCode::bad_option);
+    options.local_sizes = {{{0, std::numeric_limits<double>::infinity(), 0}, 1}};
+    CHECK(refusal(mesh, options) == ErrorCode::bad_option);
 
     Mesh broken = mesh;
     broken.triangles[3][1] = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -318,4 +323,41 @@ TEST_CASE("improve: invalid options and meshes are refused", "[improve]") {
     run.stop = stop.get_token();
     run.progress = [&](std::string_view, double) { stop.request_stop(); };
     CHECK(refusal(mesh, {}, run) == ErrorCode::interrupted);
+}
+
+TEST_CASE("improve: edges are short at places that ask for it, and no shorter elsewhere",
+          "[improve]") {
+    const Mesh mesh = mesh_of({unit_grid(6, 6, [](double u, double v) {
+        return Point3{12 * u, 12 * v, .2 * std::sin(6 * u)};
+    })});
+    ImproveOptions options;
+    options.edge_length = 2;
+    const Mesh plain = improved(mesh, options).mesh;
+    const Point3 place{7, 5, .1};
+    options.local_sizes = {{place, .25}};
+    const Mesh local = improved(mesh, options).mesh;
+    const auto edges_within = [&](const Mesh& of, double least, double most) {
+        double sum = 0, count = 0, longest = 0;
+        for (const Triangle& t : of.triangles)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Point3 &a = of.vertices[t[k]], &b = of.vertices[t[(k + 1) % 3]];
+                const double away =
+                    std::hypot((a.x + b.x) / 2 - place.x, (a.y + b.y) / 2 - place.y);
+                if (away < least || away > most) continue;
+                const double edge = std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
+                longest = std::max(longest, edge);
+                sum += edge;
+                ++count;
+            }
+        return std::pair(sum / count, longest);
+    };
+    const auto [mean, longest] = edges_within(local, 0, 1);
+    // Lengths grow by 0.3 of the distance; edges may be a third longer than that.
+    CHECK(mean < 4. / 3 * (.25 + .3 * 1));
+    CHECK(longest < 2 * (.25 + .3 * 1.5));
+    CHECK(mean < edges_within(plain, 0, 1).first / 2);
+    // From 5.8 on, they are as long as elsewhere.
+    CHECK(edges_within(local, 6, 12).first > .8 * edges_within(plain, 6, 12).first);
+    options.local_sizes = {{place, 2}};
+    CHECK(improved(mesh, options).mesh->vertices == plain.vertices);
 }

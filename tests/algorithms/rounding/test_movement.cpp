@@ -44,6 +44,18 @@ std::vector<Surface> decimal_soup(std::uint32_t seed, int triangles) {
     return soup;
 }
 
+/// Turns surfaces about a corner of their lattice, so that no coordinate is a decimal.
+std::vector<Surface> turned(std::vector<Surface> surfaces, double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    for (Surface& surface : surfaces)
+        for (Point3& p : surface.vertices) {
+            const double x = p.x - 5e5, y = p.y - 4e6, z = p.z + 1000;
+            const double u = c * x - s * y, v = s * x + c * y;
+            p = {5e5 + u, 4e6 + (c * v - s * z), (s * v + c * z) - 1000};
+        }
+    return surfaces;
+}
+
 /// Two sheets in nearly one plane.
 std::vector<Surface> sheets_in_nearly_one_plane(unsigned n) {
     const double h = 0.5 / n;
@@ -92,6 +104,35 @@ TEST_CASE("movement: random soups on a decimal lattice") {
         check_consistent(r.report);
         CHECK(soup_laws::rounding_flaw(surfaces, a) == "");
     }
+}
+
+TEST_CASE("movement: random soups on a lattice that is turned in space") {
+    for (int i = 0; i < cases(20); ++i) {
+        INFO(i);
+        const auto surfaces = turned(decimal_soup(static_cast<std::uint32_t>(i), 30), 0.7 + i);
+        const auto a = arranged(surfaces);
+        const auto r = rounded(a);
+        CHECK(r.report.clean);
+        CHECK(r.report.surface_deviation < 20 * spacing_at_4e6);
+        check_consistent(r.report);
+        CHECK(soup_laws::rounding_flaw(surfaces, a) == "");
+    }
+}
+
+TEST_CASE("movement: sheets in nearly one plane get one plane, and no part more than exact ones") {
+    const auto exact = rounded(arranged({unit_grid(16, 16,
+                                                   [](double x, double y) {
+                                                       return Point3{x, y, 0};
+                                                   }),
+                                         unit_grid(16, 16, [](double x, double y) {
+                                             return Point3{x + 1. / 32, y + 1. / 32, 0};
+                                         })}));
+    const auto a = arranged(sheets_in_nearly_one_plane(16));
+    const auto r = rounded(a);
+    REQUIRE(r.report.clean);
+    CHECK(r.mesh->triangles.size() == exact.mesh->triangles.size());
+    CHECK(r.report.moved_input_vertices == 0);
+    CHECK(r.report.surface_deviation < 100 * default_max_move(a) / 1024);
 }
 
 TEST_CASE("movement: the length of a needle that vanished is no move of a surface") {

@@ -100,19 +100,22 @@ TEST_CASE("rounding: merged vertices are counted") {
     CHECK(rounded.value().report.merged_vertices == 1);
 }
 
-TEST_CASE(
-    "rounding: triangles a few hundred spacings apart are joined only where that is allowed") {
+TEST_CASE("rounding: triangles that cross within a few doubles are separated by two of them") {
     const auto exact = arrange(read_data("regression/004-snapped-onto-each-other.obj"));
     REQUIRE(exact);
-    const auto refused = round_to_doubles(exact.value());
-    REQUIRE(refused);
-    CHECK_FALSE(refused->report.clean);
-    CHECK_FALSE(refused->report.contacts.empty());
-    CHECK(refused->report.surface_deviation <= default_max_move(exact.value()));
-    const auto joined = round_to_doubles(exact.value(), {.max_move = 1});
-    REQUIRE(joined);
-    CHECK(joined->report.clean);
-    CHECK(joined->report.surface_deviation > default_max_move(exact.value()));
+    const auto r = round_to_doubles(exact.value());
+    REQUIRE(r);
+    CHECK(r->report.naive_contacts == 8);
+    CHECK(r->report.clean);
+    CHECK(is_conforming(r->mesh));
+    const double spacing = default_max_move(exact.value()) / 1024;
+    CHECK(r->report.surface_deviation < 3 * spacing);
+    CHECK(r->report.moved_input_vertices == 0);
+    CHECK(r->report.vanished.empty());
+    const auto left = round_to_doubles(exact.value(), {.max_move = 0.6 * spacing});
+    REQUIRE(left);
+    CHECK(left->report.contacts.size() == 8);
+    CHECK(left->report.surface_deviation <= 0.6 * spacing);
 }
 
 TEST_CASE("rounding: what is exact in doubles stays as it is") {

@@ -317,7 +317,7 @@ TEST_CASE("forged certificates: doubles that were snapped") {
                            doubles(
                                "one turned over", [](Json& r) { turn_over(r, 3); }, "R19"),
                            doubles(
-                               "a triangle dropped", [](Json& r) { drop_triangle(r, 3); }, "R12"),
+                               "a triangle dropped", [](Json& r) { drop_triangle(r, 3); }, "R18"),
                            doubles(
                                "a largest move", [](Json& r) { r["max_move"] = "1e-300"; }, "R14"),
                            doubles(

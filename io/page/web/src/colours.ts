@@ -22,6 +22,7 @@ export function colourOfRole(role: string, index: number): Color {
 
 /** Kinds of lines, distinct in lightness as well. */
 export const lineColours: Record<string, string> = {
+  "improper contact": "#d4127c",
   "free border": "#cc3311",
   "boundary line": "#5b6b7a",
   "cutoff line": "#0b3d66",

@@ -3,7 +3,7 @@
 // What the view draws, and from how far away it must be seen.
 import { Vector3, type BufferGeometry, type Color, type LineSegments, type Mesh, type MeshLambertMaterial } from "three";
 import type { Axis, Cut } from "./caps";
-import type { Content } from "./data";
+import type { Content, Part } from "./data";
 
 /** A surface or block as it is drawn. */
 export interface Item {
@@ -13,7 +13,7 @@ export interface Item {
   name: string;
   mesh: Mesh<BufferGeometry, MeshLambertMaterial>;
   geometry: BufferGeometry;      ///< all triangles; the mesh may have fewer while it turns
-  coarse: BufferGeometry | null; ///< made when it is needed
+  coarse: Map<number, BufferGeometry>; ///< fewer triangles by level of `budgets`, made when they are needed
   edges: LineSegments | null;
   cap: Mesh<BufferGeometry, MeshLambertMaterial> | null;
   capEdges: LineSegments | null;
@@ -27,10 +27,12 @@ export interface Item {
 }
 export interface Pick { item: Item; place: [number, number, number]; point: Vector3; tetrahedron: number }
 export interface Section { axis: Axis; share: number; flipped: boolean }
-/** The area of a surface as far as it is drawn as this item, before decimation. */
+/** The area of a block, or of a surface as far as it is drawn as this item, before decimation. */
 export function areaOf(item: Item, content: Content): number {
-  return content.parts.filter((part) => part.filled === item.filled && part.surfaces.includes(item.number))
-    .reduce((sum, part) => sum + part.area, 0);
+  const own = (part: Part) => item.kind === "block"
+    ? part.blocks !== null && part.blocks[0] !== part.blocks[1] && part.blocks.includes(item.number)
+    : part.filled === item.filled && part.surfaces.includes(item.number);
+  return content.parts.filter(own).reduce((sum, part) => sum + part.area, 0);
 }
 
 export type ViewName = "perspective" | "top" | "north" | "east";

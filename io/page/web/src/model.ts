@@ -103,12 +103,13 @@ export class ModelGeometry {
     return points;
   }
 
-  private clusters: Uint32Array | null = null;
+  private readonly clusters = new Map<number, Uint32Array>();
 
-  /** The triangles that are left when the vertices in each cell of a grid are joined: about `most` in all. */
-  coarse(geometry: BufferGeometry, most: number): BufferGeometry {
-    this.clusters ??= this.firstInCell(Math.sqrt(this.content.parts.reduce((sum, p) => sum + p.area, 0) / most) / this.unit);
-    const first = this.clusters, index = geometry.index!.array as Uint32Array;
+  /** The triangles that are left when the vertices in each cell of a grid are joined; `cell` is in units of the input. */
+  coarse(geometry: BufferGeometry, cell: number): BufferGeometry {
+    const first = this.clusters.get(cell) ?? this.firstInCell(cell / this.unit);
+    this.clusters.set(cell, first);
+    const index = geometry.index!.array as Uint32Array;
     const kept = new Uint32Array(index.length);
     let at = 0;
     for (let t = 0; t < index.length; t += 3) {

@@ -91,7 +91,8 @@ export class Plots {
       size: [series.length > 1 ? 0.42 : 0.86], align: series.length > 1 ? (k === 0 ? -1 : 1) : 0,
     });
     const ends = plot.names ? at : Array.from({ length: count + 1 }, (_, i) => i);
-    const most = Math.max(2, Math.floor((width - 70) / 52));
+    const wide = plot.names ? 10 + 8 * Math.max(...plot.names.map((name) => name.length)) : 52; // pixels of a label
+    const most = Math.max(2, Math.floor((width - 70) / wide));
     const step = Math.ceil(ends.length / most);
     const label = (v: number) => plot.names ? plot.names[Math.round(v - 0.5)] : plain(plot.bounds![Math.round(v)], 3);
     return new uPlot({

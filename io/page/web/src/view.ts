@@ -12,21 +12,25 @@ import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeome
 import { cutBoundary, cutTetrahedra } from "./caps";
 import { colourOf, colourOfRole, lineColours } from "./colours";
 import type { Report } from "./data";
-import type { Item, Pick, Section, ViewName } from "./items";
+import { areaOf, type Item, type Pick, type Section, type ViewName } from "./items";
 import { ModelGeometry } from "./model";
+import { budgets, Pace } from "./pace";
 import { Viewpoint, type Bounds } from "./viewpoint";
 
 export type { Item, Pick, ViewName };
 
 const edgeOpacity = 0.28;
-const slowPicture = 70;        ///< milliseconds between two pictures above which they become simpler
-const quickTriangles = 100_000; ///< drawn at most then, about
+
+/** The lines of a kind: wide ones, and thin ones that cost little while the view moves. */
+interface Lines { kind: string; object: LineSegments2; thin: LineSegments<BufferGeometry, LineBasicMaterial>; wanted: boolean }
+
 export class View {
   readonly model: ModelGeometry;
   readonly items: Item[] = [];
-  readonly lines: { kind: string; object: LineSegments2; wanted: boolean }[] = [];
+  readonly lines: Lines[] = [];
   readonly renderer: WebGLRenderer;
   readonly viewpoint: Viewpoint;
+  readonly pace: Pace;
   section: Section | null = null;
   exploded = 0;
   exaggeration = 1;
@@ -37,22 +41,20 @@ export class View {
   private readonly plane = new Plane(new Vector3(-1, 0, 0), 0);
   private readonly sun = new DirectionalLight(0xffffff, 1.9);
   private readonly markers = new Group();
+  private readonly cells = new Map<number, number>(); ///< edges of the cells in which vertices are joined, by level
   private edgesShown = false;
-  private pending = false;
-  private quick = false; ///< drawn with fewer pixels and triangles, as turning was slow
-  private moves = 0;     ///< pictures since the view came to rest
-  private drawnAt = 0;
-  private rest: number | undefined;
+  private pending = 0; ///< the request for the next picture; 0: none
 
   constructor(private readonly place: HTMLElement, readonly report: Report) {
     this.model = new ModelGeometry(report);
     this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.renderer.localClippingEnabled = true;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.pace = new Pace(this.renderer.getContext() as WebGL2RenderingContext, (level) => this.setLevel(level));
     place.prepend(this.renderer.domElement);
     this.viewpoint = new Viewpoint(place, this.renderer.domElement, () => this.bounds(), () => this.draw());
     this.controls.addEventListener("change", () => {
-      this.move();
+      if (!this.viewpoint.jumps) this.pace.moved();
       this.draw();
     });
     this.scene.add(this.root, this.sun, this.sun.target, new AmbientLight(0xffffff, 1.35));
@@ -123,7 +125,7 @@ export class View {
     this.root.add(mesh);
     const centre = this.model.centre(geometry);
     this.items.push({
-      kind, number, filled, name, mesh, geometry, coarse: null, edges: null, cap: null, capEdges: null, cut: null, centre,
+      kind, number, filled, name, mesh, geometry, coarse: new Map(), edges: null, cap: null, capEdges: null, cut: null, centre,
       reach: this.model.reach(geometry, centre), visible, colour: colour.clone(), opacity: 1,
       tetrahedra: kind === "block" ? this.model.tetrahedraOf(number) : new Uint32Array(),
     });
@@ -132,12 +134,17 @@ export class View {
   private addLines(): void {
     for (const kind of new Set(this.report.content.lines.map((line) => line.kind))) {
       const geometry = new LineSegmentsGeometry().setPositions(this.model.segmentsOf(kind));
-      const material = new LineMaterial({ color: lineColours[kind] ?? "#111111", linewidth: kind === "boundary line" ? 1.1 : 1.8 });
+      const material = new LineMaterial({ color: lineColours[kind] ?? "#111111", linewidth: { "boundary line": 1.1, "improper contact": 3 }[kind] ?? 1.8 });
       const object = new LineSegments2(geometry, material);
-      object.frustumCulled = false;
-      object.renderOrder = 1;
-      this.root.add(object);
-      this.lines.push({ kind, object, wanted: true });
+      const thin = new LineSegments(new BufferGeometry().setAttribute("position", new BufferAttribute(this.model.segmentsOf(kind), 3)),
+        new LineBasicMaterial());
+      thin.visible = false;
+      for (const line of [object, thin]) {
+        line.frustumCulled = false;
+        line.renderOrder = 1;
+        this.root.add(line);
+      }
+      this.lines.push({ kind, object, thin, wanted: true });
     }
   }
 
@@ -146,9 +153,9 @@ export class View {
     const value = (name: string) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
     this.renderer.setClearColor(new Color(value("--scene")), 1);
     const dark = document.documentElement.dataset.theme === "dark";
-    for (const { kind, object } of this.lines) {
+    for (const { kind, object, thin } of this.lines) {
       const colour = new Color(lineColours[kind] ?? "#111111");
-      object.material.color = dark ? colour.lerp(new Color("#ffffff"), kind === "free border" ? 0.35 : 0.6) : colour;
+      thin.material.color = object.material.color = dark ? colour.lerp(new Color("#ffffff"), ["free border", "improper contact"].includes(kind) ? 0.35 : 0.6) : colour;
     }
     this.draw();
   }
@@ -226,7 +233,7 @@ export class View {
       item.mesh.material.clippingPlanes = planes;
       if (item.edges) (item.edges.material as LineBasicMaterial).clippingPlanes = planes;
     }
-    for (const { object } of this.lines) object.material.clippingPlanes = planes;
+    for (const { object, thin } of this.lines) thin.material.clippingPlanes = object.material.clippingPlanes = planes;
   }
 
   private update(item: Item): void {
@@ -250,7 +257,10 @@ export class View {
   /** Lines belong to several blocks: they are not shown while blocks are moved apart. */
   private placeLines(): void {
     const apart = this.exploded > 0 && this.items.some((i) => i.kind === "block" && i.visible);
-    for (const line of this.lines) line.object.visible = line.wanted && !apart;
+    for (const { object, thin, wanted } of this.lines) {
+      object.visible = wanted && !apart && this.pace.level === 0;
+      thin.visible = wanted && !apart && this.pace.level > 0;
+    }
     this.draw();
   }
 
@@ -323,12 +333,11 @@ export class View {
 
   /** Asks for a picture before the next refresh of the screen. */
   draw(): void {
-    if (this.pending) return;
-    this.pending = true;
-    requestAnimationFrame(() => this.drawNow());
+    if (this.pending === 0) this.pending = requestAnimationFrame(() => this.drawNow());
   }
   drawNow(): void {
-    this.pending = false;
+    cancelAnimationFrame(this.pending);
+    this.pending = 0;
     this.sun.position.copy(this.camera.position).sub(this.controls.target).normalize()
       .add(new Vector3(0.35, -0.15, 0.9)).multiplyScalar(this.model.radius).add(this.controls.target);
     this.sun.target.position.copy(this.controls.target);
@@ -337,33 +346,27 @@ export class View {
       marker.scale.set(size, size, size / this.exaggeration);
     }
     this.renderer.render(this.scene, this.camera);
-    this.drawnAt = performance.now();
+    this.pace.drawn(this.renderer.info.render.triangles);
     ++this.frames;
     this.onFrame();
   }
 
-  /** Notes that the view moves: where pictures take long, they are simpler until it rests. */
-  private move(): void {
-    const now = performance.now();
-    if (this.moves++ > 1 && !this.quick && now - this.drawnAt > slowPicture) this.setQuick(true);
-    clearTimeout(this.rest);
-    this.rest = window.setTimeout(() => {
-      this.moves = 0;
-      if (this.quick) this.setQuick(false);
-    }, 300);
-  }
-  private setQuick(quick: boolean): void {
-    this.quick = quick;
-    const ratio = Math.min(window.devicePixelRatio, 2);
-    this.renderer.setPixelRatio(quick ? ratio / 2 : ratio);
-    const triangles = this.items.reduce((sum, i) => sum + (i.visible ? i.geometry.index!.count / 3 : 0), 0);
-    const simplify = quick && triangles > quickTriangles;
+  /** Draws with the detail of a level of `budgets` from now on. */
+  private setLevel(level: number): void {
+    const ratio = Math.min(window.devicePixelRatio, 2), shown = this.items.filter((i) => i.visible);
+    this.renderer.setPixelRatio(level > 0 ? ratio / 2 : ratio);
+    const simplify = shown.reduce((sum, i) => sum + i.geometry.index!.count / 3, 0) > budgets[level];
+    if (simplify && !this.cells.has(level)) {
+      const area = shown.reduce((sum, i) => sum + areaOf(i, this.report.content), 0);
+      this.cells.set(level, Math.sqrt(2 * area / budgets[level])); // a vertex for each cell, two triangles for each vertex
+    }
     for (const item of this.items) {
-      if (simplify && item.visible) item.coarse ??= this.model.coarse(item.geometry, quickTriangles);
-      item.mesh.geometry = simplify && item.coarse ? item.coarse : item.geometry;
+      if (simplify && item.visible && !item.coarse.has(level))
+        item.coarse.set(level, this.model.coarse(item.geometry, this.cells.get(level)!));
+      item.mesh.geometry = (simplify && item.coarse.get(level)) || item.geometry;
       if (item.edges) item.edges.visible = item.visible && this.edgesShown && !simplify;
     }
-    this.draw();
+    this.placeLines();
   }
 
   // ---------------------------------------------------------------------------------------- picking
@@ -376,7 +379,7 @@ export class View {
   /** Finds what is drawn at a point of the view, in pixels from its upper left corner. */
   pick(x: number, y: number): Pick | null {
     const { clientWidth: width, clientHeight: height } = this.place;
-    if (this.quick) this.setQuick(false);
+    this.pace.stop();
     const caster = new Raycaster();
     caster.setFromCamera(new Vector2((2 * x) / width - 1, 1 - (2 * y) / height), this.camera);
     this.scene.updateMatrixWorld();

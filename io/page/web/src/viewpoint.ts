@@ -12,6 +12,7 @@ export interface Bounds { half: Vector3; radius: number }
 export class Viewpoint {
   readonly controls: OrbitControls;
   camera: PerspectiveCamera | OrthographicCamera;
+  jumps = false; ///< while another view is chosen, which is no motion
   private readonly perspective = new PerspectiveCamera(32, 1, 0.1, 100);
   private readonly orthographic = new OrthographicCamera();
 
@@ -86,7 +87,9 @@ export class Viewpoint {
     this.orthographic.far = 10 * whole.radius;
     this.orthographic.zoom = this.orthographic.top / need.height;
     for (const camera of [this.perspective, this.orthographic]) camera.updateProjectionMatrix();
+    this.jumps = true;
     this.controls.update();
+    this.jumps = false;
     this.changed();
   }
 

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include <terrane/algorithms/distribution/block.hpp>
+
+namespace terrane::distribution::detail {
+
+/// A side of a triangle of this block, its lower end first.
+struct EdgeSide {
+    std::array<std::uint32_t, 2> ends{};
+    std::uint32_t triangle = 0;
+
+    friend auto operator<=>(const EdgeSide&, const EdgeSide&) = default;
+};
+
+/// What a block found in the check of the doubles, and triangles of the result under the input
+/// triangles whose home it is.
+struct BlockVerdict {
+    std::uint64_t unclean = 0, triangles = 0;
+    double deviation = 0;
+};
+
+/// An intersection edge, told to one block with a triangle at it.
+struct DecidedEdge {
+    std::array<std::uint32_t, 2> ends{};
+};
+
+/// Two triangles in the same regions: one of the block that is told, and one of a block.
+struct Neighbour {
+    std::uint32_t triangle = 0, block = 0, other = 0;
+};
+
+/// Returns the sides of all triangles, by edge.
+std::vector<EdgeSide> sides_of(const Block& b);
+/// Whether two triangles have as many distinct parents in each surface.
+bool agree(const Block& b, std::uint32_t s, std::uint32_t t);
+/// Returns the first input triangle with the same corners.
+std::uint32_t first_same(const Block& b, std::uint32_t triangle);
+/// Returns the block that decides a shared edge.
+inline std::size_t keeper_of_edge(const Block& b, const std::array<std::uint32_t, 2>& ends) {
+    return ((ends[0] * 0x9e3779b97f4a7c15U ^ ends[1]) * 0x9e3779b97f4a7c15U >> 32) % b.count;
+}
+
+} // namespace terrane::distribution::detail

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// The steps of a distributed arrangement, in their order. Each takes what the one before has sent;
+// the channels are said beside the records.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/distribution/block.hpp>
+#include <terrane/algorithms/distribution/messages.hpp>
+#include <terrane/algorithms/search/search.hpp>
+
+namespace terrane::distribution::detail {
+
+/// Reads the surfaces of file i.
+using ReadFile = std::function<Result<std::vector<Surface>>(std::size_t file)>;
+
+/// A number of [0, total) has its home in one of `blocks` ranges of equal length.
+inline std::uint32_t home_of(std::uint32_t number, std::uint32_t total, std::size_t blocks) {
+    const auto share = (total + blocks - 1) / blocks;
+    return static_cast<std::uint32_t>(number / std::max<std::size_t>(share, 1));
+}
+/// Returns the first number whose home is this block.
+inline std::uint32_t home_start(const Block& b, std::uint32_t total) {
+    const auto share = (std::uint64_t{total} + b.count - 1) / b.count;
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(total, share * b.index));
+}
+/// Returns the number of numbers whose home is this block.
+inline std::uint32_t home_size(const Block& b, std::uint32_t total) {
+    const auto share = (std::uint64_t{total} + b.count - 1) / b.count;
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(total, share * (b.index + 1))) -
+           home_start(b, total);
+}
+
+/// Returns the surface of an input triangle.
+std::uint32_t surface_of(const Block& b, std::uint32_t triangle);
+/// Returns the box of three points.
+Box box_of(const std::array<Point3, 3>& at);
+/// Returns the block that owns a face.
+std::uint32_t owner_of_face(const Block& b, const Face& face);
+/// Returns the name of a surface.
+std::string name_of_surface(const Block& b, std::uint32_t surface);
+/// Returns the block that keeps a record of the digest.
+std::uint32_t keeper_of(const Block& b, const Hash& record);
+/// Returns the hash of an input triangle, by the digest.
+Hash input_hash(const Block& b, const Face& face);
+
+// Reading (reading.cpp): each file is read in one block; the others learn the sizes.
+Status announce(Block& b, std::size_t files, const ReadFile& read, Outbox& out);
+Status share_out(Block& b, Inbox& in, Outbox& out);
+
+// Naming of input vertices (naming.cpp): equal points are found where a hash of them points to.
+Status receive_share(Block& b, Inbox& in, Outbox& out);
+Status find_first_vertices(Block& b, Inbox& in, Outbox& out);
+Status ask_for_corners(Block& b, Inbox& in, Outbox& out);
+Status tell_corners(Block& b, Inbox& in, Outbox& out);
+Status weigh_cells(Block& b, Inbox& in, Outbox& out);
+Status divide_space(Block& b, Inbox& in, Outbox& out);
+Status distribute_faces(Block& b, Inbox& in, Outbox& out);
+
+// Pairs (pairs.cpp) and division of faces (divide.cpp).
+Status decide_pairs(Block& b, Inbox& in, Outbox& out, const Run& run);
+Status divide_own_faces(Block& b, Inbox& in, Outbox& out, const Run& run);
+
+// Numbers of points (numbering.cpp): a sample sort in lexicographic order.
+Status split_points(Block& b, Inbox& in, Outbox& out);
+Status send_points(Block& b, Inbox& in, Outbox& out);
+Status order_constructed(Block& b, Inbox& in, Outbox& out);
+Status number_points(Block& b, Inbox& in, Outbox& out);
+Status receive_numbers(Block& b, Inbox& in, Outbox& out);
+
+// The result (settling.cpp): coinciding parts, parents, and triangles of doubles.
+void send_overlapping_parts(Block& b, Outbox& out);
+Status unite_parts(Block& b, Inbox& in, Outbox& out);
+Status settle(Block& b, Inbox& in, Outbox& out);
+
+// The check of the doubles (doubles.cpp).
+Status check_doubles(Block& b, Inbox& in, Outbox& out, const Run& run);
+
+// Edges, regions and numbers of triangles (edges.cpp, regions.cpp).
+Status send_shared_edges(Block& b, Inbox& in, Outbox& out);
+Status decide_shared_edges(Block& b, Inbox& in, Outbox& out);
+Status join_within(Block& b, Inbox& in, Outbox& out);
+Status join_across(Block& b, Inbox& in, Outbox& out);
+Status number_regions(Block& b, Inbox& in, Outbox& out);
+Status receive_regions(Block& b, Inbox& in, Outbox& out);
+
+// Lookups by name, once points are numbered (settling.cpp).
+/// Returns the coordinates of a point in doubles.
+Point3 doubles_of(const Block& b, std::uint32_t name);
+/// Returns the bound of its distance from the exact point.
+double bound_of(const Block& b, std::uint32_t name);
+/// Tells whether several blocks use a point.
+bool is_shared(const Block& b, std::uint32_t name);
+/// Returns the number of the vertex through all blocks.
+std::uint32_t vertex_number(const Block& b, std::uint32_t name);
+/// Returns the hash of a point.
+Hash hash_of_point(const Block& b, std::uint32_t name);
+/// Returns the hash of an input triangle that is a parent here.
+const Hash& hash_of_parent(const Block& b, std::uint32_t id);
+
+// Records of the digest (records.cpp).
+void add_records_of_parents(Block& b, Outbox& out, std::size_t channel);
+void add_records_of_vertices(Block& b, Outbox& out, std::size_t channel);
+void send_parents_of_shared(Block& b, Outbox& out, std::size_t channel);
+void decide_shared_vertices(Block& b, Inbox& in, std::size_t from, Outbox& out, std::size_t to);
+void keep_records(Block& b, Inbox& in, std::size_t channel);
+void put_record(const Block& b, const Hash& record, Outbox& out, std::size_t channel);
+
+} // namespace terrane::distribution::detail

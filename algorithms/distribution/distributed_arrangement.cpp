@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/distribution/distributed_arrangement.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/sha256.hpp>
+#include <terrane/algorithms/distribution/detail/steps.hpp>
+
+namespace terrane::distribution {
+
+using namespace detail;
+
+namespace {
+
+/// Performs all steps, in order.
+class Sequence {
+public:
+    Sequence(Supersteps& blocks, const FileReader& read, const DistributedOptions& options,
+             const Run& run) :
+        blocks_(blocks),
+        read_(read), options_(options), run_(run) {}
+
+    Status operator()() {
+        using Exchange = Status (*)(Block&, Inbox&, Outbox&);
+        using Computation = Status (*)(Block&, Inbox&, Outbox&, const Run&);
+        struct Named {
+            std::string_view name;
+            Exchange exchange;
+            Computation computation;
+        };
+        const Named steps[] = {
+            {"share", share_out, nullptr},
+            {"name", receive_share, nullptr},
+            {"name", find_first_vertices, nullptr},
+            {"name", ask_for_corners, nullptr},
+            {"name", tell_corners, nullptr},
+            {"decompose", weigh_cells, nullptr},
+            {"decompose", divide_space, nullptr},
+            {"distribute", distribute_faces, nullptr},
+            {"pairs", nullptr, decide_pairs},
+            {"divide", nullptr, divide_own_faces},
+            {"number", split_points, nullptr},
+            {"number", send_points, nullptr},
+            {"number", order_constructed, nullptr},
+            {"number", number_points, nullptr},
+            {"unite", receive_numbers, nullptr},
+            {"unite", unite_parts, nullptr},
+            {"unite", settle, nullptr},
+            {"check", nullptr, check_doubles},
+            {"edges", send_shared_edges, nullptr},
+            {"edges", decide_shared_edges, nullptr},
+            {"regions", join_within, nullptr},
+            {"regions", join_across, nullptr},
+            {"regions", number_regions, nullptr},
+            {"regions", receive_regions, nullptr},
+        };
+        auto done = blocks_.step("read", [&](Block& b, Inbox&, Outbox& out) {
+            b.wants_digest = options_.digest;
+            return announce(b, options_.files, read_, out);
+        });
+        for (const Named& s : steps) {
+            if (!done) return done;
+            done = blocks_.step(s.name, [&](Block& b, Inbox& in, Outbox& out) {
+                return s.exchange != nullptr ? s.exchange(b, in, out)
+                                             : s.computation(b, in, out, run_);
+            });
+        }
+        return done;
+    }
+
+private:
+    Supersteps& blocks_;
+    const FileReader& read_;
+    const DistributedOptions& options_;
+    const Run& run_;
+};
+
+/// Returns the digest: the hash of the sorted records of all blocks, whose ranges ascend.
+Result<std::string> digest_of(Supersteps& blocks) {
+    const auto passed = blocks.relay([](Block& b, Bytes bytes) {
+        Sha256 state;
+        static_assert(std::is_trivially_copyable_v<Sha256>);
+        if (bytes.empty())
+            state.feed("terrane-digest 1\n");
+        else
+            std::memcpy(&state, bytes.data(), sizeof state);
+        state.feed(b.records);
+        Bytes next;
+        append_record(next, state);
+        return next;
+    });
+    if (!passed) return passed.error();
+    Sha256 state;
+    std::memcpy(&state, passed->data(), sizeof state);
+    return "sha256:" + hexadecimal(state.finish());
+}
+
+constexpr std::uint64_t Work::*counts[] = {
+    &Work::homes,         &Work::faces,      &Work::owned,       &Work::candidates, &Work::improper,
+    &Work::divided,       &Work::predicates, &Work::constructed, &Work::triangles,  &Work::messages,
+    &Work::rounded_pairs, &Work::bytes,      &Work::memory};
+
+/// Sums up what the blocks report.
+Result<DistributedReport> summary_of(Supersteps& blocks) {
+    struct Passed {
+        Work largest, total;
+        std::uint64_t edges = 0, contacts = 0, triangles = 0, vertices = 0, regions = 0;
+        std::uint64_t input_vertices = 0, input_triangles = 0;
+        double deviation = 0, largest_coordinate = 0;
+    };
+    const auto bytes = blocks.relay([](Block& b, Bytes before) {
+        Passed sum;
+        if (!before.empty()) std::memcpy(&sum, before.data(), sizeof sum);
+        for (const auto count : counts) {
+            sum.largest.*count = std::max(sum.largest.*count, b.work.*count);
+            sum.total.*count += b.work.*count;
+        }
+        sum.edges += b.edges;
+        sum.contacts = b.unclean;
+        sum.triangles = b.result_triangles;
+        sum.vertices = std::uint64_t{b.used_total} + b.constructed_total;
+        sum.regions = b.regions;
+        sum.input_vertices = b.vertex_total();
+        sum.input_triangles = b.triangle_total();
+        sum.deviation = b.deviation;
+        sum.largest_coordinate = b.largest;
+        Bytes next;
+        append_record(next, sum);
+        return next;
+    });
+    if (!bytes) return bytes.error();
+    Passed sum;
+    std::memcpy(&sum, bytes->data(), sizeof sum);
+    DistributedReport report;
+    report.contacts = sum.contacts;
+    report.deviation = sum.deviation;
+    report.limit = default_max_move(sum.largest_coordinate);
+    report.input_vertices = sum.input_vertices;
+    report.input_triangles = sum.input_triangles;
+    report.vertices = sum.vertices;
+    report.triangles = sum.triangles;
+    report.intersection_edges = sum.edges;
+    report.regions = sum.regions;
+    report.largest = sum.largest;
+    report.total = sum.total;
+    report.total.memory = sum.largest.memory;
+    return report;
+}
+
+} // namespace
+
+Result<DistributedReport> arrange_in_blocks(Supersteps& blocks, const FileReader& read,
+                                            const DistributedOptions& options, const Run& run) {
+    if (auto done = Sequence(blocks, read, options, run)(); !done) return done.error();
+    auto report = summary_of(blocks);
+    if (!report) return report;
+    report->clean = report->contacts == 0 && report->deviation <= report->limit;
+    if (!options.digest) return report;
+    auto digest = digest_of(blocks);
+    if (!digest) return digest.error();
+    report->digest = std::move(*digest);
+    return report;
+}
+
+BlockPiece piece_of(const Block& b) {
+    BlockPiece piece;
+    for (std::uint32_t s = 0; s < b.entries.size(); ++s)
+        piece.mesh.surfaces.push_back(
+            {name_of_surface(b, s), static_cast<Role>(b.entries[s].role)});
+    std::vector<std::array<std::uint32_t, 2>> vertices; // number, name
+    for (const Triangle& t : b.triangles)
+        for (const std::uint32_t name : t) vertices.push_back({vertex_number(b, name), name});
+    sort_unique(vertices);
+    for (const auto& [number, name] : vertices) {
+        piece.vertex_ids.push_back(number);
+        piece.mesh.vertices.push_back(doubles_of(b, name));
+    }
+    for (Triangle t : b.triangles) {
+        for (std::uint32_t& v : t)
+            v = static_cast<std::uint32_t>(std::lower_bound(piece.vertex_ids.begin(),
+                                                            piece.vertex_ids.end(),
+                                                            vertex_number(b, v)) -
+                                           piece.vertex_ids.begin());
+        piece.mesh.triangles.push_back(t);
+    }
+    piece.triangle_ids = b.ids;
+    piece.mesh.parents_of = b.parents_of;
+    piece.mesh.surfaces_of = b.surfaces_of;
+    piece.mesh.regions_of.offsets = b.surfaces_of.offsets;
+    piece.mesh.regions_of.values = b.region_of;
+    return piece;
+}
+
+} // namespace terrane::distribution

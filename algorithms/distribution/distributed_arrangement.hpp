@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Computes an arrangement in blocks of space, in one process or many.
+//
+// Guarantees: the triangles of all blocks together are those of arrange() rounded by
+// round_to_doubles(), with the same numbers, parents and regions, for any number of blocks; the digest
+// is the same. Where the nearest doubles are not a conforming mesh, that is found and reported: repair
+// needs the whole model (docs/explanation/scale.md).
+// Cost: that of arrange(), divided by the number of blocks as far as they balance, and of the faces
+// that overlap several blocks.
+// Source: the paper, section 2 (structured grid); Valiant (1990) for the steps.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/distribution/supersteps.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+
+namespace terrane::distribution {
+
+/// Reads the surfaces of file i, in the process that has to read it.
+using FileReader = std::function<Result<std::vector<Surface>>(std::size_t file)>;
+
+/// Options of arrange_in_blocks().
+struct DistributedOptions {
+    std::size_t files = 0; ///< number of input files
+    bool digest = false;   ///< whether the digest is computed, which costs more than all else
+};
+
+/// What all processes know of the result.
+struct DistributedReport {
+    bool clean = false;         ///< conforming in nearest doubles, by exact check of all pairs
+    std::uint64_t contacts = 0; ///< pairs, points and triangles that are in the way
+    double deviation = 0;       ///< no vertex is farther from its exact point
+    double limit = 0;           ///< farthest that is allowed unless the user says otherwise
+    std::uint64_t input_vertices = 0, input_triangles = 0;
+    std::uint64_t vertices = 0, triangles = 0, intersection_edges = 0, regions = 0;
+    std::string digest{}; ///< if it is wanted
+    Work largest{};       ///< of each count the largest of any block
+    Work total{};         ///< of each count the sum over all blocks; memory: as largest
+};
+
+/// The triangles of one block.
+struct BlockPiece {
+    Mesh mesh;                               ///< without intersection edges
+    std::vector<std::uint32_t> vertex_ids;   ///< per vertex: its number through all blocks
+    std::vector<std::uint32_t> triangle_ids; ///< per triangle, ascending
+};
+
+/// Arranges. Errors: those of the reader and of arrange().
+Result<DistributedReport> arrange_in_blocks(Supersteps& blocks, const FileReader& read,
+                                            const DistributedOptions& options, const Run& run = {});
+
+/// Returns the triangles of a block after arrange_in_blocks(), with nearest doubles.
+BlockPiece piece_of(const Block& block);
+
+/// Arranges and rounds all surfaces in the process of the first block, for a mesh whose nearest doubles
+/// are not conforming: snapping may move any part of it. That process then needs the memory and the
+/// time of arrange() and round_to_doubles(). Call it after arrange_in_blocks(), in all processes; in
+/// others the piece is empty. Errors: those of arrange() and round_to_doubles().
+struct RepairedWhole {
+    BlockPiece piece;      ///< all triangles, in the process of the first block
+    RoundingReport report; ///< the same in all processes, but for its lists
+};
+Result<RepairedWhole> repair_in_one_process(Supersteps& blocks, const Run& run = {});
+
+} // namespace terrane::distribution

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Checks that the triangles of nearest doubles meet properly. Two triangles without a corner that
+// moved do, as the exact ones did. Each pair is tested in the block with the lowest corner of the
+// common part of their boxes.
+#include <algorithm>
+
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/distribution/detail/edges.hpp>
+#include <terrane/algorithms/distribution/detail/steps.hpp>
+#include <terrane/algorithms/intersection/intersection.hpp>
+#include <terrane/algorithms/mesh/point_table.hpp>
+#include <terrane/kernel/predicates.hpp>
+
+namespace terrane::distribution::detail {
+
+namespace {
+
+struct CountOfFace {
+    std::uint32_t face = 0, count = 0;
+};
+/// Triangles of doubles near this block, with points by name.
+struct DoubleSoup {
+    std::vector<std::uint32_t> names;
+    std::vector<Point3> points;
+    std::vector<Triangle> triangles;
+    std::vector<std::uint32_t> dirty; ///< triangles, ascending
+};
+
+/// Collects divided faces and those undivided ones whose boxes overlap that of all dirty ones.
+DoubleSoup double_soup(const Block& b, const std::vector<DoubleFace>& parts,
+                       const std::vector<std::uint32_t>& divided) {
+    DoubleSoup soup;
+    std::vector<Box> dirty;
+    for (const DoubleFace& p : parts)
+        if (p.is_dirty != 0) dirty.push_back(box_of(p.at));
+    if (dirty.empty()) return soup;
+    Box all = dirty.front();
+    for (const Box& box : dirty)
+        for (unsigned k = 0; k < 3; ++k) {
+            all.low[k] = std::min(all.low[k], box.low[k]);
+            all.high[k] = std::max(all.high[k], box.high[k]);
+        }
+    std::vector<std::pair<std::uint32_t, Point3>> points;
+    std::vector<std::array<std::uint32_t, 3>> corners;
+    const auto add = [&](const std::array<std::uint32_t, 3>& c, const std::array<Point3, 3>& at) {
+        if (!all.overlaps(box_of(at))) return;
+        for (unsigned i = 0; i < 3; ++i) points.emplace_back(c[i], at[i]);
+        corners.push_back(c);
+    };
+    for (const DoubleFace& p : parts) {
+        if (p.is_dirty != 0) soup.dirty.push_back(static_cast<std::uint32_t>(corners.size()));
+        add(p.corners, p.at);
+    }
+    for (const Face& f : b.faces)
+        if (!std::binary_search(divided.begin(), divided.end(), f.id)) add(f.corners, f.at);
+    std::sort(points.begin(), points.end(),
+              [](const auto& p, const auto& q) { return p.first < q.first; });
+    for (const auto& [name, at] : points)
+        if (soup.names.empty() || soup.names.back() != name) {
+            soup.names.push_back(name);
+            soup.points.push_back(at);
+        }
+    for (const auto& c : corners) {
+        Triangle& t = soup.triangles.emplace_back();
+        for (unsigned i = 0; i < 3; ++i)
+            t[i] = static_cast<std::uint32_t>(
+                std::lower_bound(soup.names.begin(), soup.names.end(), c[i]) - soup.names.begin());
+    }
+    return soup;
+}
+
+/// Counts points at the same place, and triangles without area.
+std::uint64_t count_collapsed(const DoubleSoup& soup) {
+    std::uint64_t count = 0;
+    PointTable places(soup.points.size());
+    for (std::uint32_t p = 0; p < soup.points.size(); ++p)
+        count += places.enter(soup.points, p) != p;
+    for (const std::uint32_t t : soup.dirty) {
+        const Triangle& c = soup.triangles[t];
+        count += collinear(soup.points[c[0]], soup.points[c[1]], soup.points[c[2]]);
+    }
+    return count;
+}
+
+/// Counts the pairs of this block that meet improperly.
+std::uint64_t count_improper(Block& b, const DoubleSoup& soup, const Run& run) {
+    auto pairs = candidate_pairs_of({soup.points, soup.triangles}, soup.dirty, {}, {}, run);
+    std::erase_if(pairs, [&](const CandidatePair& p) {
+        const Box f = terrane::box_of(soup.points, soup.triangles[p.first]),
+                  g = terrane::box_of(soup.points, soup.triangles[p.second]);
+        return owner_of(b.grid, b.splitters,
+                        {std::max(f.low[0], g.low[0]), std::max(f.low[1], g.low[1]),
+                         std::max(f.low[2], g.low[2])}) != b.index;
+    });
+    b.work.rounded_pairs = pairs.size();
+    const auto counts = for_blocks<std::uint64_t>(
+        pairs.size(), 1024, run, [&](std::size_t first, std::size_t last) {
+            std::uint64_t improper = 0;
+            for (std::size_t k = first; k < last; ++k)
+                improper += improper_contact(soup.points, soup.triangles[pairs[k].first],
+                                             soup.triangles[pairs[k].second])
+                                .has_value();
+            return improper;
+        });
+    std::uint64_t sum = 0;
+    for (const std::uint64_t c : counts) sum += c;
+    return sum;
+}
+
+} // namespace
+
+/// Channel 0: BlockVerdict, to all.
+Status check_doubles(Block& b, Inbox& in, Outbox& out, const Run& run) {
+    const std::uint32_t first = home_start(b, b.triangle_total());
+    in.take<CountOfFace>(
+        0, [&](std::uint32_t, const CountOfFace& c) { b.home_count[c.face - first] = c.count; });
+    const auto parts = in.all<DoubleFace>(1);
+    auto divided = in.all<std::uint32_t>(2);
+    sort_unique(divided);
+    keep_records(b, in, 3);
+    BlockVerdict verdict;
+    const DoubleSoup soup = double_soup(b, parts, divided);
+    verdict.unclean = count_collapsed(soup);
+    if (verdict.unclean == 0 && !soup.dirty.empty()) verdict.unclean = count_improper(b, soup, run);
+    for (const OwnPoint& p : b.points) verdict.deviation = std::max(verdict.deviation, p.bound);
+    for (const std::uint32_t c : b.home_count) verdict.triangles += c;
+    out.put_to_all(0, verdict);
+    release(b.faces);
+    release(b.parts);
+    b.own_faces_of = {};
+    release(b.touched);
+    release(b.overlapped);
+    return Done{};
+}
+
+} // namespace terrane::distribution::detail

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Joins the pieces of blocks to one mesh.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/distribution/distributed_arrangement.hpp>
+
+namespace terrane::distribution {
+
+/// Puts the vertices and triangles of pieces where their numbers say.
+///
+/// (1) The mesh does not depend on how it was cut into pieces, nor on their order.
+/// (2) Each number must occur: of vertices at least once, with the same coordinates, of triangles once.
+/// (3) Intersection edges are left out.
+class PieceJoiner {
+public:
+    PieceJoiner(std::size_t vertices, std::size_t triangles);
+
+    /// Adds a piece. Errors: bad_index (law 2, or lists of the wrong length).
+    Status add(const BlockPiece& piece);
+    /// Returns the mesh. Errors: bad_index (a number is missing).
+    Result<Mesh> finish() &&;
+
+private:
+    /// Lists of which most have one value.
+    struct ShortLists {
+        std::vector<std::uint32_t> first;
+        std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> longer;
+
+        void set(std::uint32_t id, std::span<const std::uint32_t> list);
+        [[nodiscard]] IndexLists<std::uint32_t> lists() &&;
+    };
+
+    Mesh mesh_;
+    std::vector<bool> has_vertex_, has_triangle_;
+    ShortLists surfaces_, regions_, parents_;
+};
+
+} // namespace terrane::distribution

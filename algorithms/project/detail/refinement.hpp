@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Decides where the triangles of surfaces must be smaller, so that tetrahedra between them are good.
+#pragma once
+
+#include <vector>
+
+#include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
+
+namespace terrane::project::detail {
+
+/// The bad tetrahedra of a mesh, and what may help.
+struct BadPlaces {
+    std::size_t bad = 0;          ///< tetrahedra with an angle below bad_angle
+    std::size_t apart = 0;        ///< of these: no corner is at such an angle of the surfaces
+    std::vector<LocalSize> sizes; ///< edge lengths for these, at their centres; none is below
+                                  ///< `smallest`
+};
+
+/// Finds the bad tetrahedra. Near one that is apart from bad angles of the surfaces, edges are to
+/// be as short as a tetrahedron of its least height needs, between a quarter and three fifths of
+/// its longest edge.
+BadPlaces bad_places(const TetrahedralMesh& mesh, double smallest);
+
+} // namespace terrane::project::detail

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Finds the planes in which input triangles lie that are in contact and coplanar but for the error
+// of doubles.
+#pragma once
+
+#include <vector>
+
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/kernel/point.hpp>
+
+namespace terrane::rounding::detail {
+
+/// Returns unit normals of planes in which doubles decide at random what is above what: at most
+/// three, of which none is nearly in a plane with the others. They are, each time those of most
+/// contacts first,
+/// (1) those of clusters: two triangles in contact belong to one if no corner of the one is farther
+///     than `tolerance` from the plane of the other, and its points must be as near to one plane;
+/// (2) those of triangles that corners of others in contact touch, by the same measure;
+/// (3) if there is any so far, those of other triangles in contact, and then of planes upright on
+///     the first that contain edges in it: a lattice in the clusters is one along these, too.
+/// Cost: linear in the contacts and in the input triangles.
+std::vector<Point3> cluster_directions(const Arrangement& arrangement, const RoundedMesh& rounded,
+                                       double tolerance);
+
+} // namespace terrane::rounding::detail

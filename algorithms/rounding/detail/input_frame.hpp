@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Coordinates in which an input can be arranged anew. Nearly coplanar triangles cross each other all
+// over, since doubles can't state what they were meant to be. In a frame that can, they are coplanar.
+#pragma once
+
+#include <array>
+
+#include <terrane/kernel/point.hpp>
+
+namespace terrane::rounding::detail {
+
+/// An affine map from places in the frame to the doubles of the input. Statement (4) of
+/// docs/explanation/rounding.md says how far surfaces move on the way into a frame and back.
+class InputFrame {
+public:
+    InputFrame() = default;
+    InputFrame(const InputFrame&) = default;
+    InputFrame& operator=(const InputFrame&) = default;
+    InputFrame(InputFrame&&) = default;
+    InputFrame& operator=(InputFrame&&) = default;
+    virtual ~InputFrame() = default;
+
+    /// Returns the place of one of the input points in the frame.
+    [[nodiscard]] virtual Point3 into(const Point3& p) const = 0;
+    /// Returns the doubles for a place in the frame. What an input point became goes to an input
+    /// point that became the same.
+    [[nodiscard]] virtual Point3 back(const Point3& q) const = 0;
+    /// Bounds the distance between an exact place in the frame and back(q), where no coordinate of
+    /// q is farther from it than `errors` (in the frame).
+    [[nodiscard]] virtual double error_of(const Point3& q,
+                                          const std::array<double, 3>& errors) const = 0;
+
+    /// Bounds the distance between one of the input points and its exact place in the frame, and
+    /// that between this exact place and where back() takes it.
+    [[nodiscard]] double largest_error() const { return largest_error_; }
+
+protected:
+    double largest_error_ = 0;
+};
+
+} // namespace terrane::rounding::detail

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// terrane-mpi: one arrangement on many machines. Each process runs this program; the first one speaks.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <mpi.h>
+
+#include <terrane/algorithms/core/process_memory.hpp>
+#include <terrane/algorithms/distribution/distributed_arrangement.hpp>
+#include <terrane/cli/mpi/mpi_supersteps.hpp>
+#include <terrane/cli/reports/distribution_report.hpp>
+#include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/session.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/files.hpp>
+#include <terrane/io/meshes/pvtp_output.hpp>
+
+namespace terrane::cli {
+namespace {
+
+using namespace distribution;
+
+struct MpiCommand {
+    std::vector<std::string> inputs;
+    std::string output, stats;
+    bool digest = false;
+};
+
+constexpr auto mpi_footer =
+    R"(Space is divided into as many blocks as there are processes. The result is that of terrane arrange, for any
+number of them: terrane convert OUT.pvtp OUT.vtp writes the same bytes. All processes must see the same files.
+
+Exit status: as that of terrane.
+
+Example:
+  mpirun -n 4 terrane-mpi arrange horizons.ts faults.ts -o model.pvtp)";
+
+/// Checks in the first process, before any work, that the output can be written.
+Status check_command(const MpiCommand& command, MpiSupersteps& blocks) {
+    return blocks.visit([&](Block& b) -> Status {
+        if (b.index != 0) return Done{};
+        if (std::filesystem::path(command.output).extension() != ".pvtp")
+            return Error{ErrorCode::unknown_format, "the output must be a .pvtp file",
+                         command.output};
+        for (const std::string& input : command.inputs)
+            if (input == "-")
+                return Error{ErrorCode::bad_option,
+                             "several processes cannot share standard input; name files", "-"};
+        return check_pvtp(command.output);
+    });
+}
+
+Result<ExitStatus> arrange_files(const MpiCommand& command, MpiSupersteps& blocks, const Run& run) {
+    if (auto sound = check_command(command, blocks); !sound) return sound.error();
+    const auto read = [&](std::size_t file) { return read_surfaces(command.inputs[file]); };
+    const DistributedOptions options{command.inputs.size(), command.digest};
+    const auto report = arrange_in_blocks(blocks, read, options, run);
+    if (!report) return report.error();
+    RepairedWhole whole;
+    if (!report->clean) {
+        auto repaired = repair_in_one_process(blocks, run);
+        if (!repaired) return repaired.error();
+        whole = std::move(*repaired);
+        if (!whole.report.clean) {
+            if (blocks.is_first())
+                print(stderr, complaint("nothing written: no conforming mesh of doubles was found; "
+                                        "terrane arrange names the pairs in the way"));
+            return ExitStatus::negative;
+        }
+    }
+    const auto written = write_pvtp(blocks, command.output, report->clean ? nullptr : &whole.piece);
+    if (!written) return written.error();
+    if (!blocks.is_first()) return ExitStatus::done;
+    const RoundingReport* repaired = report->clean ? nullptr : &whole.report;
+    const std::size_t count = blocks.blocks();
+    say(stdout,
+        distribution_text(*report, repaired,
+                          std::to_string(count) + (count == 1 ? " process" : " processes")) +
+            "wrote " + command.output + "\n");
+    if (command.stats.empty()) return ExitStatus::done;
+    const auto stats =
+        write_file(command.stats, distribution_json(*report, repaired, count).dump(2) + "\n");
+    if (!stats) return stats.error();
+    return ExitStatus::done;
+}
+
+ExitStatus run_command(int argc, char** argv) {
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    CLI::App program("Terrane: exact conforming meshes of geological surfaces, on many machines.",
+                     "terrane-mpi");
+    program.set_version_flag("--version", "terrane " TERRANE_VERSION);
+    program.require_subcommand(1);
+    program.footer(mpi_footer);
+    MpiCommand command;
+    auto* arrange = program.add_subcommand(
+        "arrange", "Make one conforming mesh of surfaces that cross, in pieces");
+    arrange->add_option("IN", command.inputs, "Files with surfaces")->required()->type_name("FILE");
+    arrange->add_option("-o,--output", command.output, "File that names the pieces")
+        ->required()
+        ->type_name("OUT.pvtp");
+    arrange->add_flag("--digest", command.digest, "Say the digest of the exact result");
+    arrange->add_option("--stats", command.stats, "Write counts of work and messages as JSON")
+        ->type_name("FILE.json");
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& stop) {
+        std::ostringstream asked, wrong;
+        const bool is_asked = program.exit(stop, asked, wrong) == 0;
+        if (rank == 0) {
+            std::fputs(asked.str().c_str(), stdout);
+            std::fputs(wrong.str().c_str(), stderr);
+        }
+        return is_asked ? ExitStatus::done : ExitStatus::bad_input;
+    }
+    Session session(1);
+    MpiSupersteps blocks(session.run());
+    const auto status = arrange_files(command, blocks, session.run());
+    if (status) return *status;
+    return rank == 0 ? fail(status.error()) : status_of(status.error().code);
+}
+
+} // namespace
+} // namespace terrane::cli
+
+int main(int argc, char** argv) {
+    using namespace terrane::cli;
+    terrane::keep_freed_memory();
+    terrane::throw_on_gmp_out_of_memory();
+    int threads = 0;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads);
+    try {
+        const ExitStatus status = run_command(argc, argv);
+        MPI_Finalize();
+        return static_cast<int>(status);
+    } catch (const std::exception& broken) {
+        // The others wait for a message from this process, so they are ended.
+        std::fprintf(stderr, "terrane-mpi: %s\n", broken.what());
+        MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitStatus::internal));
+    }
+    return static_cast<int>(ExitStatus::internal);
+}

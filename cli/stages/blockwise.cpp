@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/cli/stages/blockwise.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <terrane/algorithms/core/stopwatch.hpp>
+#include <terrane/algorithms/distribution/distributed_arrangement.hpp>
+#include <terrane/algorithms/distribution/local_supersteps.hpp>
+#include <terrane/algorithms/distribution/pieces.hpp>
+#include <terrane/cli/options/statistics.hpp>
+#include <terrane/cli/reports/distribution_report.hpp>
+#include <terrane/io/atomic/file_set.hpp>
+#include <terrane/io/meshes/pvtp_output.hpp>
+
+namespace terrane::cli {
+
+namespace fs = std::filesystem;
+using namespace distribution;
+
+namespace {
+
+constexpr auto memory_option = "--memory";
+
+/// A folder for what does not fit into memory, removed at the end, also after an interrupt.
+class Spool {
+public:
+    explicit Spool(const fs::path& output) {
+        const fs::path parent = output.has_parent_path() ? output.parent_path() : fs::path(".");
+        path_ = parent / fmt::format(".{}.{}.blocks", output.filename().string(), ::getpid());
+        made_ = make_temporary(path_, [&] { return fs::create_directory(path_, failed_); });
+    }
+    ~Spool() {
+        if (made_) discard_temporary(path_);
+    }
+    Spool(const Spool&) = delete;
+    Spool& operator=(const Spool&) = delete;
+
+    [[nodiscard]] const fs::path& path() const { return path_; }
+    [[nodiscard]] Status state() const {
+        if (made_) return Done{};
+        return Error{ErrorCode::cannot_open,
+                     "no folder can be made beside the output for what does not fit into memory: " +
+                         failed_.message(),
+                     path_.string()};
+    }
+
+private:
+    fs::path path_;
+    std::error_code failed_;
+    bool made_ = false;
+};
+
+/// Refuses options that arrangements in blocks do not have.
+Status check_alone(const CLI::App& command) {
+    constexpr std::array allowed{"IN",        "--output", "--memory", "--digest",  "--stats",
+                                 "--threads", "--quiet",  "--color",  "--format",  "--input-format",
+                                 "--depth",   "--unit",   "--column", "--max-edge"};
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->count() == 0) continue;
+        const std::string name = option->get_lnames().empty() ? option->get_name(true, false)
+                                                              : "--" + option->get_lnames()[0];
+        if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
+            return usage(name + " needs the whole model in memory; leave it out, or --memory",
+                         memory_option);
+    }
+    return Done{};
+}
+
+bool is_in_pieces(const std::string& path) {
+    return fs::path(path).extension() == ".pvtp";
+}
+
+/// Checks the outputs before any work is done.
+Status check_outputs(const FileOptions& files) {
+    FileOptions others = files;
+    std::erase_if(others.outputs, is_in_pieces);
+    const auto outputs = plan_outputs(others, OutputKind::surfaces);
+    if (!outputs) return outputs.error();
+    for (const Output& output : *outputs)
+        if (output.format != Format::vtp || output.path == "-")
+            return usage("in blocks only .pvtp and .vtp files are written; terrane convert makes "
+                         "others of them",
+                         output.path);
+    for (const std::string& path : files.outputs)
+        if (is_in_pieces(path))
+            if (auto sound = check_pvtp(path); !sound) return sound;
+    return Done{};
+}
+
+/// Chooses so many blocks that one of them, with what is computed in it, takes half of the memory. A
+/// triangle is in 20 bytes of a file or more (binary STL has 50, OBJ 55), and takes 800 bytes in its
+/// block at most, unless it meets many others.
+std::size_t blocks_for(const FileOptions& files, std::uint64_t memory) {
+    constexpr std::uint64_t per_byte = 800 / 20, most = 512;
+    std::uint64_t bytes = 0;
+    for (const std::string& input : files.inputs) {
+        std::error_code failed;
+        const auto size = fs::file_size(input, failed);
+        bytes += failed ? 0 : size;
+    }
+    return static_cast<std::size_t>(
+        std::clamp<std::uint64_t>(bytes * per_byte / (memory / 2 + 1) + 1, 1, most));
+}
+
+/// Joins all pieces in memory.
+Result<Mesh> joined(Supersteps& blocks, const DistributedReport& report) {
+    PieceJoiner joiner(report.vertices, report.triangles);
+    const auto added = blocks.visit([&](Block& b) -> Status { return joiner.add(piece_of(b)); });
+    if (!added) return added.error();
+    return std::move(joiner).finish();
+}
+
+Status write_in_blocks(const FileOptions& files, Supersteps& blocks,
+                       const DistributedReport& report, Session& session) {
+    bool wants_whole = false;
+    for (const std::string& path : files.outputs) {
+        if (!is_in_pieces(path)) {
+            wants_whole = true;
+            continue;
+        }
+        if (auto written = write_pvtp(blocks, path); !written) return written;
+        tell_when_written(summary_stream(files), "wrote " + path + "\n");
+    }
+    if (!wants_whole) return Done{};
+    const auto mesh = joined(blocks, report);
+    if (!mesh) return mesh.error();
+    for (const std::string& path : files.outputs) {
+        if (is_in_pieces(path)) continue;
+        const Output output{path, Format::vtp};
+        if (auto written = write_output(*mesh, output, {}, session); !written) return written;
+        tell_when_written(summary_stream(files), wrote(output));
+    }
+    return Done{};
+}
+
+} // namespace
+
+void add_blockwise(CLI::App& command, BlockwiseOptions& options) {
+    command
+        .add_option(memory_option, options.memory,
+                    "Work in blocks of space, one after the other, with files beside the output, "
+                    "in about so much memory; writes .vtp and .pvtp (default: the whole model in "
+                    "memory)")
+        ->check([](const std::string& text) {
+            return bytes_of_size(text) ? std::string()
+                                       : "'" + text + "' is no size, such as 4GiB or 512MiB";
+        })
+        ->type_name("SIZE");
+    command.add_flag("--digest", options.digest,
+                     "With --memory: say the digest of the exact result");
+}
+
+std::optional<std::uint64_t> bytes_of_size(std::string_view text) {
+    std::uint64_t number = 0;
+    const auto [at, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (failed != std::errc() || number == 0) return std::nullopt;
+    const std::string_view unit(at, static_cast<std::size_t>(text.data() + text.size() - at));
+    unsigned shift = 0;
+    for (const std::string_view known : {"", "KiB", "MiB", "GiB", "TiB"}) {
+        if (unit == known)
+            return number > (UINT64_MAX >> shift) ? std::nullopt : std::optional(number << shift);
+        shift += 10;
+    }
+    return std::nullopt;
+}
+
+Result<ExitStatus> arrange_blockwise(const FileOptions& files, const BlockwiseOptions& options,
+                                     Session& session) {
+    Stopwatch total;
+    if (const auto sound = check_alone(*files.app); !sound) return sound.error();
+    if (const auto sound = check_outputs(files); !sound) return sound.error();
+    const Spool spool(files.outputs.front());
+    if (!spool.state()) return spool.state().error();
+    const std::size_t count = blocks_for(files, *bytes_of_size(options.memory));
+    LocalSupersteps blocks({count, spool.path()}, session.run());
+    session.begin("arrange in blocks", Phase::computing);
+    const auto read = [&](std::size_t file) -> Result<std::vector<Surface>> {
+        FileOptions one = files;
+        one.inputs = {files.inputs[file]};
+        auto inputs = read_inputs(one, session);
+        if (!inputs) return inputs.error();
+        session.begin("arrange in blocks", Phase::computing);
+        return std::move(inputs->surfaces);
+    };
+    const auto report =
+        arrange_in_blocks(blocks, read, {files.inputs.size(), options.digest}, session.run());
+    session.end_stage();
+    if (!report) return report.error();
+    say(summary_stream(files), distribution_text(*report, nullptr, counted(count, "block")));
+    if (!report->clean)
+        return Error{
+            ErrorCode::unsupported,
+            fmt::format("the nearest doubles are not a conforming mesh ({} in the way), and "
+                        "their repair needs the whole model in memory; leave out --memory",
+                        counted(report->contacts, "pair or point")),
+            memory_option};
+    if (const auto written = write_in_blocks(files, blocks, *report, session); !written)
+        return written.error();
+    Json statistics = distribution_json(*report, nullptr, count);
+    if (const auto done = write_statistics(std::move(statistics), files.stats, total.lap()); !done)
+        return done.error();
+    return ExitStatus::done;
+}
+
+} // namespace terrane::cli

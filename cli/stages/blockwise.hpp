@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// terrane arrange --memory: blocks of space one after the other, with states and messages in files, for
+// models that are larger than memory.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <terrane/cli/options/files.hpp>
+#include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/session.hpp>
+
+namespace terrane::cli {
+
+/// Options of an arrangement in blocks.
+struct BlockwiseOptions {
+    std::string memory; ///< as the user writes it: "4GiB"; empty: no limit, so no blocks
+    bool digest = false;
+    [[nodiscard]] bool wanted() const { return !memory.empty(); }
+};
+
+void add_blockwise(CLI::App& command, BlockwiseOptions& options);
+
+/// Returns the bytes of "4GiB", "512MiB", "64KiB" or a number; none for other texts, and for 0.
+std::optional<std::uint64_t> bytes_of_size(std::string_view text);
+
+/// Arranges the inputs in blocks and writes .vtp and .pvtp files. Errors: bad_option for options that
+/// need the whole model; those of arrange_in_blocks; unsupported where the nearest doubles are not
+/// conforming, as their repair needs the whole model.
+Result<ExitStatus> arrange_blockwise(const FileOptions& files, const BlockwiseOptions& options,
+                                     Session& session);
+
+} // namespace terrane::cli

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/io/meshes/pvtp_output.hpp>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/atomic/atomic_folder.hpp>
+#include <terrane/io/atomic/file_set.hpp>
+#include <terrane/io/meshes/pvtp.hpp>
+
+namespace terrane {
+
+namespace fs = std::filesystem;
+using namespace distribution;
+
+namespace {
+
+/// Gives the folder and the file their names, the folder first.
+Status publish(NewFolder& folder, const fs::path& path, std::size_t pieces) {
+    std::optional<FileSet> together;
+    if (!FileSet::current()) together.emplace();
+    if (auto done = folder.publish(); !done) return done;
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < pieces; ++k)
+        names.push_back((folder_of_pieces(path).filename() / name_of_piece(path, k)).string());
+    if (auto done = write_file(path, to_pvtp(names)); !done) return done;
+    return together ? together->publish() : Status(Done{});
+}
+
+} // namespace
+
+Status check_pvtp(const fs::path& path) {
+    return check_new_folder(folder_of_pieces(path));
+}
+
+Status write_pvtp(Supersteps& blocks, const fs::path& path, const BlockPiece* whole) {
+    std::optional<NewFolder> folder; // in the process of the first block
+    auto done = blocks.step("write", [&](Block& b, Inbox&, Outbox& out) -> Status {
+        if (b.index != 0) return Done{};
+        auto made = NewFolder::create(folder_of_pieces(path));
+        if (!made) return made.error();
+        folder = std::move(*made);
+        const std::string name = folder->temporary().string();
+        for (std::size_t to = 0; to < out.blocks(); ++to) out.put_text(to, 0, name);
+        return Done{};
+    });
+    if (!done) return done;
+    done = blocks.step("write", [&](Block& b, Inbox& in, Outbox&) -> Status {
+        const auto name = in.all<char>(0);
+        const fs::path file =
+            fs::path(std::string(name.begin(), name.end())) / name_of_piece(path, b.index);
+        if (!whole) return write_file(file, to_vtp_piece(piece_of(b)));
+        BlockPiece empty;
+        empty.mesh.surfaces = piece_of(b).mesh.surfaces;
+        return write_file(file, to_vtp_piece(b.index == 0 ? *whole : empty));
+    });
+    if (!done) return done;
+    return blocks.step("write", [&](Block& b, Inbox&, Outbox&) -> Status {
+        return b.index == 0 ? publish(*folder, path, blocks.blocks()) : Status(Done{});
+    });
+}
+
+} // namespace terrane

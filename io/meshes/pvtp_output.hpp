@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Writes the result of a distributed arrangement as pieces, all of them or none.
+#pragma once
+
+#include <filesystem>
+
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/distribution/distributed_arrangement.hpp>
+#include <terrane/algorithms/distribution/supersteps.hpp>
+
+namespace terrane {
+
+/// Fails where a .pvtp file and the folder of its pieces can't be made. Errors: cannot_open.
+Status check_pvtp(const std::filesystem::path& path);
+
+/// Writes a piece per block into a folder beside `path` (folder_of_pieces), then the file that names them.
+/// Both get their names when all pieces are complete. All processes call it, and see the same folder.
+/// `whole`: if it is not null, it is the piece of the first block, and those of others are empty.
+/// Errors: cannot_open, write_failed, out_of_memory; then nothing is left.
+Status write_pvtp(distribution::Supersteps& blocks, const std::filesystem::path& path,
+                  const distribution::BlockPiece* whole = nullptr);
+
+} // namespace terrane

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/project/project.hpp>
+
+#include "model_handle.hpp"
+#include "tetrahedra_handle.hpp"
+
+namespace terrane::python {
+
+/// The model of a project, and what it asks to write.
+struct BuiltHandle {
+    Project project;
+    ModelPointer model;
+    TetrahedraPointer tetrahedra;  ///< nullptr: the project asks for none
+    std::vector<Surface> surfaces; ///< after preprocessing, sealing and so on
+};
+
+/// Builds a project from its surfaces. `judges_leaks`: whether it is found which gaps separate blocks.
+Result<BuiltHandle> built_of(const Project& project, BuildInput input, bool judges_leaks,
+                             const Run& run);
+
+} // namespace terrane::python

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What the program's command ``terrane ensemble`` runs; the program has checked the options."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import sys
+import time
+from typing import Any, List, NoReturn, Optional, Tuple
+
+from . import _core
+from ._ensemble import Ensemble, ensemble, task_of
+from ._ensemble_kept import remove
+from ._ensemble_output import new_folder, save, write_project
+from ._ensemble_work import run_one, unpacked
+from ._errors import Error
+from ._results import counted
+
+_NEGATIVE, _BAD_INPUT, _INTERNAL = 1, 2, 3
+_STATUS = {"improper_contact": _NEGATIVE, "not_closed": _NEGATIVE, "internal": _INTERNAL,
+           "out_of_memory": _INTERNAL}
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="terrane ensemble", allow_abbrev=False)
+    parser.add_argument("project")
+    parser.add_argument("--version-of-program", default=str(_core.version))
+    parser.add_argument("--output", default="")
+    parser.add_argument("--realisations", type=int, default=500)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--contact", type=float, action="append", default=[])
+    parser.add_argument("--grid", type=int, default=50)
+    parser.add_argument("--only", type=int)
+    parser.add_argument("--engine", default="dask")
+    parser.add_argument("--workers", type=int)
+    parser.add_argument("--scheduler")
+    parser.add_argument("--dashboard")
+    parser.add_argument("--retries", type=int, default=2)
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--quiet", action="store_true")
+    parser.add_argument("--colours", action="store_true")
+    return parser
+
+
+class _Progress:
+    """A line on the terminal, from the first second on."""
+
+    def __init__(self, quiet: bool) -> None:
+        self._shows = sys.stderr.isatty() and not quiet
+        self._begin = self._drawn = time.monotonic()
+        self._width = 0
+        self.first: Optional[float] = None
+
+    def __call__(self, stage: str, share: float) -> None:
+        now = time.monotonic()
+        if self.first is None:
+            self.first, self._begin = share, now
+        if not self._shows or now - self._begin < 1 or now - self._drawn < 0.1:
+            return
+        self._drawn = now
+        done = share - self.first
+        left = "" if done <= 0 else f", {(1 - share) * (now - self._begin) / done:.0f} s left"
+        text = f"{stage}: {share:.0%}{left}"
+        self._width = max(self._width, len(text))
+        print("\r" + text.ljust(self._width), end="", file=sys.stderr, flush=True)
+
+    def end(self) -> None:
+        """Remove the line."""
+        if self._width:
+            print("\r" + " " * self._width + "\r", end="", file=sys.stderr, flush=True)
+        self._width = 0
+
+
+def _fail(arguments: Any, text: str) -> None:
+    start = "\033[1;31mterrane:\033[0m" if arguments.colours else "terrane:"
+    print(start, text, file=sys.stderr)
+
+
+def _folder_of(arguments: Any) -> str:
+    if arguments.output:
+        return str(arguments.output)
+    import json
+    try:
+        with open(arguments.project, encoding="utf-8") as file:
+            folder = str(json.load(file).get("folder", ""))
+    except (OSError, ValueError, AttributeError):
+        folder = "run"  # reading the project says what is wrong
+    if not folder:
+        raise Error("bad_option", "the key folder is missing, and there is no -o", arguments.project)
+    return os.path.join(os.path.dirname(arguments.project), folder)
+
+
+def _one(arguments: Any, folder: str) -> int:
+    """Make one realisation alone."""
+    task = task_of(arguments.project, None, arguments.seed, arguments.contact, arguments.grid, arguments.threads)
+    write_project(task, arguments.only, folder)
+    values = unpacked(run_one(task, arguments.only)[0]).values
+    if not arguments.quiet:
+        print(f"wrote {folder}: the surfaces of realisation {arguments.only}, and project.json, which builds them")
+    if values["status"] == "failed":
+        _fail(arguments, f"realisation {arguments.only} can't be built: {values['reason']}")
+        return _NEGATIVE
+    for block in [] if arguments.quiet else values["blocks"]:
+        print(f"  {block['name']}: {block['volume']:.6g}")
+    return 0
+
+
+def _text_of(made: Ensemble) -> str:
+    failed = len(made.failures)
+    lines = [f"{counted(made.count, 'realisation')}, seed {made.seed}: "
+             + ("all built" if not failed else f"{made.count - failed} built, {failed} failed")]
+    rows: List[Tuple[str, ...]] = [("block", "P90", "P50", "P10", "split", "gone", "merged")]
+    for name, block in made.blocks.items():
+        volume = block.measures["volume"]
+        rows.append((name, *(f"{volume[p]:.6g}" for p in ("p90", "p50", "p10")),
+                     *(str(block.states[s]) for s in ("split", "vanished", "merged"))))
+    widths = [max(len(r[i]) for r in rows) for i in range(len(rows[0]))]
+    for row in rows:
+        cells = [cell.rjust(w) if i else cell.ljust(w) for i, (cell, w) in enumerate(zip(row, widths))]
+        lines.append("  " + "  ".join(cells).rstrip())
+    lines.append("P90 of a volume is exceeded with a probability of 90 %")
+    if made.new:
+        lines.append(f"blocks that the model has not: {counted(sum(made.new.values()), 'block')} in all")
+    return "\n".join(lines)
+
+
+def _all(arguments: Any, folder: str) -> int:
+    os.rmdir(new_folder(folder))  # before the work it is seen whether there can be one
+    keep = os.path.normpath(folder) + ".realisations"
+    progress = _Progress(arguments.quiet)
+    begin = time.monotonic()
+    try:
+        made = ensemble(arguments.project, realisations=arguments.realisations, seed=arguments.seed,
+                        contacts=arguments.contact, grid=arguments.grid, engine=arguments.engine,
+                        workers=arguments.workers, scheduler=arguments.scheduler, dashboard=arguments.dashboard,
+                        retries=arguments.retries, threads=arguments.threads, keep=keep, progress=progress)
+    finally:
+        progress.end()
+    computed = round(arguments.realisations * (1 - (progress.first or 0)))
+    seconds = time.monotonic() - begin
+    names = save(made, folder, report=True)
+    remove(keep)
+    if not arguments.quiet:
+        print(_text_of(made))
+        print(f"computed {computed} of them in {seconds:.1f} s")
+        print(f"wrote {folder}:\n" + "\n".join("  " + n for n in names))
+    if "ensemble.h5" not in names:
+        print("terrane: warning: ensemble.h5 is left out: the Python module h5py is missing; install python3-h5py",
+              file=sys.stderr)
+    for failure in made.failures:
+        _fail(arguments, f"realisation {failure.number} can't be built: {failure.reason}")
+    return _NEGATIVE if made.failures else 0
+
+
+def _stop(number: int, frame: Any) -> NoReturn:
+    raise KeyboardInterrupt
+
+
+def main(given: List[str]) -> int:
+    """Run the command; return its exit status."""
+    arguments = _parser().parse_args(given)
+    for name in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(name, _stop)
+    try:
+        if arguments.version_of_program != str(_core.version):
+            raise Error("unsupported", f"the Python package is terrane {_core.version}, the program "
+                        f"{arguments.version_of_program}; both must be of one version", os.path.dirname(__file__))
+        folder = _folder_of(arguments)
+        return _one(arguments, folder) if arguments.only is not None else _all(arguments, folder)
+    except KeyboardInterrupt:
+        kept = "" if arguments.only is not None else "; the same command goes on from there"
+        _fail(arguments, "interrupted" + (kept and f", finished realisations are kept in {_folder_of(arguments)}"
+                                          f".realisations{kept}"))
+        return _BAD_INPUT
+    except Error as error:
+        _fail(arguments, "interrupted" if error.code == "interrupted" else str(error))
+        return _STATUS.get(error.code, _BAD_INPUT)
+    except MemoryError:
+        _fail(arguments, "out of memory")
+        return _INTERNAL
+    except Exception as broken:  # of an engine, or of ours
+        _fail(arguments, f"internal error: {type(broken).__name__}: {broken}")
+        return _INTERNAL

@@ -1,0 +1,382 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Ensembles: the same whoever computes them, kept and gone on with, matched, and right."""
+
+import csv
+import json
+import os
+import pathlib
+import pickle
+import signal
+import statistics
+import subprocess
+import time
+
+import numpy as np
+import pytest
+
+import terrane
+from conftest import BOX, PROGRAM, SANITIZED, run_program, sheet, stack, wall
+from terrane import _ensemble_blocks, _ensemble_engine, _ensemble_kept, _ensemble_work
+
+NORMAL = statistics.NormalDist()
+
+
+def has_dask():
+    try:
+        import distributed  # noqa: F401
+    except ImportError:
+        return False
+    return not SANITIZED  # its processes would need the sanitizer's library first
+
+
+needs_dask = pytest.mark.skipif(not has_dask(), reason="python3-distributed is not installed")
+
+
+def write_stack():
+    """Write the two horizons and the fault of `stack`, and a project that moves them."""
+    for surface in stack():
+        surface.save(surface.name + ".ts")
+    project = {
+        "format": "terrane-project 1",
+        "surfaces": [{"file": f"{s.name}.ts", "role": s.role} for s in stack()],
+        "volume_of_interest": {"box": {"low": BOX[0], "high": BOX[1]}},
+        "outputs": {"blocks": "vtp"},
+        "uncertainty": [{"surface": "top", "field": {"range": 3, "sd": 0.1}, "shift": 0.1},
+                        {"surface": "base", "field": {"model": "spherical", "range": 2, "sd": 0.05}},
+                        {"surface": "F1", "shift": 0.2, "dip": 1, "throw": 0.1}]}
+    pathlib.Path("p.json").write_text(json.dumps(project))
+    return project
+
+
+def files_of(made):
+    return made._model, made._records
+
+
+def test_bytes_do_not_depend_on_order_or_what_was_made_before():
+    write_stack()
+    made = terrane.ensemble("p.json", realisations=6, engine="serial", contacts=0.5)
+    assert not made.failures and len(made.blocks) == 6
+    task = made._task
+    _ensemble_work._prepared.clear()
+    for number in (5, 2):
+        assert _ensemble_work.run_one(task, number)[0] == made._records[number - 1]
+    assert terrane.ensemble("p.json", realisations=3, engine="serial", contacts=0.5)._records == made._records[:3]
+    assert terrane.ensemble("p.json", realisations=3, engine="serial", contacts=0.5, threads=2)._records \
+        == made._records[:3]
+    assert terrane.ensemble("p.json", realisations=3, engine="serial", contacts=0.5, seed=2)._records[0] \
+        != made._records[0]
+    assert pickle.loads(pickle.dumps(made)) == made
+
+
+@needs_dask
+def test_one_and_two_workers_and_a_killed_one_give_the_same():
+    import psutil
+    write_stack()
+    wanted = files_of(terrane.ensemble("p.json", realisations=24, engine="serial"))
+    assert files_of(terrane.ensemble("p.json", realisations=24, workers=1)) == wanted
+    killed = []
+
+    def kill_one(stage, share):
+        if share > 0.2 and not killed:
+            workers = [p for p in psutil.Process().children(recursive=True) if "spawn_main" in " ".join(p.cmdline())]
+            assert len(workers) == 2
+            killed.append(workers[0])
+            workers[0].kill()
+
+    assert files_of(terrane.ensemble("p.json", realisations=24, workers=2, progress=kill_one)) == wanted
+    assert killed and not killed[0].is_running()
+
+
+def test_a_stopped_call_goes_on_from_what_is_kept(monkeypatch):
+    write_stack()
+    wanted = files_of(terrane.ensemble("p.json", realisations=8, engine="serial"))
+
+    def stop(stage, share):
+        if share >= 0.5:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        terrane.ensemble("p.json", realisations=8, engine="serial", keep="kept", progress=stop)
+    kept = sorted(pathlib.Path("kept").glob("*/*"))
+    assert [p.name for p in kept] == [f"{i:06d}.npz" for i in (1, 2, 3, 4)]
+    kept[1].write_bytes(kept[1].read_bytes()[:100])  # broken by the machine going down
+    kept[2].write_bytes(kept[3].read_bytes())  # another realisation
+    made = []
+    monkeypatch.setattr(_ensemble_engine, "run_one",
+                        lambda task, number: made.append(number) or _ensemble_work.run_one(task, number))
+    assert files_of(terrane.ensemble("p.json", realisations=8, engine="serial", keep="kept")) == wanted
+    assert made == [2, 3, 5, 6, 7, 8]
+    made.clear()
+    terrane.ensemble("p.json", realisations=2, engine="serial", keep="kept", seed=5)
+    assert made == [1, 2]  # nothing of another seed
+    made.clear()
+    sheet(z=1.2, name="top", role="horizon").save("top.ts")
+    terrane.ensemble("p.json", realisations=2, engine="serial", keep="kept")
+    assert made == [1, 2]  # nor of other surfaces
+
+
+def rows_of(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+@pytest.mark.skipif(SANITIZED, reason="the program's interpreter would need the sanitizer's library first")
+def test_the_program_is_interrupted_and_goes_on():
+    write_stack()
+    options = ["--realisations", "60", "--engine", "serial", "--contact", "-0.5"]
+    status, out, err = run_program("ensemble", "p.json", "-o", "whole", *options)
+    assert (status, err) == (0, ""), err
+    assert out.startswith("60 realisations, seed 1: all built\n")
+    running = subprocess.Popen([PROGRAM, "ensemble", "p.json", "-o", "run", *options], stderr=subprocess.PIPE, text=True)
+    end = time.monotonic() + 120
+    while len(list(pathlib.Path(".").glob("run.realisations/*/*.npz"))) < 5 and time.monotonic() < end:
+        time.sleep(0.01)
+    running.send_signal(signal.SIGINT)
+    assert running.communicate(timeout=60)[1] == (
+        "terrane: interrupted, finished realisations are kept in run.realisations; the same command goes on from "
+        "there\n")
+    assert running.returncode == 2 and not os.path.exists("run")
+    status, out, err = run_program("ensemble", "p.json", "-o", "run", *options)
+    assert (status, err) == (0, "")
+    assert "computed 60 of" not in out
+    assert not os.path.exists("run.realisations")
+    names = sorted(p.relative_to("whole") for p in pathlib.Path("whole").rglob("*") if p.is_file())
+    assert names == sorted(p.relative_to("run") for p in pathlib.Path("run").rglob("*") if p.is_file())
+    for name in names:
+        if name.suffix != ".h5":  # whose layout on disk is the library's affair
+            assert (pathlib.Path("whole") / name).read_bytes() == (pathlib.Path("run") / name).read_bytes(), name
+    assert len(rows_of("run/blocks.csv")) == 60 * 6
+
+
+@pytest.mark.skipif(SANITIZED, reason="the program's interpreter would need the sanitizer's library first")
+def test_one_realisation_alone_is_that_of_the_ensemble():
+    write_stack()
+    made = terrane.ensemble("p.json", realisations=4, engine="serial")
+    status, out, err = run_program("ensemble", "p.json", "-o", "four", "--only", "4")
+    assert (status, err) == (0, "")
+    assert run_program("build", "four/project.json", "-o", "model")[0] == 0
+    blocks = json.loads(pathlib.Path("model/model/model.json").read_text())["blocks"]
+    volumes = made.table["volume"][made.table["realisation"] == 4]
+    found = {b["name"]: b["volume"] for b in blocks if b["name"] != "outside"}
+    assert sorted(found.values()) == sorted(volumes)
+    with pytest.raises(terrane.Error, match="no empty folder"):
+        made.write_project(4, "four")
+
+
+@pytest.mark.skipif(SANITIZED, reason="the program's interpreter would need the sanitizer's library first")
+def test_mistakes_have_a_status_and_a_message():
+    project = write_stack()
+    for change, words in [({"uncertainty": None}, "p.json: uncertainty: is missing"),
+                          ({"uncertainty": [{"surface": "tpo", "shift": 1}]}, "did you mean top?"),
+                          ({"uncertainty": [{"surface": "top"}]}, "at least one of the keys field, shift"),
+                          ({"uncertainty": [{"surface": "top", "field": {"range": 1}}]}, "one of the keys sd and map"),
+                          ({"uncertainty": [{"surface": "top", "field": {"range": 1, "map": "no.asc"}}]}, "no.asc")]:
+        changed = {k: v for k, v in {**project, **change}.items() if v is not None}
+        pathlib.Path("p.json").write_text(json.dumps(changed))
+        status, out, err = run_program("ensemble", "p.json", "-o", "run", "--engine", "serial")
+        assert (status, out) == (2, "") and words in err, err
+        assert not os.path.exists("run")
+    pathlib.Path("p.json").write_text(json.dumps(project))
+    status, out, err = run_program("ensemble", "p.json", "--engine", "serial")
+    assert status == 2 and "the key folder is missing" in err
+    status, out, err = run_program("ensemble", "p.json", "-o", "run", "--engine", "serial", "--scheduler", "tcp://x:1")
+    assert status == 2 and "--scheduler: is for the engine dask" in err
+    os.environ["TERRANE_PYTHON"] = "/no/python"
+    try:
+        status, out, err = run_program("ensemble", "p.json", "-o", "run")
+    finally:
+        del os.environ["TERRANE_PYTHON"]
+    assert status == 2 and "/no/python: cannot be run" in err
+    with pytest.raises(terrane.Error, match="none of dask, mpi, serial"):
+        terrane.ensemble("p.json", engine="slurm")
+
+
+def test_failures_are_named_and_can_be_reproduced(monkeypatch):
+    write_stack()
+    true = _ensemble_work.built
+
+    def built(task, number):
+        if number == 2:
+            raise terrane.Error("improper_contact", "the rounded mesh is not conforming")
+        return true(task, number)
+
+    monkeypatch.setattr(_ensemble_work, "built", built)
+    made = terrane.ensemble("p.json", realisations=3, engine="serial")
+    assert made.failures == [terrane.Failure(2, "improper_contact", "the rounded mesh is not conforming")]
+    assert all(b.measures["volume"]["count"] == 2 for b in made.blocks.values())
+    made.save("run")
+    assert pathlib.Path("run/failures/000002/reason.txt").read_text() == "the rounded mesh is not conforming\n"
+    assert len(terrane.build("run/failures/000002/project.json").model.blocks) == 6
+    assert "1 failed, see below" in pathlib.Path("run/report.html").read_text()
+    assert [r["status"] for r in rows_of("run/realisations.csv")] == ["done", "failed", "done"]
+
+
+def test_passing_errors_are_tried_again(monkeypatch):
+    write_stack()
+    tries = []
+    true = _ensemble_work.built
+
+    def built(task, number):
+        if number == 1 and len(tries) < 2:
+            tries.append(number)
+            raise terrane.OutOfMemory("out_of_memory", "not enough memory")
+        return true(task, number)
+
+    monkeypatch.setattr(_ensemble_work, "built", built)
+    assert not terrane.ensemble("p.json", realisations=1, engine="serial", retries=2).failures
+    tries.clear()
+    made = terrane.ensemble("p.json", realisations=1, engine="serial", retries=1)
+    assert [f.code for f in made.failures] == ["out_of_memory"]
+
+
+def block(name, sides, volume=1.0, middle=(0, 0, 0)):
+    return {"name": name, "sides": dict.fromkeys(sides.split(), 1.0), "middle": middle, "volume": volume, "area": 1.0,
+            "low": 0.0, "high": 1.0, "thickness": [1.0, 1.0, 1.0], "above": [], "height": []}
+
+
+MODEL = [block("west", "top+ base- F+"), block("east", "top+ base- F-"), block("below", "base+")]
+
+
+@pytest.mark.parametrize("blocks, states, volumes, new", [
+    ([block("a", "top+ base- F+", 2), block("b", "top+ base- F-", 3), block("c", "base+", 4)],
+     ["whole"] * 3, [2, 3, 4], []),
+    ([block("a", "top+ base- F+ G+", 2), block("b", "top+ base- F-", 3), block("c", "base+", 4)],  # touches G as well
+     ["whole"] * 3, [2, 3, 4], []),
+    ([block("a", "top+ base- F+", 2), block("a2", "top+ base- F+", 1), block("b", "top+ base- F-", 3),
+      block("c", "base+", 4)], ["split", "whole", "whole"], [3, 3, 4], []),
+    ([block("b", "top+ base- F-", 3), block("c", "base+", 4)], ["vanished", "whole", "whole"], [0, 3, 4], []),
+    ([block("ab", "top+ base- F+ F-", 5), block("c", "base+", 4)], ["merged", "merged", "whole"], [None, None, 4], []),
+    ([block("all", "top+ base- base+ F+ F-", 9)], ["merged"] * 3, [None] * 3, []),
+    ([block("a", "top+ base- F+", 2), block("b", "top+ base- F-", 3), block("c", "base+", 4), block("n", "G+ H-")],
+     ["whole"] * 3, [2, 3, 4], ["n"]),
+])
+def test_blocks_are_matched_by_what_bounds_them(blocks, states, volumes, new):
+    for order in (blocks, blocks[::-1]):
+        found = _ensemble_blocks.match(MODEL, order, ())
+        assert [b.state for b in found.blocks] == states
+        for matched, volume in zip(found.blocks, volumes):
+            assert matched.values["volume"] == volume if volume is not None else np.isnan(matched.values["volume"])
+        assert [n for n in found.new if n != "all"] == new
+
+
+def test_equal_blocks_are_matched_by_place():
+    model = [block("a", "top+", middle=(0, 0, 0)), block("b", "top+", middle=(10, 0, 0))]
+    found = _ensemble_blocks.match(model, [block("y", "top+", 2, (9, 0, 0)), block("x", "top+", 1, (1, 0, 0))], ())
+    assert [b.values["volume"] for b in found.blocks] == [1, 2]
+
+
+def test_p90_is_exceeded_with_a_probability_of_90_percent():
+    values = _ensemble_blocks.percentiles([float(i) for i in range(101)] + [float("nan")])
+    assert (values["p90"], values["p50"], values["p10"], values["count"]) == (10, 50, 90, 101)
+
+
+def dome(radius, height, n=32):
+    """Return the paraboloid z = height (1 - r^2 / radius^2) over a square of 2.5 radii."""
+    flat = sheet(n, n, low=(-1.25 * radius, -1.25 * radius), size=(2.5 * radius, 2.5 * radius))
+    v = np.array(flat.vertices)
+    v[:, 2] = height * (1 - (v[:, 0] ** 2 + v[:, 1] ** 2) / radius ** 2)
+    return terrane.Surface(v, flat.triangles, "dome", "horizon")
+
+
+def probability_bounds(share, count):
+    """Return probabilities between which a quantile of this share lies, but once in 30 000 times."""
+    far = 4.2 * (share * (1 - share) / count) ** 0.5
+    return share - far, share + far
+
+
+def check_dome(count, engine="serial"):
+    """Check the percentiles of a dome's volume above a contact, whose distribution is known in closed form.
+
+    With the height h of the apex above the contact, the volume is pi R^2 h^2 / (2 H): it grows with h, and h is normal.
+    """
+    radius, height, sd = 1000.0, 100.0, 15.0
+    dome(radius, height).save("dome.ts")
+    project = {"format": "terrane-project 1", "surfaces": [{"file": "dome.ts"}], "outputs": {"blocks": "vtp"},
+               "volume_of_interest": {"box": {"low": [-1200, -1200, -400], "high": [1200, 1200, 400]}},
+               "uncertainty": [{"surface": "dome", "shift": sd}]}
+    made = terrane.ensemble(project, realisations=count, engine=engine, contacts=0.0, grid=10)
+    volume = made.blocks["below dome"].measures["volume_above"]
+    column = made.blocks["below dome"].measures["column"]
+
+    def true_volume(probability):
+        apex = height + sd * NORMAL.inv_cdf(probability)
+        return np.pi * radius ** 2 * apex ** 2 / (2 * height)
+
+    facets = 0.006  # the triangles are below the paraboloid
+    for name, share in (("p90", 0.1), ("p50", 0.5), ("p10", 0.9)):
+        low, high = probability_bounds(share, count)
+        assert true_volume(low) * (1 - facets) < volume[name] < true_volume(high) * (1 + facets), name
+        assert height + sd * NORMAL.inv_cdf(low) - 0.5 < column[name] < height + sd * NORMAL.inv_cdf(high) + 0.5
+    shifts = made.table["column"][made.table["block"] == "below dome"]
+    sd_map = made.depth_sd["dome"]
+    assert np.allclose(sd_map, shifts.std(ddof=1))  # a shift is the same everywhere
+    return made
+
+
+def test_the_volume_of_a_dome_has_its_distribution():
+    made = check_dome(int(os.environ.get("TERRANE_DOME_REALISATIONS", "250")))
+    volume = made.blocks["below dome"].measures["volume_above"]
+    print({name: volume[name] / (np.pi * 1000.0 ** 2 * (100 + 15 * NORMAL.inv_cdf(share)) ** 2 / 200)
+           for name, share in (("p90", 0.1), ("p50", 0.5), ("p10", 0.9))})
+
+
+def test_maps_and_tables_say_the_same():
+    write_stack()
+    made = terrane.ensemble("p.json", realisations=12, engine="serial", grid=8)
+    assert set(made.depth_sd) == {"top", "base", "F1"}
+    for name, share in made.probability.items():
+        assert share.min() >= 0 and share.max() <= 1 and share.shape == (8, 8), name
+        assert np.allclose(share * 12, np.round(share * 12))
+    assert made.probability["below base, west of F1"][:, 0].tolist() == [1] * 8
+    totals = [made.table["volume"][made.table["realisation"] == n].sum() for n in range(1, 13)]
+    assert np.allclose(totals, 4.6 * 4.6 * 4)
+    across = [j for j in made.juxtaposed if j.surface == "F1"]
+    assert {j.blocks for j in across if j.probability == 1} >= {
+        ("above top, east of F1", "above top, west of F1"), ("below base, east of F1", "below base, west of F1")}
+    made.save("run")
+    assert rows_of("run/percentiles.csv")[0]["block"] == list(made.blocks)[0]
+    summary = json.loads(pathlib.Path("run/ensemble.json").read_text())
+    assert summary["blocks"]["below base, west of F1"]["whole"] == 12
+    points = terrane.read("run/maps/depth_mean_top.csv")
+    assert points[0].vertices[:, 2].min() > 0.5
+    h5py = pytest.importorskip("h5py")
+    with h5py.File("run/ensemble.h5") as file:
+        assert np.array_equal(file["blocks/volume"][:], made.table["volume"])
+        assert file["blocks/block"].asstr()[0] == made.table["block"][0]
+        assert file["maps/depth_sd/000"].attrs["name"] in made.depth_sd
+
+
+def test_fill_s_errors_move_what_was_filled():
+    flat = sheet(21, 21, z=0.0, name="top", role="horizon", size=(10, 10), wave=0.4)
+    middle = flat.vertices[flat.triangles].mean(axis=1)
+    hole = np.hypot(middle[:, 0] - 5, middle[:, 1] - 5) > 2
+    terrane.Surface(flat.vertices, flat.triangles[hole], "top", "horizon").save("top.ts")
+    project = {"format": "terrane-project 1", "surfaces": [{"file": "top.ts"}], "outputs": {"blocks": "vtp"},
+               "fill": [{"surface": "top"}],
+               "volume_of_interest": {"box": {"low": [1, 1, -2], "high": [9, 9, 2]}},
+               "uncertainty": [{"surface": "top", "field": {"range": 2, "sd": "kriging"}}]}
+    made = terrane.ensemble(project, realisations=10, engine="serial", grid=16)
+    deviation = made.depth_sd["top"]
+    assert np.nanmax(deviation[[0, -1]]) < 1e-12  # measured
+    filled = terrane.fill(terrane.read("top.ts")[0])
+    at = np.hypot(filled.surface.vertices[:, 0] - 5, filled.surface.vertices[:, 1] - 5) < 1
+    expected = filled.expected_error[at]
+    assert expected.min() > 0
+    assert expected.min() / 4 < deviation[7:9, 7:9].min() < deviation[7:9, 7:9].max() < 4 * expected.max()
+
+
+def test_walls_and_floors_are_not_moved():
+    box = terrane.box((0, 0, 0), (1, 1, 1))
+    terrane.save(box, "box.ts")
+    wall().save("F1.ts")
+    project = {"format": "terrane-project 1", "surfaces": [{"file": "box.ts", "role": "boundary"}],
+               "outputs": {"blocks": "vtp"}, "uncertainty": [{"surface": box[0].name, "shift": 1}]}
+    with pytest.raises(terrane.Error, match="is a boundary, which stays"):
+        terrane.ensemble(project, realisations=1, engine="serial")
+
+
+def test_kept_needs_a_folder_that_can_be_made():
+    pathlib.Path("file").write_text("")
+    task = _ensemble_work.Task(b"", "", "", 1, (), (0, 0, 1, 1), (1, 1), 1, "key", "")
+    with pytest.raises(terrane.Error, match="cannot be made"):
+        _ensemble_kept.Kept("file/inside", task)

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// An arrangement in blocks is that of one process: its triangles, numbers, regions and digest.
+#include "support/certified_inputs.hpp"
+#include "support/files.hpp"
+
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/arrangement/digest.hpp>
+#include <terrane/algorithms/distribution/distributed_arrangement.hpp>
+#include <terrane/algorithms/distribution/local_supersteps.hpp>
+#include <terrane/algorithms/distribution/pieces.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+namespace {
+
+using namespace terrane;
+using namespace terrane::distribution;
+
+/// Reads file i of surfaces in memory: each surface is a file.
+FileReader reader_of(const std::vector<Surface>& surfaces) {
+    return [&surfaces](std::size_t file) -> Result<std::vector<Surface>> {
+        return std::vector<Surface>{surfaces[file]};
+    };
+}
+
+DistributedReport arranged(Supersteps& blocks, const std::vector<Surface>& surfaces) {
+    auto report = arrange_in_blocks(blocks, reader_of(surfaces), {surfaces.size(), true});
+    REQUIRE(report);
+    return *report;
+}
+
+Mesh joined(Supersteps& blocks, const DistributedReport& report) {
+    PieceJoiner joiner(report.vertices, report.triangles);
+    REQUIRE(blocks.visit([&](Block& b) -> Status { return joiner.add(piece_of(b)); }));
+    auto mesh = std::move(joiner).finish();
+    REQUIRE(mesh);
+    return std::move(*mesh);
+}
+
+void require_same(const Mesh& found, const Mesh& expected) {
+    CHECK(found.surfaces == expected.surfaces);
+    CHECK(found.vertices == expected.vertices);
+    CHECK(found.triangles == expected.triangles);
+    CHECK(found.surfaces_of == expected.surfaces_of);
+    CHECK(found.regions_of == expected.regions_of);
+    CHECK(found.parents_of == expected.parents_of);
+}
+
+/// Two crossing waves with so many triangles that each of several blocks has some.
+std::vector<Surface> waves(unsigned n, double turn) {
+    std::vector<Surface> surfaces{{"top", Role::horizon, {}, {}}, {"fault", Role::fault, {}, {}}};
+    for (Surface& s : surfaces) {
+        const bool is_fault = &s == &surfaces[1];
+        for (unsigned i = 0; i <= n; ++i)
+            for (unsigned k = 0; k <= n; ++k) {
+                const double u = 4.0 * i / n, v = 4.0 * k / n;
+                const double w = std::sin(2 * u) * std::cos(v) / 8;
+                s.vertices.push_back(is_fault ? Point3{u + turn, 2 + w, v - 2} : Point3{u, v, w});
+            }
+        for (std::uint32_t i = 0; i < n; ++i)
+            for (std::uint32_t k = 0; k < n; ++k) {
+                const std::uint32_t a = i * (n + 1) + k, b = a + n + 1;
+                s.triangles.push_back({a, b, a + 1});
+                s.triangles.push_back({b, b + 1, a + 1});
+            }
+    }
+    return surfaces;
+}
+
+/// Triangles on a small lattice: they overlap, repeat each other, and some have no area.
+std::vector<Surface> lattice_soup(unsigned seed) {
+    std::mt19937 random(seed);
+    const auto coordinate = [&] { return static_cast<double>(random() % 4); };
+    std::vector<Surface> surfaces{{"a", Role::unknown, {}, {}}, {"b", Role::unknown, {}, {}}};
+    for (Surface& s : surfaces)
+        for (std::uint32_t t = 0; t < 12; ++t) {
+            for (unsigned i = 0; i < 3; ++i) {
+                const double x = coordinate(), y = coordinate();
+                s.vertices.push_back({x, y, random() % 3 == 0 ? coordinate() : 0});
+            }
+            s.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+        }
+    return surfaces;
+}
+
+} // namespace
+
+TEST_CASE("distribution: certified cases have the digest of one process in any number of blocks",
+          "[distribution]") {
+    for (const auto& model : test_support::certified_inputs(300)) {
+        CAPTURE(model.name);
+        const auto exact = arrange(model.surfaces);
+        REQUIRE(exact);
+        const auto digest = canonical_digest(model.surfaces, *exact);
+        const auto rounded = round_to_doubles(*exact);
+        REQUIRE(rounded);
+        for (const std::size_t count : {1, 2, 3, 4, 7}) {
+            CAPTURE(count);
+            const Run run;
+            LocalSupersteps blocks({count, {}}, run);
+            const auto report = arranged(blocks, model.surfaces);
+            CHECK(report.digest == digest);
+            CHECK(report.intersection_edges == exact->intersection_edges.size());
+            CHECK(report.vertices == exact->vertices.size());
+            CHECK(report.triangles == exact->triangles.size());
+            if (!report.clean) continue; // the doubles need repair
+            CHECK(rounded->report.naive_contacts == 0);
+            CHECK(report.regions == rounded->regions.size());
+            require_same(joined(blocks, report), rounded->mesh);
+        }
+    }
+}
+
+TEST_CASE(
+    "distribution: soups on a lattice, with overlaps, repeated triangles and ones without area",
+    "[distribution]") {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        CAPTURE(seed);
+        const auto surfaces = lattice_soup(seed);
+        const auto exact = arrange(surfaces);
+        REQUIRE(exact);
+        for (const std::size_t count : {2, 5}) {
+            const Run run;
+            LocalSupersteps blocks({count, {}}, run);
+            const auto report = arranged(blocks, surfaces);
+            CHECK(report.digest == canonical_digest(surfaces, *exact));
+            if (!report.clean) continue;
+            const auto rounded = round_to_doubles(*exact);
+            REQUIRE(rounded);
+            require_same(joined(blocks, report), rounded->mesh);
+        }
+    }
+}
+
+TEST_CASE("distribution: blocks in files, in threads and in memory do the same", "[distribution]") {
+    const auto surfaces = waves(40, 0.0123);
+    const test_support::TemporaryFolder folder;
+    const Run alone, several{.threads = 2};
+    LocalSupersteps in_memory({5, {}}, alone), in_threads({5, {}}, several),
+        in_files({5, folder.path()}, alone);
+    const auto expected = arranged(in_memory, surfaces);
+    const Mesh mesh = joined(in_memory, expected);
+    for (Supersteps* blocks :
+         {static_cast<Supersteps*>(&in_threads), static_cast<Supersteps*>(&in_files)}) {
+        const auto report = arranged(*blocks, surfaces);
+        CHECK(report.digest == expected.digest);
+        CHECK(report.total.bytes == expected.total.bytes);
+        CHECK(report.total.messages == expected.total.messages);
+        require_same(joined(*blocks, report), mesh);
+    }
+}
+
+TEST_CASE("distribution: blocks balance, and each pair is decided once", "[distribution]") {
+    const auto surfaces = waves(100, 0.0123);
+    const Run run;
+    LocalSupersteps one({1, {}}, run), eight({8, {}}, run);
+    const auto whole = arranged(one, surfaces), parts = arranged(eight, surfaces);
+    CHECK(parts.total.improper == whole.total.improper);
+    CHECK(parts.total.owned == whole.total.owned);
+    CHECK(parts.total.divided == whole.total.divided);
+    CHECK(static_cast<double>(parts.largest.owned) <=
+          1.25 * static_cast<double>(whole.total.owned) / 8);
+}
+
+TEST_CASE("distribution: an error of one block is that of the whole", "[distribution]") {
+    const Run run;
+    LocalSupersteps blocks({3, {}}, run);
+    const auto read = [](std::size_t file) -> Result<std::vector<Surface>> {
+        if (file == 1) return Error{ErrorCode::cannot_open, "it is not there", "b.ts"};
+        return std::vector<Surface>{{"a", Role::unknown, {{0, 0, 0}}, {}}};
+    };
+    const auto report = arrange_in_blocks(blocks, read, {3, false});
+    REQUIRE_FALSE(report);
+    CHECK(report.error().code == ErrorCode::cannot_open);
+    CHECK(report.error().place == "b.ts");
+}
+
+TEST_CASE("distribution: a lack of memory in one block ends the arrangement", "[distribution]") {
+    const Run run;
+    LocalSupersteps blocks({2, {}}, run);
+    const auto read = [](std::size_t) -> Result<std::vector<Surface>> { throw std::bad_alloc(); };
+    const auto report = arrange_in_blocks(blocks, read, {1, false});
+    REQUIRE_FALSE(report);
+    CHECK(report.error().code == ErrorCode::out_of_memory);
+}
+
+TEST_CASE("distribution: doubles in the way are found, and repaired in one process",
+          "[distribution]") {
+    std::size_t repaired = 0;
+    for (const auto& model : test_support::certified_inputs(300)) {
+        const Run run;
+        LocalSupersteps blocks({3, {}}, run);
+        const auto report = arranged(blocks, model.surfaces);
+        const auto rounded = round_to_doubles(*arrange(model.surfaces));
+        REQUIRE(rounded);
+        CAPTURE(model.name);
+        if (rounded->report.naive_contacts > 0) CHECK_FALSE(report.clean);
+        if (report.clean) continue;
+        const auto whole = repair_in_one_process(blocks);
+        REQUIRE(whole);
+        require_same(whole->piece.mesh, rounded->mesh);
+        ++repaired;
+    }
+    CHECK(repaired > 0);
+}
+
+TEST_CASE("distribution: pieces that do not fit together are refused", "[distribution]") {
+    const auto surfaces = waves(4, 0.1);
+    const Run run;
+    LocalSupersteps blocks({2, {}}, run);
+    const auto report = arranged(blocks, surfaces);
+    std::vector<BlockPiece> pieces;
+    REQUIRE(blocks.visit([&](Block& b) -> Status {
+        pieces.push_back(piece_of(b));
+        return Done{};
+    }));
+    const auto join = [&](std::size_t vertices, std::size_t triangles,
+                          const std::vector<BlockPiece>& all) -> Status {
+        PieceJoiner joiner(vertices, triangles);
+        for (const BlockPiece& piece : all)
+            if (auto added = joiner.add(piece); !added) return added;
+        auto mesh = std::move(joiner).finish();
+        if (!mesh) return mesh.error();
+        return Done{};
+    };
+    CHECK(join(report.vertices, report.triangles, pieces));
+    CHECK_FALSE(join(report.vertices, report.triangles, {pieces[0]}));
+    CHECK_FALSE(join(report.vertices, report.triangles, {pieces[0], pieces[1], pieces[1]}));
+    CHECK_FALSE(join(report.vertices - 1, report.triangles, pieces));
+    auto moved = pieces;
+    for (Point3& p : moved[1].mesh.vertices) p.x += 1;
+    CHECK_FALSE(join(report.vertices, report.triangles, moved));
+    auto short_lists = pieces;
+    short_lists[0].triangle_ids.pop_back();
+    CHECK_FALSE(join(report.vertices, report.triangles, short_lists));
+    auto wild = pieces;
+    wild[0].mesh.triangles[0][1] = UINT32_MAX;
+    CHECK_FALSE(join(report.vertices, report.triangles, wild));
+}

@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Compares terrane-mpi with terrane: the digest, the bytes after convert, and what is left after failures.
+
+    run_mpi.py --terrane FILE --terrane-mpi FILE --mpirun FILE --certified FOLDER
+"""
+import argparse
+import json
+import os
+import subprocess
+import tempfile
+from pathlib import Path
+
+# Open MPI refuses to run as root and more processes than cores unless it is told to.
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                   OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_btl_vader_single_copy_mechanism="none")
+
+RANKS = (1, 2, 3, 4, 7)
+# Crossing surfaces, coplanar overlaps, repeated and degenerate triangles, and doubles that need repair.
+CASES = ("horizons_and_fault", "coplanar_grids", "duplicates", "degenerate", "fractures_20",
+         "utm_millimetres", "negative_zero", "triple_point_inexact")
+
+
+def run(command, **more):
+    return subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300,
+                          env=ENVIRONMENT, check=False, **more)
+
+
+def inputs_of(folder: Path):
+    return sorted(path for path in folder.iterdir() if path.name != "expected.json")
+
+
+def names_in(folder: Path):
+    return sorted(path.name for path in folder.iterdir())
+
+
+def check_case(arguments, folder: Path, work: Path):
+    """The same digest and the same bytes for every number of processes."""
+    files = inputs_of(folder)
+    expected = json.loads((folder / "expected.json").read_text())
+    whole = work / "whole.vtp"
+    alone = run([arguments.terrane, "arrange", *files, "-o", whole])
+    for ranks in RANKS:
+        pieces, joined, stats = (work / f"m{ranks}{end}" for end in (".pvtp", ".vtp", ".json"))
+        done = run([arguments.mpirun, "-n", ranks, arguments.terrane_mpi, "arrange", *files, "-o", pieces,
+                    "--digest", "--stats", stats])
+        where = f"{folder.name} with {ranks} processes"
+        assert done.returncode == alone.returncode, (where, done.returncode, done.stderr)
+        if alone.returncode != 0:
+            continue
+        found = json.loads(stats.read_text())
+        assert found["digest"] == expected["digest"], (where, found["digest"])
+        assert found["blocks"] == ranks, where
+        converted = run([arguments.terrane, "convert", pieces, joined])
+        assert converted.returncode == 0, (where, converted.stderr)
+        assert joined.read_bytes() == whole.read_bytes(), f"{where}: other bytes"
+        assert len(list((work / f"m{ranks}_pieces").iterdir())) == ranks, where
+
+
+def check_failures(arguments, folder: Path, work: Path):
+    """A process that fails ends all of them with one message and no file."""
+    good = inputs_of(folder)
+    before = names_in(work)
+
+    def expect(status, sentence, command):
+        done = run(command)
+        lines = [line for line in done.stderr.splitlines() if line.startswith("terrane")]
+        assert done.returncode == status, (done.returncode, done.stderr)
+        assert len(lines) == 1 and sentence in lines[0], done.stderr
+        assert names_in(work) == before, names_in(work)
+
+    parallel = [arguments.mpirun, "-n", 3, arguments.terrane_mpi, "arrange"]
+    expect(2, "missing.obj", [*parallel, *good, work / "missing.obj", "-o", work / "x.pvtp"])
+    expect(2, ".pvtp", [*parallel, *good, "-o", work / "x.vtp"])
+    expect(2, "no folder", [*parallel, *good, "-o", work / "nowhere" / "x.pvtp"])
+    # One process runs out of memory: its limit is below what it needs to read the file.
+    large = work / "large.obj"
+    with large.open("w") as out:
+        for i in range(700):
+            for k in range(700):
+                out.write(f"v {i} {k} {(i * k) % 7}\n")
+        for i in range(699):
+            for k in range(699):
+                a = i * 700 + k + 1
+                out.write(f"f {a} {a + 700} {a + 1}\nf {a + 700} {a + 701} {a + 1}\n")
+    before = names_in(work)
+    limited = ('if [ "$OMPI_COMM_WORLD_RANK" = 1 ]; then '
+               'ulimit -v 280000; fi; exec "$@"')
+    done = run([arguments.mpirun, "-n", 3, "sh", "-c", limited, "sh", arguments.terrane_mpi, "arrange", good[0],
+                large, large, "-o", work / "x.pvtp"])
+    assert done.returncode != 0, done.stdout
+    assert "memory" in done.stderr, done.stderr
+    assert names_in(work) == before, names_in(work)
+
+
+def check_pieces(arguments, folder: Path, work: Path):
+    """Names of pieces are data: none leaves the folder, and what does not fit is refused."""
+    pieces = work / "p.pvtp"
+    done = run([arguments.mpirun, "-n", 2, arguments.terrane_mpi, "arrange", *inputs_of(folder), "-o", pieces])
+    assert done.returncode == 0, done.stderr
+    again = run([arguments.mpirun, "-n", 2, arguments.terrane_mpi, "arrange", *inputs_of(folder), "-o", pieces])
+    assert again.returncode == 2 and "not empty" in again.stderr, again.stderr
+    text = pieces.read_text()
+    outside = work / "outside"
+    outside.mkdir()
+    (outside / "p_0.vtp").write_bytes((work / "p_pieces" / "p_0.vtp").read_bytes())
+    inner = work / "inner"
+    inner.mkdir()
+    (inner / "link").symlink_to(outside)
+    for source in ("../outside/p_0.vtp", str(outside / "p_0.vtp"), "link/p_0.vtp", "missing.vtp", ""):
+        (inner / "q.pvtp").write_text(text.replace("p_pieces/p_0.vtp", source))
+        refused = run([arguments.terrane, "convert", inner / "q.pvtp", inner / "q.vtp"])
+        assert refused.returncode == 2, (source, refused.stdout, refused.stderr)
+        assert not (inner / "q.vtp").exists(), source
+    (work / "p_pieces" / "p_1.vtp").write_bytes((work / "p_pieces" / "p_0.vtp").read_bytes())
+    refused = run([arguments.terrane, "convert", pieces, inner / "q.vtp"])
+    assert refused.returncode == 2, refused.stderr
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    for name in ("--terrane", "--terrane-mpi", "--mpirun", "--certified"):
+        parser.add_argument(name, required=True, type=Path)
+    arguments = parser.parse_args()
+    for name in CASES:
+        with tempfile.TemporaryDirectory() as work:
+            check_case(arguments, arguments.certified / name, Path(work))
+    for check in (check_failures, check_pieces):
+        with tempfile.TemporaryDirectory() as work:
+            check(arguments, arguments.certified / "horizons_and_fault", Path(work))
+    print(f"{len(CASES)} cases with {', '.join(map(str, RANKS))} processes: as in one")
+
+
+if __name__ == "__main__":
+    main()
