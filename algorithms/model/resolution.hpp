@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Simplifies arranged surfaces to a resolution before they are improved, so that both steps
-// together move no surface by more than the resolution.
+// Simplifies arranged surfaces to a resolution before they are improved, and tells whether both steps
+// together have moved no surface by more than the resolution. Experimental, see simplify.hpp.
 #pragma once
 
 #include <terrane/algorithms/core/result.hpp>
@@ -15,15 +15,15 @@ namespace terrane {
 
 /// The resolution of a model.
 struct Resolution {
-    double length = 0;     ///< what is smaller or nearer becomes one, unit of the input; > 0
-    bool dissolve = false; ///< blocks thinner than the resolution are zipped, see SimplifyOptions
+    double length = 0;     ///< places that are nearer are joined, if they can be; > 0
+    bool dissolve = false; ///< blocks thinner than the resolution may go, see SimplifyOptions
 };
 
 /// Simplifies the surfaces of `arranged`, whose mesh must be conforming: its surfaces, arrangement
 /// and mesh become the simplified ones, and `simplified` says what changed. Improvement may then
 /// deviate by options.max_deviation, or, where that is 0, by what improve() would allow, but at
-/// most a quarter of the resolution, which options.max_deviation is set to; the surfaces move by
-/// the rest of the resolution at most. Errors: those of simplify(); bad_option (max_deviation is not
+/// most a quarter of the resolution, which options.max_deviation is set to; joining may move the
+/// surfaces by the rest of the resolution, or is refused. Errors: those of simplify(); bad_option (max_deviation is not
 /// less than the resolution).
 Status simplify_to(const Resolution& resolution, ImproveOptions& options,
                    const RoundingOptions& rounding, Arranged& arranged, const Run& run = {});

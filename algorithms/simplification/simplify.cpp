@@ -68,9 +68,6 @@ public:
 
     Result<Simplified> operator()() {
         if (auto done = make_regular(); !done) return done.error();
-        auto volumes = find_volumes(first_.mesh, run_);
-        if (!volumes) return volumes.error();
-        before_ = std::move(*volumes);
         std::vector<bool> locked(before_.measures.size());
         for (unsigned attempt = 1;; ++attempt) {
             result_ = {};
@@ -79,9 +76,15 @@ public:
             const bool is_last = attempt == tuning.attempts;
             if (is_last || !lock_changed(locked)) break;
         }
-        for (std::uint32_t b = 1; b < locked.size(); ++b)
-            if (locked[b]) result_.report.kept.push_back(b);
+        list_kept(locked);
+        if (std::find(result_.block_before.begin(), result_.block_before.end(), none) !=
+            result_.block_before.end())
+            return bad_resolution("what was joined encloses a block of which it can't be told "
+                                  "which block it was; try another one");
         if (auto measured = measure(); !measured) return measured.error();
+        if (!result_.report.is_shown)
+            return bad_resolution("the surfaces can't be joined so that all of each is shown to "
+                                  "stay within the allowed movement; try a smaller one");
         return std::move(result_);
     }
 
@@ -104,6 +107,11 @@ private:
         first_ = simplification::detail::traced(is_good ? *improved->mesh : *given_);
         if (is_good)
             for (auto& past : first_.past) past.slack = regular.max_deviation;
+        auto volumes = find_volumes(first_.mesh, run_);
+        if (!volumes) return volumes.error();
+        before_ = is_good ? renumbered(*volumes, improved->volume_before,
+                                       improved->volumes_before.measures.size())
+                          : std::move(*volumes);
         return Done{};
     }
 
@@ -123,9 +131,9 @@ private:
             if (auto good = interrupted(); !good) return good;
             add(glued);
             const bool changed = glued.corners + glued.curves + glued.sheets > 0;
-            if (round > 0 && (!changed || round >= tuning.rounds)) break;
+            if (round > 0 && !changed) break;
             if (auto done = arrange_again(complex); !done) return done;
-            ++result_.report.rounds;
+            if (++result_.report.rounds == tuning.rounds) break;
         }
         return compare();
     }
@@ -173,8 +181,8 @@ private:
         for (std::uint32_t v = 1; v < volumes.measures.size(); ++v) {
             const std::uint32_t b = result_.block_before[v];
             const bool is_part = b == none || largest[b] != v;
-            if (thickness[v] < options_.resolution && (is_part || options_.dissolve))
-                blocks.push_back(v);
+            const double most = (is_part ? tuning.part_share : 1) * options_.resolution;
+            if (thickness[v] < most && (is_part || options_.dissolve)) blocks.push_back(v);
         }
         return blocks;
     }
@@ -203,6 +211,18 @@ private:
         }
     }
 
+    /// Lists the blocks that were left alone, and those thinner than the resolution that are there
+    /// still.
+    void list_kept(const std::vector<bool>& locked) {
+        const auto thickness = thicknesses(first_.mesh, before_);
+        const auto& now = result_.block_before;
+        for (std::uint32_t b = 0; b < locked.size(); ++b) {
+            const bool is_thin = b > 0 && thickness[b] < options_.resolution &&
+                                 std::find(now.begin(), now.end(), b) != now.end();
+            if (locked[b] || is_thin) result_.report.kept.push_back(b);
+        }
+    }
+
     /// Locks the blocks that may not change and did. Tells whether there are such.
     bool lock_changed(std::vector<bool>& locked) const {
         bool any = false;
@@ -220,8 +240,8 @@ private:
         r.resolution = options_.resolution;
         r.max_move = options_.max_move;
         const Mesh& after = result_.rounded.mesh;
-        std::vector<bool> has_before(first_.mesh.surfaces.size()), has_after = has_before;
-        for (const std::uint32_t s : first_.mesh.surfaces_of.values) has_before[s] = true;
+        std::vector<bool> has_before(given_->surfaces.size()), has_after = has_before;
+        for (const std::uint32_t s : given_->surfaces_of.values) has_before[s] = true;
         for (const std::uint32_t s : after.surfaces_of.values) has_after[s] = true;
         r.is_shown = true;
         for (std::uint32_t s = 0; s < has_before.size(); ++s) {
@@ -243,7 +263,7 @@ private:
     TracedMesh first_; ///< with regular triangles, numbered by place
     SimplifyOptions options_;
     const Run& run_;
-    Volumes before_;
+    Volumes before_; ///< of first_, with the numbers of the given mesh
     TracedMesh current_;
     Simplified result_;
 };
@@ -288,6 +308,7 @@ std::vector<NamedConstant> simplify_constants() {
             {"crossing", tuning.crossing},
             {"edge_length", tuning.edge_length},
             {"regular_share", tuning.regular_share},
+            {"part_share", tuning.part_share},
             {"joins", tuning.joins},
             {"passes", tuning.passes},
             {"rounds", tuning.rounds},

@@ -1,31 +1,33 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Simplifies a conforming mesh to a resolution: what is smaller than it, or nearer, becomes one, as
-// a modeller would do it before meshing.
+// Simplifies a conforming mesh to a resolution: joins places that are smaller than it, or nearer, as
+// a modeller would do it before meshing. Experimental: which of them are joined may change.
 //
-// Corners nearer than the resolution are joined, short curves collapse, narrow strips between
-// curves and thin gaps between surfaces are zipped: both sides become one triangle of several
-// surfaces. Where two surfaces meet at less than 20 degrees, they become one up to where they are
-// the resolution apart. Parts of one smooth surface are never joined for being near along it.
+// It looks for corners nearer than the resolution, short curves, narrow strips between curves, thin
+// gaps between surfaces and sharp wedges, and zips them: both sides become one triangle of several
+// surfaces. What it finds and joins is not guaranteed; see the limits in
+// docs/explanation/resolution.md.
 //
-// Guarantees:
+// Guarantees, each of which is checked at the end:
 // (1) The result is an arrangement, and a mesh of doubles that an exact check has shown to be
 //     conforming (rounding.hpp).
 // (2) No point of a surface is farther than max_move from where the surface was, and no point
-//     where it was is farther than that from it: shown for all of each triangle after the fact, by
-//     code that shares nothing with what moved it, apart from rounding errors of distances. Surfaces of which nothing
-//     is left are listed.
-// (3) Planes of the boundary of a volume of interest that are parallel to two axes stay planes, its
-//     edges there stay straight and its corners stay: vertices there move only along it. On other parts of the
-//     boundary they do not move.
-// (4) No block is lost or made and no two become one, unless the report lists it. Blocks thinner
-//     than the resolution are left as they are with all around them, or zipped where asked for.
-// (5) What is nearer than the resolution still is listed, with the reason.
-// (6) The result depends neither on the number of threads nor on the order of vertices and
-//     triangles.
-// Cost: that of some arrangements, and of a box search per pass over what changed; near surfaces
-// have triangles of about twice the resolution then. Source: docs/explanation/resolution.md, which says
-// how it differs from Pellerin et al. (2014) and Anquez et al. (2019).
+//     where it was is farther than that from it, apart from rounding errors of distances. This is
+//     shown for all of each triangle, by code that shares nothing with what moved it; where it
+//     can't be shown, there is an error and no result. Surfaces of which nothing is left do not
+//     count; they are listed.
+// (3) Each block of the result is matched with the block before, or the outside, that most of it
+//     was, by the areas around it; where that can't be told, there is an error and no result. The
+//     report lists all blocks of which nothing is left or that are several now, and pairs of blocks
+//     and of surfaces that touch only before or only after.
+// (4) The report lists each block whose mean thickness, twice its volume by the area around it, was
+//     less than the resolution and of which something is left.
+// Not checked at the end: vertices in planes of the boundary that are parallel to two axes move only
+// along these, apart from rounding errors; other vertices of the boundary are not moved. The number
+// of threads is not meant to change the result.
+// Cost: that of some arrangements, and of a box search per pass over what changed. Source:
+// docs/explanation/resolution.md, which says how it differs from Pellerin et al. (2014) and Anquez
+// et al. (2019).
 #pragma once
 
 #include <array>
@@ -48,10 +50,10 @@ namespace terrane {
 
 /// Options of simplify(). Lengths are in the unit of the mesh.
 struct SimplifyOptions {
-    double resolution = 0;      ///< what is nearer becomes one; > 0
+    double resolution = 0;      ///< places that are nearer are joined, if they can be; > 0
     double max_move = 0;        ///< no surface goes farther than this; 0: resolution
     double edge_length = 0;     ///< of the triangles that are made first; 0: six resolutions
-    bool dissolve = false;      ///< blocks thinner than the resolution are zipped
+    bool dissolve = false;      ///< blocks thinner than the resolution, on average, may go
     RoundingOptions rounding{}; ///< of each arrangement
 };
 
@@ -60,14 +62,15 @@ enum class LeftReason : std::uint8_t {
     move,     ///< a vertex would have moved by more than max_move
     boundary, ///< a vertex would have left the boundary of the volume of interest
     fold,     ///< a triangle would have turned over
-    block,    ///< a block, which is thinner than the resolution, would have changed
+    block,    ///< a block that would have changed is left alone there
     limit,    ///< the number of passes is limited
 };
 
 /// Names the reason as reports print it: "would move too far", ...
 std::string_view name_of(LeftReason reason);
 
-/// Two places that are nearer than the resolution and were left alone.
+/// Two places that are nearer than the resolution and were left alone, as the last search found
+/// them.
 struct LeftAlone {
     LeftReason reason = LeftReason::move; ///< the first that applies
     Point3 place{};                       ///< one of them
@@ -76,8 +79,8 @@ struct LeftAlone {
 
 /// A block of which nothing would be left, or that would become several, or one with another.
 struct ChangedBlock {
-    std::uint32_t block = 0; ///< number by find_volumes(mesh) before
-    double volume = 0;       ///< before, cubic unit
+    std::uint32_t block = 0; ///< number by find_volumes(mesh) of the given mesh; 0: the outside
+    double volume = 0;       ///< before, after the triangles were made regular; 0 of the outside
     std::size_t parts = 0;   ///< blocks that it is now; 0: it is gone
     std::uint32_t into = 0;  ///< block before that it is one with now; itself: with none
 };
@@ -98,9 +101,10 @@ struct SimplifyReport {
     std::size_t divided = 0;            ///< edges divided where surfaces are near
     unsigned rounds = 0;                ///< arrangements of moved surfaces
     unsigned attempts = 0;              ///< times that it began, see `kept`
-    std::vector<LeftAlone> left{};      ///< what is near still, by distance
-    std::vector<std::uint32_t> kept{};  ///< blocks before, thinner than the resolution or narrow
-                                        ///< in between, that were left alone
+    std::vector<LeftAlone> left{};      ///< found near by the last search, by distance
+    std::vector<std::uint32_t> kept{};  ///< blocks before that were thinner than the resolution
+                                        ///< and are there still, and those that were left alone
+                                        ///< since joining changed them; 0: the outside
     std::vector<ChangedBlock> blocks{}; ///< that did not stay one and the same, by number
     std::vector<ChangedContact> block_contacts{};   ///< by numbers before; 0: the outside
     std::vector<ChangedContact> surface_contacts{}; ///< pairs that have an edge in common
@@ -121,8 +125,9 @@ struct Simplified {
 };
 
 /// Simplifies the mesh. Errors: bad_option (the resolution is not positive, not finite, or larger
-/// than the model); nothing_to_do (there is no triangle); improper_contact (no doubles within the allowed distance are a
-/// conforming mesh); those of arrange, round_to_doubles, find_volumes; interrupted, out_of_memory.
+/// than the model; or guarantee (2) or (3) is not shown for this resolution); nothing_to_do (there is
+/// no triangle); improper_contact (no doubles within the allowed distance are a conforming mesh);
+/// those of arrange, round_to_doubles, find_volumes; interrupted, out_of_memory.
 /// Times: simplify, with the steps glue, arrange, round, volumes and measure.
 Result<Simplified> simplify(const ConformingMesh& mesh, const SimplifyOptions& options,
                             const Run& run = {});

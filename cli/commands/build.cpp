@@ -212,7 +212,6 @@ private:
         session_.number(stages_begun_, stage_count());
         session_.begin(name, phase);
     }
-
     /// Prints what a stage did and adds it to the statistics.
     void ended(BuildStage stage, const Built& built) {
         session_.end_stage();
@@ -229,15 +228,11 @@ private:
                            complaint("no blocks without a conforming mesh; nothing written");
             return;
         case BuildStage::improve:
-            if (const auto& simplified = built.arranged.simplified) {
-                add_statistics(statistics_, simplified->report, inputs_);
-                add_constants(statistics_, "resolution", simplify_constants());
-                journal_.say(text_of(simplified->report, inputs_));
-            }
             add_statistics(statistics_, *built.improved, session_.times());
             if (!keeps_volumes(*built.improved, strict_)) refused_ = complaint("nothing written");
             page_.add_improved(built.improved->improved.mesh, built.arranged.rounded.mesh);
-            return journal_.say(improve_text(*built.improved, inputs_));
+            return journal_.say(resolution_text(statistics_, built.arranged, inputs_) +
+                                improve_text(*built.improved, inputs_));
         case BuildStage::blocks:
             add_statistics(statistics_, *built.model, session_.times());
             if (auto judged = judge_leaks(built.arranged, *built.model, session_)) leaks_ = *judged;

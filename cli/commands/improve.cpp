@@ -315,13 +315,14 @@ void add_lengths(CLI::App& app, ImproveCommand& command) {
 void add_resolution(CLI::App& app, ImproveCommand& command) {
     app.add_option(
            "--resolution", command.resolution.length,
-           "Join what is nearer or smaller than this before triangles are made better: "
-           "corners, short curves, narrow strips, thin gaps, sharp wedges; no surface moves "
-           "by more; every change is listed (default: nothing is joined)")
+           "Experimental: join places that are nearer than this before triangles are made "
+           "better, where they can be: corners, short curves, narrow strips, thin gaps, sharp "
+           "wedges; no surface moves by more, or nothing is written; changes of blocks and "
+           "contacts are listed (default: nothing is joined)")
         ->type_name("R");
     app.add_flag(
         "--dissolve", command.resolution.dissolve,
-        "Zip blocks that are thinner than --resolution; otherwise they stay and are listed");
+        "Let blocks go that are thinner than --resolution on average; those that stay are listed");
 }
 
 void add_limits(CLI::App& app, ImproveCommand& command) {

@@ -33,7 +33,8 @@ std::string block_name(std::uint32_t block) {
 std::string change_of(const ChangedBlock& change, const Quantities& quantities) {
     const auto volume = quantities.volume(change.volume, 4);
     if (change.parts > 0)
-        return fmt::format("  block {}, {}: now {} blocks\n", change.block, volume, change.parts);
+        return fmt::format("  {}, {}: now {} blocks\n", block_name(change.block), volume,
+                           change.parts);
     if (change.into == change.block)
         return fmt::format("  block {}, {}: gone\n", change.block, volume);
     return fmt::format("  block {}, {}: gone, most of its sides are at {} now\n", change.block,
@@ -85,10 +86,9 @@ std::string text_of(const SimplifyReport& report, const Inputs& inputs) {
                    [&](const ChangedBlock& change) { return change_of(change, quantities); });
     text += contacts_text(report, inputs);
     for (const std::uint32_t s : report.vanished)
-        text += fmt::format("  {} vanished: nothing of it is larger than the resolution\n",
-                            inputs.labels[s]);
+        text += fmt::format("  {} vanished: nothing of it is left\n", inputs.labels[s]);
     for (const std::uint32_t b : report.kept)
-        text += fmt::format("  block {} is too thin in places, and left alone\n", b);
+        text += fmt::format("  {} is thin, or would change, and was kept\n", block_name(b));
     if (report.left.empty()) return text;
     text += fmt::format("  left alone: {} ({})\n", counted(report.left.size(), "place"),
                         reasons_of(report));
@@ -96,6 +96,13 @@ std::string text_of(const SimplifyReport& report, const Inputs& inputs) {
                return fmt::format("    {} apart at {}: {}\n", quantities.length(left.distance, 3),
                                   text_of(left.place), name_of(left.reason));
            });
+}
+
+std::string resolution_text(Json& json, const Arranged& arranged, const Inputs& inputs) {
+    if (!arranged.simplified) return {};
+    add_statistics(json, arranged.simplified->report, inputs);
+    add_constants(json, "resolution", simplify_constants());
+    return text_of(arranged.simplified->report, inputs);
 }
 
 void add_statistics(Json& json, const SimplifyReport& report, const Inputs& inputs) {

@@ -94,11 +94,12 @@ std::vector<ChangedBlock> changed_blocks(const Volumes& before, const Traced& af
         if (area > best.first) best = {area, block_before[pair[0]]};
     }
     std::vector<ChangedBlock> changes;
-    for (std::uint32_t b = 1; b < parts.size(); ++b) {
+    for (std::uint32_t b = 0; b < parts.size(); ++b) {
         if (parts[b] == 1) continue;
         const auto found = into.find(b);
         const bool is_part = parts[b] == 0 && found != into.end() && found->second.second != none;
-        changes.push_back({b, before.measures[b], parts[b], is_part ? found->second.second : b});
+        changes.push_back(
+            {b, b == 0 ? 0 : before.measures[b], parts[b], is_part ? found->second.second : b});
     }
     return changes;
 }

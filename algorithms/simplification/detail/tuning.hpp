@@ -36,6 +36,8 @@ struct Tuning {
     double edge_length = 6;
     /// Share of the allowed movement that making regular triangles may take.
     double regular_share = 0.125;
+    /// Parts of blocks are dissolved that are thinner than this share of the resolution, on average.
+    double part_share = 0.25;
     /// Times that a vertex is joined with others at most, so that passes end.
     unsigned joins = 12;
     /// Passes over the complex, each of which glues what is nearest.
