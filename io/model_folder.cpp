@@ -182,8 +182,8 @@ Status write_model_files(const ModelReports& reports, const std::string& part_fo
 
 Status write_model_folder(const ModelReports& reports, const std::string& part_format,
                           const std::filesystem::path& folder, const Run& run) {
-    const auto formats = part_formats();
-    if (std::find(formats.begin(), formats.end(), part_format) == formats.end())
+    const auto known = part_formats();
+    if (std::find(known.begin(), known.end(), part_format) == known.end())
         return Error{ErrorCode::unknown_format, "no format of blocks is called " + part_format, ""};
     auto made = NewFolder::create(folder);
     if (!made) return made.error();

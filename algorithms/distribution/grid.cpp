@@ -55,8 +55,8 @@ std::vector<WeightedCell> weighted(std::vector<CellCount> cells) {
 
 } // namespace
 
-std::vector<std::uint64_t> equal_runs(std::vector<CellCount> counts, std::size_t blocks) {
-    const auto cells = weighted(std::move(counts));
+std::vector<std::uint64_t> equal_runs(std::vector<CellCount> cell_counts, std::size_t blocks) {
+    const auto cells = weighted(std::move(cell_counts));
     double total = 0;
     for (const WeightedCell& c : cells) total += c.weight;
     std::vector<std::uint64_t> splitters;

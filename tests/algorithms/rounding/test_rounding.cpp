@@ -108,8 +108,8 @@ TEST_CASE("rounding: triangles that cross within a few doubles are separated by 
     CHECK(r->report.naive_contacts == 8);
     CHECK(r->report.clean);
     CHECK(is_conforming(r->mesh));
-    const double spacing = default_max_move(exact.value()) / 1024;
-    CHECK(r->report.surface_deviation < 3 * spacing);
+    const double unit = default_max_move(exact.value()) / 1024;
+    CHECK(r->report.surface_deviation < 3 * unit);
     CHECK(r->report.moved_input_vertices == 0);
     CHECK(r->report.vanished.empty());
     const auto left = round_to_doubles(exact.value(), {.max_move = 0.6 * spacing});
