@@ -26,8 +26,8 @@
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/leak_advice.hpp>
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/model/model_doubts.hpp>
+#include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/model/seal_advice.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/model/small_blocks.hpp>
@@ -40,7 +40,6 @@
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
-#include <terrane/algorithms/simplification/simplify.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/algorithms/reconstruction/holes/filling.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
@@ -53,6 +52,7 @@
 #include <terrane/algorithms/sealing/gaps.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
 #include <terrane/algorithms/search/method.hpp>
+#include <terrane/algorithms/simplification/simplify.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>
 #include <terrane/algorithms/structure/column.hpp>
 #include <terrane/algorithms/structure/free_borders.hpp>

@@ -160,7 +160,8 @@ TEST_CASE("sealed certificates: accepted for models", "[sealing]") {
     }
 }
 
-TEST_CASE("sealed certificates: accepted where triangles cross at the nearest doubles", "[sealing]") {
+TEST_CASE("sealed certificates: accepted where triangles cross at the nearest doubles",
+          "[sealing]") {
     // Two triangles each of two faults of arch-platform (tests/data/arch-platform). The finest grid
     // makes three contacts of two; moving the inputs instead made another cell close the gap.
     const std::vector<File> files{
