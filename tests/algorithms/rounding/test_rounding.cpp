@@ -112,10 +112,10 @@ TEST_CASE("rounding: triangles that cross within a few doubles are separated by 
     CHECK(r->report.surface_deviation < 3 * unit);
     CHECK(r->report.moved_input_vertices == 0);
     CHECK(r->report.vanished.empty());
-    const auto left = round_to_doubles(exact.value(), {.max_move = 0.6 * spacing});
+    const auto left = round_to_doubles(exact.value(), {.max_move = 0.6 * unit});
     REQUIRE(left);
     CHECK(left->report.contacts.size() == 8);
-    CHECK(left->report.surface_deviation <= 0.6 * spacing);
+    CHECK(left->report.surface_deviation <= 0.6 * unit);
 }
 
 TEST_CASE("rounding: what is exact in doubles stays as it is") {
