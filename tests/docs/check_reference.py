@@ -200,7 +200,8 @@ def write_json_files(program, folder):
         "--stats", "sealed_statistics.json")
     run("volume", *model, *box, "--suggest-seal", "--stats", "suggest.json")
     run("volume", *model, *box, "-o", "merged", "--seal", "auto", "--min-volume", "4e8", "--stats", "merged.json")
-    run("arrange", *model, "-o", "blocks.vtp", "--memory", "1GiB", "--digest", "--stats", "blocks.json")
+    run("arrange", *model, "-o", "blocks.vtp", "--memory", "1GiB", "--digest", "--stats", "in_blocks.json")
+    run("improve", *model, *box, "-o", "n.vtp", "--edge-length", "100", "--resolution", "20", "--stats", "resolution.json")
     run("fill", "fold.ts", "-o", "f.vtp", "--stats", "fill.json")
     run("fill", "fold.ts", "-o", "r.vtp", "--method", "rbf", "--stats", "rbf.json")
     run("check", "twice.obj", "--json", out="check.json")
@@ -226,7 +227,8 @@ def write_json_files(program, folder):
     with (folder / "top.ts").open("a") as changed:
         changed.write("\n")
     run("verify", "certificate.json", "--json", out="refuted.json")
-    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "fill.json", "rbf.json", "blocks.json"]
+    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "fill.json", "rbf.json",
+                  "in_blocks.json", "resolution.json"]
     if has_tetgen(program):
         run("tetrahedralize", *model, *box, "-o", "t.vtu", "--stats", "tetrahedra.json")
         (folder / "refined.json").write_text(json.dumps({
@@ -288,6 +290,8 @@ def check_json(program, findings):
         optional = {k for k in pages["statistics.md"] if k.startswith(("tetrahedra", "constants.tetrahedralize", "constants.optimise"))
                     or k in ("seconds.tetrahedralize", "seconds.check", "seconds.split", "seconds.optimise")}
         optional |= {k for k in pages["certificate.md"] if k.startswith("tetrahedra")}
+    # The model of the pages has no block, and no contact of blocks, that a resolution changes.
+    optional |= {k for k in pages["statistics.md"] if k.startswith(("resolution.blocks[]", "resolution.contacts[]"))}
     for page, documented in pages.items():
         compare_keys(page, documented, true[page], findings, frozenset(optional))
     return sum(len(paths) for paths in true.values())
