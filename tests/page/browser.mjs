@@ -90,6 +90,7 @@ async function open(browser, name, options = {}) {
   about(name);
   const context = await browser.newContext({ viewport: { width: 1600, height: 900 }, ...options });
   const page = await context.newPage();
+  page.setDefaultTimeout(120000); // a picture in software takes seconds beside other tests
   page.on("console", (message) => check(!["error", "warning"].includes(message.type()), "the console is silent", message.text()));
   page.on("pageerror", (error) => check(false, "no exception", error.message));
   page.on("dialog", (dialog) => { check(false, "no dialog", dialog.message()); dialog.dismiss(); });
