@@ -37,7 +37,7 @@ struct Neighbour {
 
 /// Returns the sides of all triangles, by edge.
 std::vector<EdgeSide> sides_of(const Block& b);
-/// Whether two triangles have as many distinct parents in each surface.
+/// Tells whether two triangles have as many distinct parents in each surface.
 bool agree(const Block& b, std::uint32_t s, std::uint32_t t);
 /// Returns the first input triangle with the same corners.
 std::uint32_t first_same(const Block& b, std::uint32_t triangle);
