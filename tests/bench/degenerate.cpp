@@ -2,8 +2,9 @@
 //
 // Measures how the cost of arranging and rounding grows with the result for inputs in which
 // everything coincides. Each family is measured at n, 2 n and 4 n, each in a process of its own,
-// since a peak of memory never falls. The size of a result is its number of triangles plus that of
-// their parents: n coplanar triangles, each in the next, have 2 n - 1 parts with n^2 parents.
+// since a peak of memory never falls. The size of a result is the number of its triangles, of their
+// parents and of the neighbours of regions: n coplanar triangles, each in the next, have 2 n - 1
+// parts with n^2 parents, and n regions that meet at one edge have n - 1 neighbours each.
 //   terrane_bench_degenerate [--exact] [--wall] [FAMILY...]
 // --exact: without rounding. Seconds are those of the processor, or with --wall of a clock.
 #include <malloc.h>
@@ -40,14 +41,14 @@ struct Settings {
 
 /// What one process measured; zeros if it failed.
 struct Measured {
-    double input = 0, triangles = 0, parents = 0; ///< numbers
+    double input = 0, triangles = 0, parents = 0, neighbours = 0; ///< numbers
     double seconds = 0, bytes = 0;
 
-    [[nodiscard]] double size() const { return triangles + parents; }
+    [[nodiscard]] double size() const { return triangles + parents + neighbours; }
 };
 
 constexpr double largest_exponent = 1.2;
-constexpr double most_bytes = 1000; ///< per triangle and parent of the result
+constexpr double most_bytes = 1000; ///< per entry of the result
 
 double size_of_process(const std::string& key) {
     std::ifstream status("/proc/self/status");
@@ -63,8 +64,19 @@ double seconds_now(bool wall) {
         .count();
 }
 
+/// Starts the threads and loads the code, which a process pays once, whatever it arranges.
+void warm_up() {
+    Surface crossing;
+    crossing.vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {3, 0, 1}};
+    crossing.triangles = {{0, 1, 2}, {3, 4, 5}};
+    const auto arranged = arrange(std::vector<Surface>(64, crossing));
+    if (!arranged || !round_to_doubles(arranged.value()))
+        throw std::runtime_error("two triangles can't be arranged");
+}
+
 Measured measure(const Family& family, int n, const Settings& settings) {
     keep_freed_memory();
+    warm_up();
     const std::vector<Surface> surfaces = family.make(n);
     malloc_trim(0);
     Measured m;
@@ -79,6 +91,8 @@ Measured measure(const Family& family, int n, const Settings& settings) {
     if (!settings.exact) {
         const auto rounded = round_to_doubles(arranged.value());
         if (!rounded) throw std::runtime_error(rounded.error().message());
+        for (const Region& r : rounded.value().regions)
+            m.neighbours += static_cast<double>(r.neighbours.size());
     }
     m.seconds = seconds_now(settings.wall) - start;
     m.bytes = size_of_process("VmHWM") - before;
@@ -122,8 +136,8 @@ bool print_family(const Family& family, const Settings& settings) {
     for (const int n : {family.n, 2 * family.n, 4 * family.n}) {
         const Measured m = measured_apart(family, n, settings);
         if (m.size() == 0) return false;
-        std::printf("%-16s %6d %8.0f %9.0f %10.0f %9.3f %8.1f", family.name, n, m.input,
-                    m.triangles, m.parents, m.seconds, m.bytes / 1e6);
+        std::printf("%-16s %6d %8.0f %9.0f %10.0f %10.0f %9.3f %8.1f", family.name, n,
+                    m.input, m.triangles, m.parents, m.neighbours, m.seconds, m.bytes / 1e6);
         const double per_entry = m.bytes / m.size();
         if (before.size() > 0) {
             const double time = exponent(before.seconds, m.seconds, before.size(), m.size());
@@ -158,8 +172,8 @@ Settings settings_of(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     const Settings settings = settings_of(argc, argv);
-    std::printf("%-16s %6s %8s %9s %10s %9s %8s %7s %7s %8s %9s\n", "degenerate", "n", "input",
-                "output", "parents", "seconds", "MB", "time^", "memory^", "B/tri", "B/entry");
+    std::printf("%-16s %6s %8s %9s %10s %10s %9s %8s %7s %7s %8s %9s\n", "degenerate", "n",
+                "input", "output", "parents", "neighbours", "seconds", "MB", "time^", "memory^", "B/tri", "B/entry");
     int result = 0;
     for (const Family& family : families()) {
         const auto& names = settings.names;
