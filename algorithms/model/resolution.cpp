@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
 
@@ -21,6 +22,7 @@ constexpr double deviation_of_length = 0.05;
 
 Status simplify_to(const Resolution& resolution, ImproveOptions& options,
                    const RoundingOptions& rounding, Arranged& arranged, const Run& run) {
+    const StandardArithmetic arithmetic;
     if (options.max_deviation == 0) {
         options.max_deviation = improvement_share * resolution.length;
         if (options.edge_length > 0)

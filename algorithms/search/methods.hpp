@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include <terrane/algorithms/search/search.hpp>
@@ -93,10 +94,11 @@ private:
 class AbTree {
 public:
     AbTree() = default;
-    /// Inserts the boxes in their order.
-    explicit AbTree(std::span<const Box> boxes);
-    /// Inserts the boxes in the order of the given indices.
-    AbTree(std::span<const Box> boxes, std::span<const std::uint32_t> order);
+    /// Inserts the boxes in their order, until a stop is requested.
+    explicit AbTree(std::span<const Box> boxes, const std::stop_token& stop = {});
+    /// Inserts the boxes in the order of the given indices, until a stop is requested.
+    AbTree(std::span<const Box> boxes, std::span<const std::uint32_t> order,
+           const std::stop_token& stop = {});
 
     void insert(const Box& box, std::uint32_t index);
 
@@ -166,7 +168,8 @@ std::vector<std::uint32_t> table_1_order(std::span<const Box> boxes);
 /// degenerates to a list, too.
 class BalancedAbTree : public AbTree {
 public:
-    explicit BalancedAbTree(std::span<const Box> boxes) : AbTree(boxes, table_1_order(boxes)) {}
+    explicit BalancedAbTree(std::span<const Box> boxes, const std::stop_token& stop = {}) :
+        AbTree(boxes, table_1_order(boxes), stop) {}
 };
 
 /// The balanced tree of paper 2.2, where the quantiles of Table 1 are those of each subtree: a node

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <stop_token>
+#include <type_traits>
 #include <utility>
 
 #include <terrane/algorithms/search/detail/bvh_join.hpp>
@@ -22,12 +24,22 @@ constexpr std::array names{std::pair{Search::automatic, "auto"},
                            std::pair{Search::bvh, "hierarchy"},
                            std::pair{Search::brute, "brute"}};
 
-/// Queries all boxes with each box in turn.
+/// Builds a search. Those that may take quadratic time for it listen to stop requests.
 template <class Method>
-Pairs pairs_one_by_one(std::span<const Box> boxes, std::span<const std::uint32_t> groups) {
-    Method method(boxes);
+Method built(std::span<const Box> boxes, const std::stop_token& stop) {
+    if constexpr (std::is_constructible_v<Method, std::span<const Box>, const std::stop_token&>)
+        return Method(boxes, stop);
+    else
+        return Method(boxes);
+}
+
+/// Queries all boxes with each box in turn, until a stop is requested.
+template <class Method>
+Pairs pairs_one_by_one(std::span<const Box> boxes, std::span<const std::uint32_t> groups,
+                       const std::stop_token& stop) {
+    auto method = built<Method>(boxes, stop);
     Pairs pairs;
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    for (std::uint32_t i = 0; i < boxes.size() && !stop.stop_requested(); ++i) {
         const std::uint32_t group = groups.empty() ? no_group : groups[i];
         const auto row = static_cast<std::ptrdiff_t>(pairs.size());
         method.query(boxes[i], [&](std::uint32_t j) {
@@ -59,12 +71,13 @@ std::vector<Part> red_and_blue(std::span<const Box> boxes, std::span<const std::
     return parts;
 }
 
-/// Queries the red boxes with each blue box.
+/// Queries the red boxes with each blue box, until a stop is requested.
 template <class Method>
-Pairs pairs_of_two(const Part& red, const Part& blue, std::size_t count) {
-    Method method(red.boxes);
+Pairs pairs_of_two(const Part& red, const Part& blue, std::size_t count,
+                   const std::stop_token& stop) {
+    auto method = built<Method>(red.boxes, stop);
     std::vector<Pairs> found(1);
-    for (std::size_t b = 0; b < blue.boxes.size(); ++b)
+    for (std::size_t b = 0; b < blue.boxes.size() && !stop.stop_requested(); ++b)
         method.query(blue.boxes[b], [&](std::uint32_t r) {
             const auto [i, j] = std::minmax(blue.indices[b], red.indices[r]);
             found[0].push_back({i, j});
@@ -73,14 +86,16 @@ Pairs pairs_of_two(const Part& red, const Part& blue, std::size_t count) {
 }
 
 template <class Method>
-Pairs all_pairs(std::span<const Box> boxes, std::span<const std::uint32_t> groups) {
+Pairs all_pairs(std::span<const Box> boxes, std::span<const std::uint32_t> groups,
+                const std::stop_token& stop) {
     const auto parts = red_and_blue(boxes, groups);
-    if (groups.empty() || parts.empty()) return pairs_one_by_one<Method>(boxes, groups);
-    return pairs_of_two<Method>(parts[0], parts[1], boxes.size());
+    if (groups.empty() || parts.empty()) return pairs_one_by_one<Method>(boxes, groups, stop);
+    return pairs_of_two<Method>(parts[0], parts[1], boxes.size(), stop);
 }
 
 /// Performs the mixed search of paper 2.3: a balanced tree of the boxes that the reduction leaves.
-Pairs mixed_pairs(std::span<const Box> boxes, std::span<const std::uint32_t> groups) {
+Pairs mixed_pairs(std::span<const Box> boxes, std::span<const std::uint32_t> groups,
+                  const std::stop_token& stop) {
     const auto chosen = search::boxes_in_mixed_cells(boxes, groups);
     std::vector<Box> left;
     std::vector<std::uint32_t> groups_left;
@@ -88,25 +103,26 @@ Pairs mixed_pairs(std::span<const Box> boxes, std::span<const std::uint32_t> gro
         left.push_back(boxes[i]);
         if (!groups.empty()) groups_left.push_back(groups[i]);
     }
-    Pairs pairs = all_pairs<search::BalancedAbTree>(left, groups_left);
+    Pairs pairs = all_pairs<search::BalancedAbTree>(left, groups_left, stop);
     for (CandidatePair& p : pairs) p = {chosen[p.first], chosen[p.second]};
     return pairs;
 }
 
-Pairs pairs_by(Search method, std::span<const Box> boxes, std::span<const std::uint32_t> groups) {
+Pairs pairs_by(Search method, std::span<const Box> boxes, std::span<const std::uint32_t> groups,
+               const std::stop_token& stop) {
     switch (method) {
     case Search::grid:
-        return all_pairs<search::CellGrid>(boxes, groups);
+        return all_pairs<search::CellGrid>(boxes, groups, stop);
     case Search::ab:
-        return all_pairs<search::AbTree>(boxes, groups);
+        return all_pairs<search::AbTree>(boxes, groups, stop);
     case Search::ab_balanced:
-        return all_pairs<search::BalancedAbTree>(boxes, groups);
+        return all_pairs<search::BalancedAbTree>(boxes, groups, stop);
     case Search::ab_median:
-        return all_pairs<search::MedianAbTree>(boxes, groups);
+        return all_pairs<search::MedianAbTree>(boxes, groups, stop);
     case Search::mixed:
-        return mixed_pairs(boxes, groups);
+        return mixed_pairs(boxes, groups, stop);
     default:
-        return pairs_one_by_one<search::Brute>(boxes, groups);
+        return pairs_one_by_one<search::Brute>(boxes, groups, stop);
     }
 }
 
@@ -137,7 +153,7 @@ std::vector<CandidatePair> candidate_pairs(const BoxSource& source,
                                            const Run& run, const CrowdFinder& find_crowds) {
     method = method_used(method, source.size());
     if (method == Search::bvh) return search::bvh_pairs(source, groups, run, find_crowds);
-    Pairs pairs = pairs_by(method, source.listed(), groups);
+    Pairs pairs = pairs_by(method, source.listed(), groups, run.stop);
     if (!find_crowds) return pairs;
     const auto crowds = search::crowds_of_busy(source, groups, run, find_crowds);
     if (!crowds.empty())

@@ -88,7 +88,8 @@ using CrowdFinder = std::function<std::vector<std::uint32_t>(std::span<const std
 /// groups: per box, or empty for no_group throughout. Boxes of one group are known not to meet (or
 /// need no test). With Search::bvh, pairs of triangles with a crowded vertex in common are left out
 /// if they certainly meet in common corners and the edge between them only. With any method,
-/// find_crowds (if any) is called where some boxes overlap very many others, with the same ones.
+/// find_crowds (if any) is called where some boxes overlap very many others, with the same ones. Once a
+/// stop is requested, pairs are missing.
 std::vector<CandidatePair> candidate_pairs(const BoxSource& boxes,
                                            std::span<const std::uint32_t> groups, Search method,
                                            const Run& run = {},

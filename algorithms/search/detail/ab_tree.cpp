@@ -42,14 +42,18 @@ private:
 
 } // namespace
 
-AbTree::AbTree(std::span<const Box> boxes) {
+AbTree::AbTree(std::span<const Box> boxes, const std::stop_token& stop) {
     nodes_.reserve(boxes.size());
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) insert(boxes[i], i);
+    for (std::uint32_t i = 0; i < boxes.size() && !stop.stop_requested(); ++i) insert(boxes[i], i);
 }
 
-AbTree::AbTree(std::span<const Box> boxes, std::span<const std::uint32_t> order) {
+AbTree::AbTree(std::span<const Box> boxes, std::span<const std::uint32_t> order,
+               const std::stop_token& stop) {
     nodes_.reserve(boxes.size());
-    for (const std::uint32_t i : order) insert(boxes[i], i);
+    for (const std::uint32_t i : order) {
+        if (stop.stop_requested()) return;
+        insert(boxes[i], i);
+    }
 }
 
 void AbTree::insert(const Box& box, std::uint32_t index) {

@@ -6,13 +6,18 @@ import numpy as np
 import terrane
 
 
+def to_millimetres(points):
+    """Return points rounded as they would be in a file: the last digits of NumPy's sines depend on the processor."""
+    return np.round(points, 3)
+
+
 def grid(height, low=(-200, -200), high=(2200, 2200), n=25, name="", role="horizon"):
     """Return the surface z = height(x, y) over a rectangle."""
     x, y = np.meshgrid(np.linspace(low[0], high[0], n), np.linspace(low[1], high[1], n))
     x, y = x.ravel(), y.ravel()
     q = (np.arange(n - 1)[:, None] * n + np.arange(n - 1)).ravel()
     triangles = np.vstack([np.c_[q, q + 1, q + n + 1], np.c_[q, q + n + 1, q + n]])
-    return terrane.Surface(np.c_[x, y, height(x, y)], triangles, name, role)
+    return terrane.Surface(to_millimetres(np.c_[x, y, height(x, y)]), triangles, name, role)
 
 
 def faulted(height, throw, short=8, dip=70, name="", n=21):
@@ -31,7 +36,7 @@ def faulted(height, throw, short=8, dip=70, name="", n=21):
         triangles = np.vstack([np.c_[q, q + 1, q + n + 1], np.c_[q, q + n + 1, q + n]])
         parts.append((np.c_[x, y, height(x, y) - down], triangles))
     (west, first), (east, second) = parts
-    return terrane.Surface(np.vstack([west, east]), np.vstack([first, second + len(west)]), name, "horizon")
+    return terrane.Surface(to_millimetres(np.vstack([west, east])), np.vstack([first, second + len(west)]), name, "horizon")
 
 
 def plane(point, strike, dip, length, depth, name, role="fault"):
@@ -40,5 +45,5 @@ def plane(point, strike, dip, length, depth, name, role="fault"):
     along = np.array([np.sin(s), np.cos(s), 0]) * length / 2
     down = np.array([np.cos(s) * np.cos(d), -np.sin(s) * np.cos(d), -np.sin(d)]) * depth / 2
     p = np.array(point, dtype=float)
-    return terrane.Surface([p - along - down, p + along - down, p + along + down, p - along + down],
-                           [[0, 1, 2], [0, 2, 3]], name, role)
+    corners = to_millimetres([p - along - down, p + along - down, p + along + down, p - along + down])
+    return terrane.Surface(corners, [[0, 1, 2], [0, 2, 3]], name, role)

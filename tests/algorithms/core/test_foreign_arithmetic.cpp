@@ -25,13 +25,17 @@
 #include <terrane/algorithms/arrangement/digest.hpp>
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/layers/layers.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
+#include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
 #include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
 #include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
+#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/io/exact_text.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/structure_json.hpp>
@@ -56,11 +60,16 @@ std::string bits_of(const std::vector<double>& numbers) {
     return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)};
 }
 
+std::string bits_of_points(const std::vector<Point3>& points) {
+    std::vector<double> numbers;
+    for (const Point3& p : points) numbers.insert(numbers.end(), {p.x, p.y, p.z});
+    return bits_of(numbers);
+}
+
 std::string bits_of(const Surface& s) {
     std::vector<double> numbers;
-    for (const Point3& p : s.vertices) numbers.insert(numbers.end(), {p.x, p.y, p.z});
     for (const Triangle& t : s.triangles) numbers.insert(numbers.end(), t.begin(), t.end());
-    return bits_of(numbers);
+    return bits_of_points(s.vertices) + bits_of(numbers);
 }
 
 /// The results of all stages, as bytes, by their names.
@@ -123,8 +132,30 @@ private:
             measured.insert(measured.end(), {d.out, d.back});
         measured.push_back(improved->improved.report.after.q.mean);
         all["measured"] = bits_of(measured);
+        add_box(all, *read, run);
         const auto sealed = seal(*read, {.distance = 20}, run);
         if (sealed) all["seal"] = canonical_digest(sealed->surfaces, sealed->arrangement, run);
+    }
+
+    /// A rotated box, the model in it, that at a resolution, and its tetrahedra.
+    static void add_box(Results& all, const std::vector<Surface>& surfaces, const Run& run) {
+        const auto box = rotated_box_boundary(
+            {.place = {1000, 750, -1200}, .lengths = {500.1, 400.7, 300.3}, .azimuth = 33.3});
+        if (!box) return;
+        for (const Surface& side : *box) all["box"] += bits_of(side);
+        auto arranged = arrange_within(surfaces, *box, {}, run);
+        if (!arranged || !arranged->rounded.conforming) return;
+        TetrahedraOptions wanted;
+        wanted.edge_length = 200;
+        if (const auto made = tetrahedralize(arranged->rounded.mesh, wanted, run))
+            all["tetrahedra"] = bits_of_points(made->vertices) +
+                                std::string(reinterpret_cast<const char*>(made->tetrahedra.data()),
+                                            made->tetrahedra.size() * sizeof(made->tetrahedra[0]));
+        ImproveOptions improvement;
+        improvement.edge_length = 151;
+        if (!simplify_to({.length = 40.1}, improvement, {}, *arranged, run)) return;
+        all["resolution"] = format_mesh(arranged->rounded.mesh, Format::ply).value_or("none") +
+                            bits_of({improvement.max_deviation});
     }
 
     void add_fillings(Results& all, const Run& run) const {
@@ -174,8 +205,9 @@ TEST_CASE("foreign arithmetic: a caller's rounding mode changes no bit, and is g
           "[environment]") {
     const Subject subject;
     const Results expected = subject(1);
-    for (const char* stage : {"read", "check", "arrange", "rounded", "model", "improve", "measured",
-                              "seal", "kriging", "rbf", "layers"}) {
+    for (const char* stage :
+         {"read", "check", "arrange", "rounded", "model", "improve", "measured", "seal", "kriging",
+          "rbf", "layers", "box", "tetrahedra", "resolution"}) {
         INFO(stage);
         REQUIRE(expected.contains(stage));
     }

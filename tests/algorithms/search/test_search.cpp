@@ -12,6 +12,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <stop_token>
 
 namespace {
 
@@ -236,6 +237,30 @@ TEST_CASE("searches tell boxes apart that are as near as no lattice shows") {
         Groups groups(boxes.size());
         for (std::size_t i = 0; i < groups.size(); ++i) groups[i] = i % 2;
         CHECK(check(boxes, groups) >= 20);
+    }
+}
+
+TEST_CASE("searches: no method goes on to another box once a stop is requested") {
+    // A list of nested boxes: each pair overlaps, and trees of the given order are lists.
+    std::vector<Box> boxes;
+    for (int i = 0; i < 400; ++i)
+        boxes.push_back(box({-1.0 * i, -1.0 * i, -1.0 * i}, {2.0 * i, 2.0 * i, 2.0 * i}));
+    const std::size_t all = boxes.size() * (boxes.size() - 1) / 2;
+    Groups two(boxes.size(), 0);
+    for (std::size_t i = 0; i < two.size(); i += 2) two[i] = 1;
+    std::stop_source source;
+    const Run run{.stop = source.get_token()};
+    for (const bool stopped : {false, true}) {
+        if (stopped) source.request_stop();
+        for (const Search method : all_methods()) {
+            INFO(name_of(method) << (stopped ? ", stopped" : ""));
+            CHECK(candidate_pairs(boxes, {}, method, run).size() == (stopped ? 0 : all));
+            CHECK(candidate_pairs(boxes, two, method, run).size() ==
+                  (stopped ? 0 : boxes.size() * boxes.size() / 4));
+        }
+        // Quadratic for a list: a stop ends it with the first box.
+        CHECK(search::AbTree(boxes, run.stop).depth() == (stopped ? 0 : boxes.size()));
+        CHECK((search::BalancedAbTree(boxes, run.stop).depth() == 0) == stopped);
     }
 }
 

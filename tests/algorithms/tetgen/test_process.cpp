@@ -184,6 +184,27 @@ TEST_CASE("TetGen's helper: one that is broken is asked once, one whose TetGen f
     CHECK(starts_of("kill -SEGV $$", ErrorCode::unsupported) == 8);
 }
 
+TEST_CASE("TetGen's helper: where it never ends with a bound on shapes, it is asked without",
+          "[tetrahedra][helper]") {
+    // The first start never ends; the next is the helper.
+    const Impostor slow("echo >>\"${0%/*}/starts\"\n"
+                        "[ \"$(wc -l <\"${0%/*}/starts\")\" -gt 1 ] || exec sleep 100\nexec '" +
+                        find_tetgen_helper().value().string() + "' \"$@\"");
+    const auto start = Clock::now();
+    const auto made = tetrahedralize(square(),
+                                     {.mesher = Mesher::tetgen,
+                                      .radius_edge_ratio = 2,
+                                      .time_limit = 20, // of which the bound has a tenth
+                                      .helper = slow.path()},
+                                     {});
+    INFO((made ? "" : made.error().message()));
+    REQUIRE(made);
+    CHECK(seconds_since(start) < 20);
+    CHECK(contains(made->failure, "gave no result in its time, so it was asked without"));
+    std::ifstream starts(slow.path().parent_path() / "starts");
+    CHECK(std::count(std::istreambuf_iterator<char>(starts), {}, '\n') == 2);
+}
+
 TEST_CASE("TetGen's helper: it refuses requests that make no sense", "[tetrahedra][helper]") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<TetgenInput> bad(7, cube_input());
