@@ -79,7 +79,7 @@ std::string digest(const py::sequence& surfaces, const ArrangementPointer& arran
     });
 }
 
-py::dict to_dict(const VolumeReport& report) {
+py::dict dict_of_cut(const VolumeReport& report) {
     py::list cuts, borders;
     for (const SurfaceCut& c : report.surfaces)
         cuts.append(py::make_tuple(c.area_inside, c.area_outside, c.area_on_boundary, c.pieces,
@@ -94,7 +94,7 @@ py::tuple cut(const ArrangementPointer& arrangement, const std::vector<std::uint
     auto made = run_stage(how, [arrangement, boundary](const Run& run) {
         return cut_to_volume(*arrangement, boundary, run);
     });
-    auto report = to_dict(made.report);
+    auto report = dict_of_cut(made.report);
     return py::make_tuple(std::make_shared<Arrangement>(std::move(made.arrangement)), report);
 }
 

@@ -36,7 +36,7 @@ py::list border_loops(const py::sequence& surfaces, double gap_slope, const HowT
     return all;
 }
 
-FillOptions to_options(const py::dict& given) {
+FillOptions fill_options(const py::dict& given) {
     FillOptions o;
     o.method = given["method"].cast<std::string>() == "rbf" ? FillMethod::rbf : FillMethod::kriging;
     const auto model = given["model"].cast<std::string>();
@@ -92,7 +92,7 @@ py::tuple fill(const py::sequence& surfaces, const py::dict& options,
                const std::optional<std::vector<std::size_t>>& numbers, const HowToRun& how) {
     auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(surfaces));
     const auto work = std::make_shared<FillWork>(
-        run_stage(how, [given, o = to_options(options), numbers](const Run& run) {
+        run_stage(how, [given, o = fill_options(options), numbers](const Run& run) {
             return filled(*given, o, numbers, run);
         }));
     py::list holes;

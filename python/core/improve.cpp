@@ -17,7 +17,7 @@ using namespace py::literals;
 
 namespace {
 
-py::dict to_dict(const ImproveReport& r) {
+py::dict dict_of_improvement(const ImproveReport& r) {
     return py::dict("corners"_a = r.corners, "curves"_a = r.curves, "sheets"_a = r.sheets,
                     "splits"_a = r.splits, "collapses"_a = r.collapses, "swaps"_a = r.swaps,
                     "moves"_a = r.moves, "refused_contact"_a = r.refused_contact,
@@ -39,7 +39,7 @@ py::tuple improve_mesh(const MeshPointer& mesh, const py::dict& options, const H
     return py::make_tuple(handle_of(improved.mesh, improved.conforming),
                           std::make_shared<Volumes>(improved.volumes), owned(improved.near_of),
                           owned(improved.report.bound_of), owned(made.bounds_back),
-                          owned(std::move(deviations)), to_dict(improved.report));
+                          owned(std::move(deviations)), dict_of_improvement(improved.report));
 }
 
 } // namespace

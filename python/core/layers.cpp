@@ -14,7 +14,7 @@ using namespace py::literals;
 
 namespace {
 
-py::list to_list(const std::vector<LayerReport>& reports) {
+py::list layer_reports(const std::vector<LayerReport>& reports) {
     py::list all;
     for (const LayerReport& r : reports)
         all.append(py::make_tuple(std::uint32_t(r.surface), r.dropped, r.taken, r.parts,
@@ -37,9 +37,9 @@ py::tuple stack(const py::sequence& surfaces,
         wrong.append(py::make_tuple(o.upper, o.lower,
                                     py::make_tuple(o.triangles[0], o.triangles[1]),
                                     to_tuple(o.place), o.depth));
-    const py::dict report("layers"_a = to_list(made.reports), "step_width"_a = made.step_width,
-                          "min_thickness"_a = made.min_thickness, "out_of_order"_a = wrong,
-                          "is_stack"_a = made.is_stack(),
+    const py::dict report("layers"_a = layer_reports(made.reports),
+                          "step_width"_a = made.step_width, "min_thickness"_a = made.min_thickness,
+                          "out_of_order"_a = wrong, "is_stack"_a = made.is_stack(),
                           "rounding"_a = to_dict(made.rounded.report));
     return py::make_tuple(handle_of(made.rounded.mesh, made.rounded.conforming), report);
 }

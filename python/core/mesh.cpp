@@ -41,7 +41,7 @@ MeshPointer proven(const MeshPointer& handle, const HowToRun& how) {
     }));
 }
 
-py::dict to_dict(const Spread& s) {
+py::dict dict_of_spread(const Spread& s) {
     return py::dict("min"_a = s.min, "mean"_a = s.mean, "max"_a = s.max,
                     "percentiles"_a =
                         py::cast(std::vector<double>(s.percentiles.begin(), s.percentiles.end())));
@@ -52,11 +52,11 @@ py::dict quality(const MeshPointer& handle, const HowToRun& how) {
         return measure_quality(mesh->vertices, mesh->triangles, run);
     });
     const std::vector<std::size_t> histogram(q.histogram.begin(), q.histogram.end());
-    return py::dict("triangles"_a = q.triangles, "q"_a = to_dict(q.q),
-                    "smallest_angle"_a = to_dict(q.smallest_angle),
-                    "largest_angle"_a = to_dict(q.largest_angle),
-                    "edge_length"_a = to_dict(q.edge_length), "share_above_08"_a = q.share_above_08,
-                    "histogram"_a = py::cast(histogram));
+    return py::dict("triangles"_a = q.triangles, "q"_a = dict_of_spread(q.q),
+                    "smallest_angle"_a = dict_of_spread(q.smallest_angle),
+                    "largest_angle"_a = dict_of_spread(q.largest_angle),
+                    "edge_length"_a = dict_of_spread(q.edge_length),
+                    "share_above_08"_a = q.share_above_08, "histogram"_a = py::cast(histogram));
 }
 
 py::dict check_all(const std::vector<Surface>& surfaces, const HowToRun& how) {

@@ -101,7 +101,7 @@ ModelPointer improved(const ModelPointer& old, const py::dict& options, const Ho
 }
 
 /// seal: None, a number, "auto", or a dict of these by None, name or pair.
-ModelOptions to_options(const py::dict& given) {
+ModelOptions model_options(const py::dict& given) {
     ModelOptions options;
     options.within.rounding.max_rounds = given["max_rounds"].cast<unsigned>();
     options.within.rounding.max_move = given["max_move"].cast<std::optional<double>>();
@@ -120,7 +120,7 @@ ModelPointer make(const py::sequence& surfaces, const py::sequence& boundary,
                   const py::dict& options, const HowToRun& how) {
     auto given = std::make_shared<std::vector<Surface>>(to_surfaces(surfaces));
     auto around = std::make_shared<std::vector<Surface>>(to_surfaces(boundary));
-    return run_stage(how, [given, around, options = to_options(options)](const Run& run) {
+    return run_stage(how, [given, around, options = model_options(options)](const Run& run) {
         return made(std::move(*given), std::move(*around), options, run);
     });
 }

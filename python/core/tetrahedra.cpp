@@ -128,7 +128,7 @@ py::list region_volumes(const FilledBlocks& f) {
     return all;
 }
 
-py::dict to_dict(const WorstShapes& s) {
+py::dict dict_of_shapes(const WorstShapes& s) {
     return py::dict("quality"_a = s.quality, "least_angle"_a = s.least_angle,
                     "largest_angle"_a = s.largest_angle);
 }
@@ -137,7 +137,7 @@ py::dict to_dict(const WorstShapes& s) {
 py::object optimised(const FilledBlocks& f) {
     if (!f.optimised) return py::none();
     const OptimiseReport& r = *f.optimised;
-    return py::dict("before"_a = to_dict(r.before), "after"_a = to_dict(r.after),
+    return py::dict("before"_a = dict_of_shapes(r.before), "after"_a = dict_of_shapes(r.after),
                     "passes"_a = r.passes, "removed_edges"_a = r.removed_edges,
                     "removed_faces"_a = r.removed_faces, "moved"_a = r.moved,
                     "contracted"_a = r.contracted, "inserted"_a = r.inserted,
