@@ -140,13 +140,12 @@ private:
     /// A rotated box, the model in it, that at a resolution, and its tetrahedra.
     static void add_box(Results& all, const std::vector<Surface>& surfaces, const Run& run) {
         const auto box = rotated_box_boundary(
-            {.place = {1000, 750, -1200}, .lengths = {500.1, 400.7, 300.3}, .azimuth = 33.3});
+            {.place = {1000, 750, -1200}, .lengths = {300.1, 250.7, 200.3}, .azimuth = 33.3});
         if (!box) return;
         for (const Surface& side : *box) all["box"] += bits_of(side);
         auto arranged = arrange_within(surfaces, *box, {}, run);
         if (!arranged || !arranged->rounded.conforming) return;
-        TetrahedraOptions wanted;
-        wanted.edge_length = 200;
+        TetrahedraOptions wanted; // as few as possible
         if (const auto made = tetrahedralize(arranged->rounded.mesh, wanted, run))
             all["tetrahedra"] = bits_of_points(made->vertices) +
                                 std::string(reinterpret_cast<const char*>(made->tetrahedra.data()),
