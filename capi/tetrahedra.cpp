@@ -77,7 +77,10 @@ terrane_shape_report report_of(const OptimiseReport& r) noexcept {
             r.inserted,
             r.remeshed,
             r.left,
-            r.untried};
+            r.untried,
+            r.effort,
+            r.is_cut_short ? 1 : 0,
+            0};
 }
 
 TetrahedraRequest request_of(const terrane_tetrahedra_options* given) {

@@ -78,6 +78,9 @@ typedef struct terrane_shape_report {
     uint64_t remeshed;           ///< neighbourhoods where several of these were made at a time
     uint64_t left;               ///< tetrahedra that are still worse than wanted
     uint64_t untried;            ///< of these: not tried again after the last change beside them
+    uint64_t effort;             ///< possible tetrahedra that were measured
+    int32_t is_cut_short;        ///< 1: a limit of the effort ended the work
+    int32_t reserved;            ///< 0
 } terrane_shape_report;
 
 /// The volume of a block and that of its tetrahedra, in cubic units.

@@ -61,6 +61,28 @@ private:
     std::vector<std::uint32_t> kept_;
 };
 
+/// The effort that may still be made, in tetrahedra that are measured.
+class Budget {
+public:
+    Budget() = default;
+    Budget(std::size_t most, std::size_t cells) :
+        most_(most), credit_(static_cast<double>(constants.effort_per_cell * cells)) {}
+
+    [[nodiscard]] bool is_spent() const { return spent_ >= most_; }
+    [[nodiscard]] bool is_over() const { return is_spent() || credit_ <= 0; }
+    [[nodiscard]] std::size_t spent() const { return spent_; }
+    void spend(std::size_t effort) {
+        spent_ += effort;
+        credit_ -= static_cast<double>(effort);
+    }
+    /// Adds what a change is worth to the effort that may be made in vain.
+    void reward() { credit_ += static_cast<double>(constants.effort_per_change); }
+
+private:
+    std::size_t most_ = 0, spent_ = 0;
+    double credit_ = 0; ///< work ends where it has too little success
+};
+
 /// Passes over the cells. Changes are proposed for many cells at a time, which are only read, and
 /// then made one after the other where what they replace is unchanged: so the result does not
 /// depend on the number of threads.
@@ -73,21 +95,17 @@ public:
     Status run() {
         report.before = worst();
         floor_ = least_sine();
-        credit_ = static_cast<double>(constants.effort_per_cell * cells_.size());
-        for (unsigned pass = 0; pass < options_.max_passes; ++pass) {
-            const auto changed = improve_all();
-            if (!changed) return changed.error();
-            ++report.passes;
-            if (run_.progress)
-                run_.progress("optimise", static_cast<double>(pass + 1) / options_.max_passes);
-            if (*changed == 0 || credit_ <= 0) break;
-        }
+        const std::size_t most = most_effort();
+        budget_ = Budget(most, cells_.size());
+        if (Status done = improve_passes(most); !done) return done;
         for (unsigned pass = 0; pass < 2; ++pass)
             if (const auto changed = remesh(); !changed) return changed.error();
         report.after = worst();
+        report.effort = budget_.spent();
+        report.is_cut_short = budget_.is_spent();
         for (const std::uint32_t c : cells_below(wanted_)) {
             ++report.left;
-            if (c >= tried_.size() || is_news(c)) ++report.untried;
+            if (is_news(c, Depth::insertions)) ++report.untried;
         }
         return Done{};
     }
@@ -125,15 +143,43 @@ private:
         return least;
     }
 
-    /// Passes over all cells that are not good enough, the worst first, and then over the vertices
-    /// round those that are still far from it. Returns the number of changes.
-    Result<std::size_t> improve_all() {
+    /// Returns how many tetrahedra may be measured: more where most of them are good, since bad ones
+    /// that are many are so because of their surfaces.
+    [[nodiscard]] std::size_t most_effort() const {
+        if (options_.max_effort > 0) return options_.max_effort;
+        std::size_t all = 0;
+        for (std::uint32_t c = 0; c < cells_.size(); ++c) all += is_improved(c) ? 1 : 0;
+        const std::size_t bad = cells_below(constants.bad).size();
+        const std::size_t more_good = all > 2 * bad ? all - 2 * bad : 0;
+        return std::max(constants.least_effort, constants.effort_per_good * more_good);
+    }
+
+    /// Improves with all that is known, or, where the effort does not suffice for that, with what
+    /// takes little first.
+    Status improve_passes(std::size_t most) {
+        const bool is_short = most < constants.effort_per_bad * cells_below(wanted_).size();
+        for (const Depth depth : {Depth::flips, Depth::moves, Depth::insertions})
+            if (is_short || depth == Depth::insertions)
+                if (Status done = improve_at(depth); !done) return done;
+        return Done{};
+    }
+
+    Status improve_at(Depth depth) {
         const Permission permission{options_.may_grow, floor_};
-        auto cells = improve_cells(permission);
-        if (!cells) return cells;
-        auto vertices = move_vertices(permission);
-        if (!vertices) return vertices;
-        return *cells + *vertices;
+        for (unsigned pass = 0; pass < options_.max_passes; ++pass) {
+            auto changed = improve_cells(permission, depth);
+            if (!changed) return changed.error();
+            if (depth == Depth::insertions) {
+                const auto moved = move_vertices(permission);
+                if (!moved) return moved.error();
+                *changed += *moved;
+                if (run_.progress)
+                    run_.progress("optimise", static_cast<double>(pass + 1) / options_.max_passes);
+            }
+            ++report.passes;
+            if (*changed == 0 || budget_.is_over()) break;
+        }
+        return Done{};
     }
 
     /// Looks for several changes at a time for the cells that are still bad.
@@ -151,40 +197,29 @@ private:
             [](std::uint32_t, std::uint32_t) {});
     }
 
-    Result<std::size_t> improve_cells(const Permission& permission) {
+    Result<std::size_t> improve_cells(const Permission& permission, Depth depth) {
         std::vector<std::uint32_t> bad = cells_below(wanted_);
-        tried_.resize(cells_.size(), none);
-        bad.erase(
-            std::remove_if(bad.begin(), bad.end(), [&](std::uint32_t c) { return !is_news(c); }),
-            bad.end());
+        std::vector<std::uint32_t>& tried = tried_[static_cast<std::size_t>(depth)];
+        tried.resize(cells_.size(), none);
+        bad.erase(std::remove_if(bad.begin(), bad.end(),
+                                 [&](std::uint32_t c) { return !is_news(c, depth); }),
+                  bad.end());
         const auto claim = [&](std::uint32_t c) { return claim_corners(c); };
         const auto is_wanted = [&](std::uint32_t c) {
             return cells_.is_alive(c) && cells_.quality(c) < wanted_;
         };
         const auto propose = [&](std::uint32_t c) {
-            return change_for_cell(cells_, c, permission);
+            return change_for_cell(cells_, c, permission, depth);
         };
         return in_batches(Queue(std::move(bad)), is_wanted, claim, propose,
                           [&](std::uint32_t c, std::uint32_t time) {
-                              tried_.resize(cells_.size(), none);
-                              tried_[c] = time;
+                              tried.resize(cells_.size(), none);
+                              tried[c] = time;
                           });
     }
 
     Result<std::size_t> move_vertices(const Permission& permission) {
-        std::vector<std::uint32_t> around;
-        for (const std::uint32_t c : cells_below(constants.relaxed * wanted_))
-            for (const std::uint32_t v : cells_.corners(c))
-                for (const std::uint32_t d : cells_.star(v))
-                    for (const std::uint32_t w : cells_.corners(d))
-                        if (!cells_.is_fixed(w)) around.push_back(w);
-        sort_unique(around);
         moved_.resize(cells_.points().size(), none);
-        around.erase(std::remove_if(around.begin(), around.end(),
-                                    [&](std::uint32_t v) {
-                                        return moved_[v] != none && moved_[v] >= cells_.touched(v);
-                                    }),
-                     around.end());
         const auto claim = [&](std::uint32_t v) {
             if (is_claimed(v)) return false;
             for (const std::uint32_t c : cells_.star(v))
@@ -195,8 +230,29 @@ private:
             return change_for_vertex(cells_, v, permission);
         };
         return in_batches(
-            Queue(std::move(around)), [](std::uint32_t) { return true; }, claim, propose,
+            Queue(vertices_to_move()), [](std::uint32_t) { return true; }, claim, propose,
             [&](std::uint32_t v, std::uint32_t time) { moved_[v] = time; });
+    }
+
+    /// Returns the vertices around cells that are still far from being good enough, but for those
+    /// that did not move and beside which nothing has changed since; ascending.
+    [[nodiscard]] std::vector<std::uint32_t> vertices_to_move() const {
+        std::vector<bool> is_corner(cells_.points().size(), false), is_around(is_corner.size());
+        for (const std::uint32_t c : cells_below(constants.relaxed * wanted_))
+            for (const std::uint32_t v : cells_.corners(c)) is_corner[v] = true;
+        for (std::uint32_t d = 0; d < cells_.size(); ++d) {
+            if (!cells_.is_alive(d)) continue;
+            const Corners& corners = cells_.corners(d);
+            if (std::any_of(corners.begin(), corners.end(),
+                            [&](std::uint32_t v) { return is_corner[v]; }))
+                for (const std::uint32_t w : corners) is_around[w] = true;
+        }
+        std::vector<std::uint32_t> found;
+        for (std::uint32_t v = 0; v < is_around.size(); ++v)
+            if (is_around[v] && !cells_.is_fixed(v) &&
+                (moved_[v] == none || moved_[v] < cells_.touched(v)))
+                found.push_back(v);
+        return found;
     }
 
     /// Proposes changes for many items at a time, and makes them in order. Tells `failed` of those
@@ -208,7 +264,7 @@ private:
         while (true) {
             if (run_.stop.stop_requested())
                 return Error{ErrorCode::interrupted, "stopped while improving tetrahedra", ""};
-            if (queue.is_empty() || credit_ <= 0) break;
+            if (queue.is_empty() || budget_.is_over()) break;
             ++batch_;
             claimed_.resize(cells_.points().size(), 0);
             const auto batch =
@@ -221,14 +277,14 @@ private:
             };
             for_ranges(batch.size(), run_, one, 8, 1);
             for (std::size_t i = 0; i < batch.size(); ++i) {
-                credit_ -= static_cast<double>(proposed[i].effort);
+                budget_.spend(proposed[i].effort);
                 if (!is_wanted(batch[i])) continue;
                 auto& change = proposed[i].change;
                 if (change && !is_unchanged(*change, time)) {
                     queue.again(batch[i]);
                 } else if (change && make_and_count(*change)) {
                     ++changes;
-                    credit_ += static_cast<double>(constants.effort_per_change);
+                    budget_.reward();
                 } else {
                     failed(batch[i], time);
                 }
@@ -250,8 +306,9 @@ private:
     }
 
     /// Tells whether anything at a cell has changed since no change was found for it.
-    [[nodiscard]] bool is_news(std::uint32_t c) const {
-        return tried_[c] == none || cells_.is_touched(c, tried_[c]);
+    [[nodiscard]] bool is_news(std::uint32_t c, Depth depth) const {
+        const auto& tried = tried_[static_cast<std::size_t>(depth)];
+        return c >= tried.size() || tried[c] == none || cells_.is_touched(c, tried[c]);
     }
 
     [[nodiscard]] bool is_claimed(std::uint32_t v) const { return claimed_[v] == batch_; }
@@ -305,9 +362,10 @@ private:
     const OptimiseOptions& options_;
     const Run& run_;
     double wanted_;
-    double credit_ = 0;                  ///< tetrahedra that may still be measured
-    double floor_ = 0;                   ///< least sine of all cells before
-    std::vector<std::uint32_t> tried_;   ///< per cell: when no change was found for it; or none
+    Budget budget_;
+    double floor_ = 0; ///< least sine of all cells before
+    /// Per depth and cell: when no change was found for it; or none.
+    std::array<std::vector<std::uint32_t>, 3> tried_;
     std::vector<std::uint32_t> moved_;   ///< per vertex: when no better place was found; or none
     std::vector<std::uint32_t> claimed_; ///< per vertex: the last batch with a cell at it
     std::uint32_t batch_ = 0;
@@ -364,7 +422,9 @@ std::vector<NamedConstant> optimise_constants() {
             {"most_in_cavity", static_cast<double>(constants.most_in_cavity)},
             {"most_in_remeshing", static_cast<double>(constants.most_in_remeshing)},
             {"remeshing_passes", static_cast<double>(constants.remeshing_passes)},
-            {"effort_of_flips", static_cast<double>(constants.effort_of_flips)},
+            {"least_effort", static_cast<double>(constants.least_effort)},
+            {"effort_per_bad", static_cast<double>(constants.effort_per_bad)},
+            {"effort_per_good", static_cast<double>(constants.effort_per_good)},
             {"effort_per_cell", static_cast<double>(constants.effort_per_cell)},
             {"effort_per_change", static_cast<double>(constants.effort_per_change)},
             {"batch", static_cast<double>(constants.batch)}};

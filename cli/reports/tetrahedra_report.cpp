@@ -138,12 +138,12 @@ std::vector<std::size_t> counts_of_regions(const TetrahedralMesh& mesh) {
 }
 
 std::string optimised_text(const OptimiseReport& report) {
-    return fmt::format("shapes improved in {}: dihedral angles were {:.3g} to {:.4g} degrees, and "
-                       "are {:.3g} to {:.4g}\n",
-                       report.passes == 1 ? std::string("a pass")
-                                          : fmt::format("{} passes", report.passes),
-                       report.before.least_angle, report.before.largest_angle,
-                       report.after.least_angle, report.after.largest_angle);
+    return fmt::format(
+        "shapes improved in {}{}: dihedral angles were {:.3g} to {:.4g} degrees, "
+        "and are {:.3g} to {:.4g}\n",
+        report.passes == 1 ? std::string("a pass") : fmt::format("{} passes", report.passes),
+        report.is_cut_short ? ", up to the limit of effort" : "", report.before.least_angle,
+        report.before.largest_angle, report.after.least_angle, report.after.largest_angle);
 }
 
 Json worst_json(const WorstShapes& worst) {
@@ -162,6 +162,8 @@ Json optimised_json(const OptimiseReport& report) {
             {"remeshed", report.remeshed},
             {"left", report.left},
             {"untried", report.untried},
+            {"effort", report.effort},
+            {"cut_short", report.is_cut_short},
             {"before", worst_json(report.before)},
             {"after", worst_json(report.after)}};
 }

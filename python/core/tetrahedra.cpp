@@ -141,7 +141,8 @@ py::object optimised(const FilledBlocks& f) {
                     "passes"_a = r.passes, "removed_edges"_a = r.removed_edges,
                     "removed_faces"_a = r.removed_faces, "moved"_a = r.moved,
                     "contracted"_a = r.contracted, "inserted"_a = r.inserted,
-                    "remeshed"_a = r.remeshed, "left"_a = r.left, "untried"_a = r.untried);
+                    "remeshed"_a = r.remeshed, "left"_a = r.left, "untried"_a = r.untried,
+                    "effort"_a = r.effort, "cut_short"_a = r.is_cut_short);
 }
 
 py::dict shape(const FilledBlocks& f) {

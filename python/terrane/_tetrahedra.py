@@ -180,7 +180,8 @@ class Tetrahedra(Result):
 
         Its ``before`` and ``after`` have the least ``quality`` (sine of a dihedral angle, 0.7 times that of an obtuse one),
         ``least_angle`` and ``largest_angle`` (degrees). The other keys count what was done, and what is ``left`` worse
-        than wanted.
+        than wanted. ``effort`` is the number of possible tetrahedra that were measured, and ``cut_short`` tells whether a
+        limit of that ended the work.
         """
         report: Optional[Dict[str, Any]] = self._core.optimised
         return report

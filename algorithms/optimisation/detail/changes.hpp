@@ -27,35 +27,34 @@ struct Change {
 bool make(Cells& cells, Change& change, const Demand& demand);
 
 // A change is proposed if the least quality of what is new is above the least one of what is old by
-// `gain`, and above the least gain.
+// `gain`, and above the least gain. The number of tetrahedra that were measured is added to `effort`.
 
 /// Removes the edge between two corners of a cell. None if that is no gain, the edge is on a wall,
 /// or too many cells are around it.
 std::optional<Change> without_edge(const Cells& cells, std::uint32_t c, unsigned i, unsigned j,
-                                   double gain);
+                                   double gain, std::size_t& effort);
 
 /// Removes faces at the edge between two corners of a cell, which is on walls, and divides the
 /// space beyond them anew.
 std::optional<Change> with_fewer_faces(const Cells& cells, std::uint32_t c, unsigned i, unsigned j,
-                                       double gain);
+                                       double gain, std::size_t& effort);
 
 /// Removes the face opposite to corner k, and faces beside it between the same two vertices where
 /// that is better.
-std::optional<Change> without_face(const Cells& cells, std::uint32_t c, unsigned k, double gain);
+std::optional<Change> without_face(const Cells& cells, std::uint32_t c, unsigned k, double gain,
+                                   std::size_t& effort);
 
 /// Moves a vertex, which must not be fixed, onto another one. `star`: the cells at it.
 std::optional<Change> contracted(const Cells& cells, std::uint32_t gone,
                                  const std::vector<std::uint32_t>& star, std::uint32_t kept,
-                                 double gain);
+                                 double gain, std::size_t& effort);
 
-/// Moves a vertex, which must not be fixed, to a better place. `star`: the cells at it. Adds the
-/// number of tetrahedra that were measured to `effort`.
+/// Moves a vertex, which must not be fixed, to a better place. `star`: the cells at it.
 std::optional<Change> moved(const Cells& cells, std::uint32_t v,
                             const std::vector<std::uint32_t>& star, std::size_t& effort);
 
 /// Insert a vertex near a cell, from several first places. The cavity around it grows through the
 /// face that makes the worst new tetrahedron. With a positive gain there are no more bad ones then.
-/// Adds to `effort` likewise.
 std::vector<Change> insertions(const Cells& cells, std::uint32_t c, double gain,
                                std::size_t& effort);
 

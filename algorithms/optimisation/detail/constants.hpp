@@ -33,11 +33,17 @@ struct OptimiseConstants {
     std::size_t most_in_remeshing = 100;
     /// Passes over such a copy, at most.
     unsigned remeshing_passes = 4;
-    /// Tetrahedra that are measured, about, to look at the edges and faces of a cell.
-    std::size_t effort_of_flips = 100;
+    /// Tetrahedra that may be measured in all: so many, or so many for each by which good ones are
+    /// more than bad ones, whichever is more. Larger: meshes of bad surfaces take longer, and a
+    /// little more is found.
+    std::size_t least_effort = 150'000'000;
+    std::size_t effort_per_good = 4000;
+    /// Where fewer may be measured for each tetrahedron that is worse than wanted, changes that take
+    /// little are looked for everywhere before others are.
+    std::size_t effort_per_bad = 2000;
     /// Tetrahedra that may be measured for each cell of the mesh, and for each change that is made.
     /// Larger: hopeless meshes take longer, and a little more is found.
-    std::size_t effort_per_cell = 500;
+    std::size_t effort_per_cell = 1000;
     std::size_t effort_per_change = 2000;
     /// Changes are proposed for so many cells or vertices at a time. Larger: more of them come too
     /// late, since another one was made beside them; fewer: less for each thread.

@@ -89,9 +89,10 @@ std::optional<Ring> fan_at(const Cells& cells, std::uint32_t c, unsigned i, unsi
 /// The triangulations of a ring whose worst tetrahedra are best, for each chain of its vertices.
 class RingTriangulation {
 public:
-    /// Tetrahedra that are no better than `enough` are of no use.
-    RingTriangulation(const Cells& cells, const Ring& ring, double enough) :
-        cells_(cells), ring_(ring), enough_(enough), n_(ring.vertices.size()),
+    /// Tetrahedra that are no better than `enough` are of no use. Adds those that it measures to
+    /// `effort`.
+    RingTriangulation(const Cells& cells, const Ring& ring, double enough, std::size_t& effort) :
+        cells_(cells), ring_(ring), effort_(effort), enough_(enough), n_(ring.vertices.size()),
         best_(n_ * n_, HUGE_VAL), middle_(n_ * n_) {
         for (std::size_t span = 2; span < n_; ++span)
             for (std::size_t i = 0; i + span < n_; ++i) find(i, i + span);
@@ -121,12 +122,17 @@ private:
         for (std::size_t k = i + 1; k < j; ++k) {
             double here = std::min(best_[i * n_ + k], best_[k * n_ + j]);
             for (const Corners& t : pair(i, k, j))
-                if (here > best) here = std::min(here, cells_.quality_of(t));
+                if (here > best) here = std::min(here, measured(t));
             if (here <= best) continue;
             best = here;
             middle_[i * n_ + j] = k;
         }
         best_[i * n_ + j] = best;
+    }
+
+    [[nodiscard]] double measured(const Corners& c) {
+        ++effort_;
+        return cells_.quality_of(c);
     }
 
     [[nodiscard]] std::array<Corners, 2> pair(std::size_t i, std::size_t k, std::size_t j) const {
@@ -136,6 +142,7 @@ private:
 
     const Cells& cells_;
     const Ring& ring_;
+    std::size_t& effort_;
     double enough_;
     std::size_t n_;
     std::vector<double> best_;
@@ -145,8 +152,8 @@ private:
 /// Collects faces that all lie between the same two vertices.
 class FacesBetween {
 public:
-    FacesBetween(const Cells& cells, std::uint32_t low, std::uint32_t high) :
-        cells_(cells), low_(low), high_(high) {}
+    FacesBetween(const Cells& cells, std::uint32_t low, std::uint32_t high, std::size_t& effort) :
+        cells_(cells), low_(low), high_(high), effort_(effort) {}
 
     /// Adds the two cells at a face (a, b, c) from which `high` is on the positive side, and the
     /// best tetrahedra beyond its edges. Returns the least quality of these.
@@ -169,6 +176,7 @@ private:
     double beyond(std::uint32_t below, std::uint32_t above, std::uint32_t a, std::uint32_t b,
                   std::uint32_t apex) {
         const Corners own{low_, high_, a, b};
+        ++effort_;
         const double quality = cells_.quality_of(own);
         const std::size_t old_count = old.size(), added_count = added.size();
         const std::uint32_t next_below =
@@ -203,16 +211,18 @@ private:
 
     const Cells& cells_;
     std::uint32_t low_, high_;
+    std::size_t& effort_;
 };
 
 } // namespace
 
 std::optional<Change> without_edge(const Cells& cells, std::uint32_t c, unsigned i, unsigned j,
-                                   double gain) {
+                                   double gain, std::size_t& effort) {
     auto ring = ring_around(cells, c, i, j);
+    if (ring) effort += ring->cells.size();
     if (!ring || ring->cells.size() < 3) return std::nullopt;
     const double enough = cells.enough_for(ring->cells, gain);
-    const RingTriangulation triangulation(cells, *ring, enough);
+    const RingTriangulation triangulation(cells, *ring, enough, effort);
     if (!(triangulation.quality() > enough)) return std::nullopt;
     return Change{
         Change::Kind::edge,     std::move(ring->cells), triangulation.tetrahedra(), none, {},
@@ -220,11 +230,12 @@ std::optional<Change> without_edge(const Cells& cells, std::uint32_t c, unsigned
 }
 
 std::optional<Change> with_fewer_faces(const Cells& cells, std::uint32_t c, unsigned i, unsigned j,
-                                       double gain) {
+                                       double gain, std::size_t& effort) {
     auto fan = fan_at(cells, c, i, j);
+    if (fan) effort += fan->cells.size();
     if (!fan || fan->cells.size() < 2) return std::nullopt;
     const double enough = cells.enough_for(fan->cells, gain);
-    const RingTriangulation beyond(cells, *fan, enough);
+    const RingTriangulation beyond(cells, *fan, enough, effort);
     const std::size_t n = fan->vertices.size();
     std::vector<double> best(n, enough);   // with a face at the vertex, of all up to it
     std::vector<std::size_t> before(n, 0); // the vertex with the face before that
@@ -235,7 +246,9 @@ std::optional<Change> with_fewer_faces(const Cells& cells, std::uint32_t c, unsi
     for (std::size_t to = 1; to < n; ++to)
         for (std::size_t from = 0; from < to; ++from) {
             double here = std::min(best[from], beyond.quality(from, to));
-            if (here > best[to]) here = std::min(here, cells.quality_of(between(from, to)));
+            if (!(here > best[to])) continue;
+            ++effort;
+            here = std::min(here, cells.quality_of(between(from, to)));
             if (!(here > best[to])) continue;
             best[to] = here;
             before[to] = from;
@@ -249,14 +262,15 @@ std::optional<Change> with_fewer_faces(const Cells& cells, std::uint32_t c, unsi
     return change;
 }
 
-std::optional<Change> without_face(const Cells& cells, std::uint32_t c, unsigned k, double gain) {
+std::optional<Change> without_face(const Cells& cells, std::uint32_t c, unsigned k, double gain,
+                                   std::size_t& effort) {
     const std::uint32_t other = cells.through(c, k);
     if (other == none) return std::nullopt;
     const auto face = face_opposite(cells.corners(c), k); // corner k is above it
     std::uint32_t low = none;
     for (const std::uint32_t v : cells.corners(other))
         if (std::find(face.begin(), face.end(), v) == face.end()) low = v;
-    FacesBetween faces(cells, low, cells.corners(c)[k]);
+    FacesBetween faces(cells, low, cells.corners(c)[k], effort);
     const double quality = faces.add(other, c, face);
     if (!(quality > cells.enough_for(faces.old, gain))) return std::nullopt;
     return Change{
@@ -265,13 +279,14 @@ std::optional<Change> without_face(const Cells& cells, std::uint32_t c, unsigned
 
 std::optional<Change> contracted(const Cells& cells, std::uint32_t gone,
                                  const std::vector<std::uint32_t>& star, std::uint32_t kept,
-                                 double gain) {
+                                 double gain, std::size_t& effort) {
     const double enough = cells.enough_for(star, gain);
     Change change{Change::Kind::contraction, {}, {}, none, {}, HUGE_VAL};
     for (const std::uint32_t at : star) {
         Corners corners = cells.corners(at);
         if (std::find(corners.begin(), corners.end(), kept) != corners.end()) continue;
         corners[index_of(corners, gone)] = kept;
+        ++effort;
         change.quality = std::min(change.quality, cells.quality_of(corners));
         if (!(change.quality > enough)) return std::nullopt;
         change.added.push_back(corners);

@@ -40,6 +40,8 @@ public:
     }
 
     [[nodiscard]] const std::vector<std::uint32_t>& members() const { return members_; }
+    /// Returns how many tetrahedra were measured.
+    [[nodiscard]] std::size_t effort() const { return effort_; }
     [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> faces() const {
         std::vector<std::array<std::uint32_t, 3>> all;
         for (const Side& s : sides_) all.push_back(face_opposite(cells_.corners(s.cell), s.k));
@@ -78,6 +80,7 @@ private:
             }
             const auto f = face_opposite(cells_.corners(c), k);
             const auto& points = cells_.points();
+            ++effort_;
             const Quality quality = quality_of(points[f[0]], points[f[1]], points[f[2]], p_);
             sides_.push_back({c, k, quality.is_trusted ? quality.value : -1});
         }
@@ -88,6 +91,7 @@ private:
     Point3 p_;
     std::vector<std::uint32_t> members_;
     std::vector<Side> sides_;
+    std::size_t effort_ = 0;
 };
 
 Point3 mean_of(const Cells& cells, std::uint32_t c) {
@@ -114,7 +118,7 @@ std::optional<Change> inserted_at(const Cells& cells, std::uint32_t c, const Poi
     const auto hull = cavity.faces();
     FacesAround faces = faces_of(cells, hull);
     const Position best = best_position(faces, p);
-    effort += faces.effort();
+    effort += cavity.effort() + faces.effort();
     if (!(best.quality > cells.enough_for(cavity.members(), gain))) return std::nullopt;
     std::size_t bad_before = 0;
     for (const std::uint32_t old : cavity.members())

@@ -95,16 +95,17 @@ Proposal change_for_vertex(const Cells& cells, std::uint32_t v, const Permission
     return {std::move(best.best), effort};
 }
 
-Proposal change_for_cell(const Cells& cells, std::uint32_t c, const Permission& permission) {
+Proposal change_for_cell(const Cells& cells, std::uint32_t c, const Permission& permission,
+                         Depth depth) {
     Best best(cells, permission);
-    std::size_t effort = constants.effort_of_flips;
+    std::size_t effort = 0;
     constexpr double gain = constants.least_gain;
     for (unsigned i = 0; i < 4; ++i)
         for (unsigned j = i + 1; j < 4; ++j) {
-            best.consider(without_edge(cells, c, i, j, gain));
-            best.consider(with_fewer_faces(cells, c, i, j, gain));
+            best.consider(without_edge(cells, c, i, j, gain, effort));
+            best.consider(with_fewer_faces(cells, c, i, j, gain, effort));
         }
-    for (unsigned k = 0; k < 4; ++k) best.consider(without_face(cells, c, k, gain));
+    for (unsigned k = 0; k < 4; ++k) best.consider(without_face(cells, c, k, gain, effort));
     const Corners& corners = cells.corners(c);
     std::array<std::vector<std::uint32_t>, 4> stars;
     for (unsigned k = 0; k < 4; ++k) {
@@ -112,12 +113,12 @@ Proposal change_for_cell(const Cells& cells, std::uint32_t c, const Permission& 
         stars[k] = cells.star(corners[k]);
         for (unsigned onto = 0; onto < 4; ++onto)
             if (k != onto)
-                best.consider(contracted(cells, corners[k], stars[k], corners[onto], gain));
+                best.consider(contracted(cells, corners[k], stars[k], corners[onto], gain, effort));
     }
-    if (best.best) return {std::move(best.best), effort};
+    if (best.best || depth == Depth::flips) return {std::move(best.best), effort};
     for (unsigned k = 0; k < 4 && !best.best; ++k)
         if (!stars[k].empty()) best.consider(moved(cells, corners[k], stars[k], effort));
-    if (best.best) return {std::move(best.best), effort};
+    if (best.best || depth == Depth::moves) return {std::move(best.best), effort};
     for (Change& change : insertions(cells, c, gain, effort)) best.consider(std::move(change));
     return {std::move(best.best), effort};
 }

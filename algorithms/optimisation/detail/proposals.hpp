@@ -24,13 +24,21 @@ bool grows(const Cells& cells, const Change& change);
 /// A change, and what it took to find it.
 struct Proposal {
     std::optional<Change> change; ///< none was found
-    std::size_t effort = 0;       ///< number of tetrahedra that were measured, about
+    std::size_t effort = 0;       ///< tetrahedra that were measured, or looked at around an edge
+};
+
+/// Which kinds of changes are looked for. Each takes about ten times as long as those before.
+enum class Depth : std::uint8_t {
+    flips,     ///< edges and faces go, and vertices join
+    moves,     ///< or a corner moves
+    insertions ///< or a vertex is inserted
 };
 
 /// Proposes the best change that makes a cell, or one beside it, better: edges and faces go or
 /// vertices join; if none of these is a gain, a corner moves; if none of these is, a vertex is
 /// inserted. Only reads the cells.
-Proposal change_for_cell(const Cells& cells, std::uint32_t c, const Permission& permission);
+Proposal change_for_cell(const Cells& cells, std::uint32_t c, const Permission& permission,
+                         Depth depth = Depth::insertions);
 
 /// Proposes a better place for a vertex that is not fixed. Only reads the cells.
 Proposal change_for_vertex(const Cells& cells, std::uint32_t v, const Permission& permission);

@@ -162,18 +162,17 @@ std::vector<Change> first_changes(const Cells& part, std::size_t& effort) {
     constexpr double any = -2; // any quality will do
     for (unsigned i = 0; i < 4; ++i)
         for (unsigned j = i + 1; j < 4; ++j) {
-            add(without_edge(part, 0, i, j, any));
-            add(with_fewer_faces(part, 0, i, j, any));
+            add(without_edge(part, 0, i, j, any, effort));
+            add(with_fewer_faces(part, 0, i, j, any, effort));
         }
-    for (unsigned k = 0; k < 4; ++k) add(without_face(part, 0, k, any));
+    for (unsigned k = 0; k < 4; ++k) add(without_face(part, 0, k, any, effort));
     for (const std::uint32_t v : part.corners(0)) {
         if (part.is_fixed(v)) continue;
         const auto star = part.star(v);
         for (const std::uint32_t onto : part.corners(0))
-            if (onto != v) add(contracted(part, v, star, onto, any));
+            if (onto != v) add(contracted(part, v, star, onto, any, effort));
     }
     for (Change& change : insertions(part, 0, any, effort)) all.push_back(std::move(change));
-    effort += constants.effort_of_flips;
     return all;
 }
 

@@ -122,14 +122,22 @@ std::vector<double> sines(const TetrahedralMesh& mesh) {
     return all;
 }
 
-/// The least quality as optimise.hpp defines it, by the angles that are reported.
-double least_quality(const TetrahedralMesh& mesh) {
-    double least = 1;
-    for (const Cell& c : mesh.tetrahedra)
+/// The qualities as optimise.hpp defines them, by the angles that are reported, ascending.
+std::vector<double> qualities(const TetrahedralMesh& mesh) {
+    std::vector<double> all;
+    for (const Cell& c : mesh.tetrahedra) {
+        double least = 1;
         for (const double degrees : dihedral_angles(corners_of(mesh, c)))
             least = std::min(least,
                              std::sin(degrees * std::numbers::pi / 180) * (degrees > 90 ? 0.7 : 1));
-    return least;
+        all.push_back(least);
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+double least_quality(const TetrahedralMesh& mesh) {
+    return qualities(mesh)[0];
 }
 
 mpq_class six_volumes(const TetrahedralMesh& mesh, std::uint32_t region) {
@@ -267,6 +275,35 @@ TEST_CASE("optimise: any number of threads gives the same result", "[optimisatio
         CHECK(several.tetrahedra == one.tetrahedra);
         CHECK(several.region_of == one.region_of);
         CHECK(again->moved == report->moved);
+    }
+}
+
+TEST_CASE("optimise: a limit of effort ends the work early, with a sound result",
+          "[optimisation]") {
+    const TetrahedralMesh before = Cubes(6, 3, 0.45, 7).mesh;
+    TetrahedralMesh whole = before;
+    const auto all = optimise(whole, {.wanted_angle = 40}, {.threads = 1});
+    REQUIRE(all);
+    CHECK_FALSE(all->is_cut_short);
+    const double least_sine = sines(before)[0];
+    const std::vector<double> was = qualities(before);
+    for (const std::size_t most : {std::size_t{1}, all->effort / 16, all->effort / 4}) {
+        TetrahedralMesh one = before, two = before;
+        const OptimiseOptions options{.wanted_angle = 40, .max_effort = most};
+        const auto report = optimise(one, options, {.threads = 1});
+        REQUIRE(report);
+        REQUIRE(optimise(two, options, {.threads = 2}));
+        CHECK(report->is_cut_short);
+        CHECK(report->untried > 0);
+        CHECK(report->effort >= most);
+        // The proposals of a batch are all measured.
+        CHECK(report->effort < all->effort / 2);
+        CHECK(one.vertices == two.vertices);
+        CHECK(one.tetrahedra == two.tetrahedra);
+        CHECK(one.region_of == two.region_of);
+        check_still_fills(before, one);
+        CHECK(sines(one)[0] >= least_sine);
+        CHECK(qualities(one) >= was); // from the worst one on
     }
 }
 
