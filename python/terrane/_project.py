@@ -85,7 +85,11 @@ class Built(Result):
 
         Examples
         --------
-        >>> terrane.build("project.json").to_pyvista()  # doctest: +SKIP
+        >>> import terrane
+        >>> terrane.save(terrane.box((0, 0, 0), (1, 1, 1)), "box.ts")
+        >>> built = terrane.build({"format": "terrane-project 1", "surfaces": [{"file": "box.ts"}]})
+        >>> list(built.to_pyvista().keys())
+        ?
         """
         return self.model.to_pyvista()
 
@@ -94,7 +98,11 @@ class Built(Result):
 
         Examples
         --------
-        >>> terrane.build("project.json").to_meshio()  # doctest: +SKIP
+        >>> import terrane
+        >>> terrane.save(terrane.box((0, 0, 0), (1, 1, 1)), "box.ts")
+        >>> built = terrane.build({"format": "terrane-project 1", "surfaces": [{"file": "box.ts"}]})
+        >>> built.to_meshio().cells_dict["triangle"].shape
+        ?
         """
         return self.model.to_meshio() if self.tetrahedra is None else self.tetrahedra.to_meshio()
 
@@ -103,7 +111,10 @@ class Built(Result):
 
         Examples
         --------
-        >>> terrane.build("project.json").plot()  # doctest: +SKIP
+        >>> import terrane
+        >>> terrane.save(terrane.box((0, 0, 0), (1, 1, 1)), "box.ts")
+        >>> built = terrane.build({"format": "terrane-project 1", "surfaces": [{"file": "box.ts"}]})
+        >>> shown = built.plot()
         """
         return self.model.plot(**options)
 
