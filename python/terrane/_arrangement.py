@@ -182,7 +182,7 @@ class Arrangement(Result):
         >>> import terrane
         >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "flat")
         >>> terrane.arrange([flat]).to_pyvista().points.shape
-        ?
+        (3, 3)
         """
         from ._interop import polydata
         return polydata(self.vertices, self.triangles, {"surface": self.surfaces_of.first})
@@ -310,7 +310,7 @@ class RoundedMesh(Result):
         >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "flat")
         >>> rounded = terrane.round(terrane.arrange([flat]))
         >>> rounded.to_pyvista().points.shape
-        ?
+        (3, 3)
         """
         return self.mesh.to_pyvista()
 
@@ -323,7 +323,7 @@ class RoundedMesh(Result):
         >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "flat")
         >>> rounded = terrane.round(terrane.arrange([flat]))
         >>> rounded.to_meshio().cells_dict["triangle"].shape
-        ?
+        (1, 3)
         """
         return self.mesh.to_meshio()
 

@@ -137,7 +137,7 @@ class Layered(Result):
         >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
         >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
         >>> stack.to_pyvista().points.shape
-        ?
+        (12, 3)
         """
         return self.mesh.to_pyvista()
 
@@ -151,7 +151,7 @@ class Layered(Result):
         >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
         >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
         >>> stack.to_meshio().cells_dict["triangle"].shape
-        ?
+        (12, 3)
         """
         return self.mesh.to_meshio()
 

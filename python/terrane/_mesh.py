@@ -125,7 +125,7 @@ class Mesh(Result):
         >>> import terrane
         >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "flat")
         >>> terrane.mesh([flat]).to_pyvista().points.shape
-        ?
+        (3, 3)
         """
         from ._interop import polydata
         return polydata(self.vertices, self.triangles, {"surface": self.surfaces_of.first})
@@ -138,7 +138,7 @@ class Mesh(Result):
         >>> import terrane
         >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "flat")
         >>> terrane.mesh([flat]).to_meshio().cells_dict["triangle"].shape
-        ?
+        (1, 3)
         """
         from ._interop import meshio_mesh
         return meshio_mesh(self.vertices, {"triangle": self.triangles},

@@ -295,7 +295,7 @@ class Model(Result):
         ...     [0, 2, 3]], "flat", "horizon")
         >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
         >>> list(m.to_pyvista().keys())
-        ?
+        ['below flat', 'above flat']
         """
         import importlib
         blocks = importlib.import_module("pyvista").MultiBlock()
@@ -313,7 +313,7 @@ class Model(Result):
         ...     [0, 2, 3]], "flat", "horizon")
         >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
         >>> m.to_meshio().cells_dict["triangle"].shape
-        ?
+        (34, 3)
         """
         from ._interop import meshio_mesh
         sides = self._core.volumes.of_sides.astype(np.int32)

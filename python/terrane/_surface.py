@@ -159,7 +159,7 @@ class Surface:
         >>> import terrane
         >>> surface = terrane.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], "top")
         >>> surface.to_pyvista().points.shape
-        ?
+        (3, 3)
         """
         from ._interop import surface_to_pyvista
         return surface_to_pyvista(self)
@@ -172,7 +172,7 @@ class Surface:
         >>> import terrane
         >>> surface = terrane.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], "top")
         >>> surface.to_meshio().cells_dict["triangle"].shape
-        ?
+        (1, 3)
         """
         from ._interop import surface_to_meshio
         return surface_to_meshio(self)

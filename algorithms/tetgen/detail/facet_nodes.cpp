@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -18,6 +19,10 @@ namespace {
 
 using polynomial::cartesian;
 using Directed = std::array<std::uint32_t, 2>; ///< a step along the border of some faces
+
+/// A node that is off by more allowances than this is not there because of rounding. Up to 190 were
+/// seen, beside triangles with angles of a degree.
+constexpr double farthest_allowances = 0x1p13;
 
 /// Returns the doubles nearest to p + share v, where share is a fraction.
 Point3 nearest_along(const Point3& p, const polynomial::Vector<Exact>& v, const Exact& numerator,
@@ -106,63 +111,83 @@ std::optional<std::vector<EdgeNode>> nodes_on_edges(std::span<const Directed> bo
 class FacetNodes {
 public:
     FacetNodes(const TetgenDomain& domain, TetgenOutput& output) :
-        domain_(domain), output_(output), settled_(output.points.size(), false) {
+        domain_(domain), output_(output), settled_(output.points.size(), 0) {
         const auto given = static_cast<std::ptrdiff_t>(domain.points.size());
-        std::fill(settled_.begin(), settled_.begin() + given, true);
+        std::fill(settled_.begin(), settled_.begin() + given, 1);
     }
 
-    std::size_t operator()() {
+    bool operator()() {
         std::vector<std::uint32_t> order(output_.faces.size());
         std::iota(order.begin(), order.end(), 0U);
         const auto& facet = output_.face_facet;
         std::stable_sort(order.begin(), order.end(),
                          [&](std::uint32_t a, std::uint32_t b) { return facet[a] < facet[b]; });
         std::vector<Triangle> faces;
+        bool all_near = true;
         for (std::size_t i = 0; i < order.size(); ++i) {
             faces.push_back(output_.faces[order[i]]);
             const std::uint32_t here = facet[order[i]];
             if (i + 1 < order.size() && facet[order[i + 1]] == here) continue;
             if (here < domain_.triangles.size() && faces.size() > 1)
-                settle(domain_.triangles[here], faces);
+                all_near = settle(domain_.triangles[here], faces) && all_near;
             faces.clear();
         }
-        return moved_;
+        return all_near;
     }
 
 private:
-    void settle(const Triangle& corners, std::span<const Triangle> faces) {
+    /// Returns whether all nodes of the faces of a triangle are near it now.
+    bool settle(const Triangle& corners, std::span<const Triangle> faces) {
         const auto border = border_of(faces);
         const auto on_edges = nodes_on_edges(border, corners);
-        if (!on_edges) return;
-        const auto& p = domain_.points;
-        for (const auto& [node, edge] : *on_edges) {
-            if (std::exchange(settled_[node], true)) continue;
-            const Point3 &a = p[edge[0]], &b = p[edge[1]], &here = output_.points[node];
-            if (!tetrahedra::near_edge(here, a, b)) move(node, foot_on_line(here, a, b));
-        }
-        const std::array<Point3, 3> triangle{p[corners[0]], p[corners[1]], p[corners[2]]};
+        if (!on_edges) return false;
+        bool all_near = true;
+        for (const auto& [node, edge] : *on_edges)
+            if (std::exchange(settled_[node], 1) == 0)
+                all_near = put_on_edge(node, edge) && all_near;
         for (const Triangle& face : faces)
-            for (const std::uint32_t node : face) {
-                if (std::exchange(settled_[node], true)) continue;
-                const Point3& here = output_.points[node];
-                if (!tetrahedra::near_plane(here, triangle))
-                    move(node, foot_on_plane(here, triangle));
-            }
+            for (const std::uint32_t node : face)
+                if (std::exchange(settled_[node], 1) == 0)
+                    all_near = put_on_plane(node, corners) && all_near;
+        return all_near;
     }
-    void move(std::uint32_t node, const Point3& to) {
-        output_.points[node] = to;
-        ++moved_;
+
+    bool put_on_edge(std::uint32_t node, const Directed& edge) {
+        const Point3 &a = domain_.points[edge[0]], &b = domain_.points[edge[1]];
+        Point3& here = output_.points[node];
+        if (tetrahedra::near_edge(here, a, b)) return true;
+        const Point3 foot = foot_on_line(here, a, b);
+        if (!is_step(here, foot, tetrahedra::allowance(a, b))) return false;
+        here = foot;
+        return tetrahedra::near_edge(here, a, b);
+    }
+
+    bool put_on_plane(std::uint32_t node, const Triangle& corners) {
+        const auto& p = domain_.points;
+        const std::array<Point3, 3> triangle{p[corners[0]], p[corners[1]], p[corners[2]]};
+        Point3& here = output_.points[node];
+        if (tetrahedra::near_plane(here, triangle)) return true;
+        const Point3 foot = foot_on_plane(here, triangle);
+        if (!is_step(here, foot, tetrahedra::allowance(triangle))) return false;
+        here = foot;
+        return tetrahedra::near_plane(here, triangle);
+    }
+
+    /// Whether a node would move no farther than rounding may have put it.
+    static bool is_step(const Point3& from, const Point3& to, const Point3& allowed) {
+        const double most = farthest_allowances * std::max({allowed.x, allowed.y, allowed.z});
+        return std::fabs(to.x - from.x) <= most && std::fabs(to.y - from.y) <= most &&
+               std::fabs(to.z - from.z) <= most;
     }
 
     const TetgenDomain& domain_;
     TetgenOutput& output_;
-    std::vector<bool> settled_; ///< per node: it is given, or was looked at
-    std::size_t moved_ = 0;
+    std::vector<char> settled_; ///< per node: it is given, or was looked at
 };
 
 } // namespace
 
-std::size_t put_on_triangles(const TetgenDomain& domain, TetgenOutput& output) {
+bool put_on_triangles(const TetgenDomain& domain, TetgenOutput& output) {
     return FacetNodes(domain, output)();
 }
 

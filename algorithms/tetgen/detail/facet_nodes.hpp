@@ -16,9 +16,9 @@ namespace terrane::tetgen::detail {
 /// centres of such circles by more again.
 ///
 /// `output` has sound indices. A node on the border of the faces of a triangle is on the edge between
-/// the two corners that the border meets before and after it; where the border is no closed polygon
-/// through the corners, nothing is moved, and the check of tetrahedra says what is wrong.
-/// Returns the number of nodes that were moved. Cost: O(n log n).
-std::size_t put_on_triangles(const TetgenDomain& domain, TetgenOutput& output);
+/// the two corners that the border meets before and after it. Returns false if that border is no
+/// closed polygon through the corners, or if a node is farther away than rounding can put it: then
+/// the mesher has failed. Cost: O(n log n).
+bool put_on_triangles(const TetgenDomain& domain, TetgenOutput& output);
 
 } // namespace terrane::tetgen::detail
