@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
-#include <terrane/algorithms/tetrahedra/detail/allowance.hpp>
+#include <terrane/algorithms/tetrahedra/allowance.hpp>
 #include <terrane/algorithms/tetrahedra/detail/cell_faces.hpp>
 #include <terrane/algorithms/tetrahedra/detail/cover.hpp>
 #include <terrane/algorithms/tetrahedra/detail/findings.hpp>
@@ -17,6 +17,7 @@
 
 namespace terrane {
 
+using namespace tetrahedra;
 using namespace tetrahedra::detail;
 
 namespace {

@@ -110,22 +110,16 @@ std::string text_of(const Json& json) {
     std::string text;
     for (std::size_t i = 0; i < dumped.size(); ++i) {
         const auto code = static_cast<unsigned char>(dumped[i]);
-        const bool is_second_set = code == 0xC2 && static_cast<unsigned char>(dumped[i + 1]) < 0xA0;
-        if (code == 0xE2) { // dump() has made it UTF-8
-            const auto second = static_cast<unsigned char>(dumped[i + 1]) & 0x3FU;
-            const auto third = static_cast<unsigned char>(dumped[i + 2]) & 0x3FU;
-            const char32_t character = 0x2000U | second << 6U | third;
-            if (reorders(character)) {
-                text += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(character));
-                i += 2;
-                continue;
-            }
-        }
-        if (code == 0x7F || is_second_set) // controls that JSON allows, and terminals obey
-            text += fmt::format("\\u{:04x}",
-                                is_second_set ? static_cast<unsigned char>(dumped[++i]) : code);
+        const std::size_t length = code < 0xC0 ? 1 : code < 0xE0 ? 2 : code < 0xF0 ? 3 : 4;
+        char32_t character = length == 1 ? code : code & (0xFFU >> (length + 1));
+        for (std::size_t k = 1; k < length; ++k) // dump() has made it UTF-8
+            character = character << 6U | (static_cast<unsigned char>(dumped[i + k]) & 0x3FU);
+        // Controls that JSON allows, and terminals obey.
+        if ((character >= 0x7F && character < 0xA0) || reorders(character))
+            text += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(character));
         else
-            text += dumped[i];
+            text.append(dumped, i, length);
+        i += length - 1;
     }
     return text + "\n";
 }

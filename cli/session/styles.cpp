@@ -66,7 +66,7 @@ char32_t code_of(std::string_view bytes) {
 bool is_control(std::string_view bytes) {
     const char32_t code = code_of(bytes);
     const bool is_old = code < 0x20 || (code >= 0x7F && code < 0xA0);
-    return bytes.size() <= 2 ? is_old : reorders(code);
+    return (bytes.size() <= 2 && is_old) || reorders(code);
 }
 
 /// Writes a control character as its code, a stray byte as "\x9b".

@@ -10,11 +10,13 @@
 
 namespace terrane::cli {
 
-/// Tells whether a character of three bytes in UTF-8 changes the direction or the line of the text
-/// behind it: U+2028 to U+202E, without the marks of single characters, and U+2066 to U+2069. It is
-/// written as its code, "\u202e", which is code_width columns wide.
+/// Tells whether a character changes the direction or the line of the text beside it, without being
+/// seen: U+061C, U+200E and U+200F, the marks of a direction; U+2028 and U+2029; U+202A to U+202E and
+/// U+2066 to U+2069, embeddings, overrides and isolates. It is written as its code, "\u202e", which
+/// is code_width columns wide.
 constexpr bool reorders(char32_t character) {
-    return (character >= 0x2028 && character <= 0x202E) ||
+    return character == 0x061C || character == 0x200E || character == 0x200F ||
+           (character >= 0x2028 && character <= 0x202E) ||
            (character >= 0x2066 && character <= 0x2069);
 }
 inline constexpr std::size_t code_width = 6;

@@ -243,11 +243,11 @@ void add_worst_triangles(Findings& findings, const Mesh& mesh,
     for (const std::uint32_t t : least_of(q)) {
         const auto corners = corners_of(mesh.vertices, mesh.triangles[t]);
         const auto angles = angles_of(corners[0], corners[1], corners[2]);
-        findings.push_back({"worst triangle",
-                            fmt::format("{}: q {:.3g}, smallest angle {:.3g} degrees",
-                                        surfaces_text(mesh, t, labels), q[t],
-                                        std::min({angles[0], angles[1], angles[2]})),
-                            1 - q[t], "1 - q", centre_of(corners), 4 * longest_edge(corners)});
+        findings.push_back(
+            {"worst triangle",
+             fmt::format("{}: smallest angle {:.3g} degrees", surfaces_text(mesh, t, labels),
+                         std::min({angles[0], angles[1], angles[2]})),
+             1 - q[t], "1 - q", centre_of(corners), 4 * longest_edge(corners)});
     }
 }
 
@@ -273,8 +273,8 @@ void add_worst_tetrahedra(Findings& findings, const TetrahedralMesh& mesh,
                             (c[0].z + c[1].z + c[2].z + c[3].z) / 4};
         findings.push_back(
             {"worst tetrahedron",
-             fmt::format("in block {}{}: dihedral angle {:.3g} degrees", region,
-                         region < block_names.size() ? ", " + block_names[region] : "", least[t]),
+             fmt::format("least dihedral angle, in block {}{}", region,
+                         region < block_names.size() ? ", " + block_names[region] : ""),
              -least[t], "angle", centre,
              4 * std::max(longest_edge({c[0], c[1], c[2]}), distance(c[0], c[3]))});
     }

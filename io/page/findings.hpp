@@ -21,7 +21,8 @@ namespace terrane::page {
 /// One entry of the list.
 struct Finding {
     std::string kind;    ///< "improper contact", "leak", ...
-    std::string text;    ///< says what it is and which surfaces or blocks take part
+    std::string text;    ///< says what it is and which surfaces or blocks take part, but not the
+                         ///< size, which stands beside it
     double size = 0;     ///< by which its kind is sorted, the largest first
     std::string measure; ///< what the size is: "length", "area", "volume", "angle", "quality"
     Point3 place{};      ///< to which a click flies

@@ -179,7 +179,10 @@ class Arrangement(Result):
 
         Examples
         --------
-        >>> terrane.arrange([flat, wall]).to_pyvista()  # doctest: +SKIP
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "flat")
+        >>> terrane.arrange([flat]).to_pyvista().points.shape
+        (3, 3)
         """
         from ._interop import polydata
         return polydata(self.vertices, self.triangles, {"surface": self.surfaces_of.first})
@@ -303,7 +306,11 @@ class RoundedMesh(Result):
 
         Examples
         --------
-        >>> rounded.to_pyvista()  # doctest: +SKIP
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "flat")
+        >>> rounded = terrane.round(terrane.arrange([flat]))
+        >>> rounded.to_pyvista().points.shape
+        (3, 3)
         """
         return self.mesh.to_pyvista()
 
@@ -312,7 +319,11 @@ class RoundedMesh(Result):
 
         Examples
         --------
-        >>> rounded.to_meshio()  # doctest: +SKIP
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "flat")
+        >>> rounded = terrane.round(terrane.arrange([flat]))
+        >>> rounded.to_meshio().cells_dict["triangle"].shape
+        (1, 3)
         """
         return self.mesh.to_meshio()
 
@@ -321,7 +332,10 @@ class RoundedMesh(Result):
 
         Examples
         --------
-        >>> rounded.plot()  # doctest: +SKIP
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "flat")
+        >>> rounded = terrane.round(terrane.arrange([flat]))
+        >>> shown = rounded.plot()
         """
         return self.mesh.plot(**options)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import signal
 import sys
 import time
@@ -44,6 +45,19 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+# What could move the cursor, choose a colour, or turn the text round, as in cli/session/styles.cpp.
+_HARMFUL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
+
+
+def _visible(text: str) -> str:
+    """Return a text with such characters as their codes: names come from files."""
+    return _HARMFUL.sub(lambda found: f"\\u{ord(found.group()):04x}", text)
+
+
+def _print(text: str) -> None:
+    print(_visible(text))
+
+
 class _Progress:
     """A line on the terminal, from the first second on."""
 
@@ -75,7 +89,7 @@ class _Progress:
 
 def _fail(arguments: Any, text: str) -> None:
     start = "\033[1;31mterrane:\033[0m" if arguments.colours else "terrane:"
-    print(start, text, file=sys.stderr)
+    print(start, _visible(text), file=sys.stderr)
 
 
 def _folder_of(arguments: Any) -> str:
@@ -98,12 +112,12 @@ def _one(arguments: Any, folder: str) -> int:
     write_project(task, arguments.only, folder)
     values = unpacked(run_one(task, arguments.only)[0]).values
     if not arguments.quiet:
-        print(f"wrote {folder}: the surfaces of realisation {arguments.only}, and project.json, which builds them")
+        _print(f"wrote {folder}: the surfaces of realisation {arguments.only}, and project.json, which builds them")
     if values["status"] == "failed":
         _fail(arguments, f"realisation {arguments.only} can't be built: {values['reason']}")
         return _NEGATIVE
     for block in [] if arguments.quiet else values["blocks"]:
-        print(f"  {block['name']}: {block['volume']:.6g}")
+        _print(f"  {block['name']}: {block['volume']:.6g}")
     return 0
 
 
@@ -114,7 +128,7 @@ def _text_of(made: Ensemble) -> str:
     rows: List[Tuple[str, ...]] = [("block", "P90", "P50", "P10", "split", "gone", "merged")]
     for name, block in made.blocks.items():
         volume = block.measures["volume"]
-        rows.append((name, *(f"{volume[p]:.6g}" for p in ("p90", "p50", "p10")),
+        rows.append((_visible(name), *(f"{volume[p]:.6g}" for p in ("p90", "p50", "p10")),
                      *(str(block.states[s]) for s in ("split", "vanished", "merged"))))
     widths = [max(len(r[i]) for r in rows) for i in range(len(rows[0]))]
     for row in rows:
@@ -143,9 +157,9 @@ def _all(arguments: Any, folder: str) -> int:
     names = save(made, folder, report=True)
     remove(keep)
     if not arguments.quiet:
-        print(_text_of(made))
+        _print(_text_of(made))
         print(f"computed {computed} of them in {seconds:.1f} s")
-        print(f"wrote {folder}:\n" + "\n".join("  " + n for n in names))
+        _print(f"wrote {folder}:\n" + "\n".join("  " + n for n in names))
     if "ensemble.h5" not in names:
         print("terrane: warning: ensemble.h5 is left out: the Python module h5py is missing; install python3-h5py",
               file=sys.stderr)

@@ -194,7 +194,13 @@ class Filled(Result):
 
         Examples
         --------
-        >>> terrane.fill(holed).to_pyvista()  # doctest: +SKIP
+        >>> import terrane
+        >>> from itertools import product
+        >>> v = [(x, y, x * y % 3 / 4) for x, y in product(range(5), repeat=2)]
+        >>> q = [5 * x + y for x, y in product(range(4), repeat=2) if (x, y) != (2, 2)]
+        >>> holed = terrane.Surface(v, [t for a in q for t in ((a, a + 5, a + 6), (a, a + 6, a + 1))], "holed")
+        >>> terrane.fill(holed).to_pyvista().points.shape
+        (25, 3)
         """
         from ._interop import polydata
         made = polydata(self.surface.vertices, self.surface.triangles, {"hole": self.hole_of})
@@ -206,7 +212,13 @@ class Filled(Result):
 
         Examples
         --------
-        >>> terrane.fill(holed).to_meshio()  # doctest: +SKIP
+        >>> import terrane
+        >>> from itertools import product
+        >>> v = [(x, y, x * y % 3 / 4) for x, y in product(range(5), repeat=2)]
+        >>> q = [5 * x + y for x, y in product(range(4), repeat=2) if (x, y) != (2, 2)]
+        >>> holed = terrane.Surface(v, [t for a in q for t in ((a, a + 5, a + 6), (a, a + 6, a + 1))], "holed")
+        >>> terrane.fill(holed).to_meshio().cells_dict["triangle"].shape
+        (32, 3)
         """
         from ._interop import meshio_mesh
         made = meshio_mesh(self.surface.vertices, {"triangle": self.surface.triangles},
@@ -219,7 +231,12 @@ class Filled(Result):
 
         Examples
         --------
-        >>> terrane.fill(holed).plot()  # doctest: +SKIP
+        >>> import terrane
+        >>> from itertools import product
+        >>> v = [(x, y, x * y % 3 / 4) for x, y in product(range(5), repeat=2)]
+        >>> q = [5 * x + y for x, y in product(range(4), repeat=2) if (x, y) != (2, 2)]
+        >>> holed = terrane.Surface(v, [t for a in q for t in ((a, a + 5, a + 6), (a, a + 6, a + 1))], "holed")
+        >>> shown = terrane.fill(holed).plot()
         """
         return self.to_pyvista().plot(**{"scalars": "expected_error", **options})
 

@@ -132,7 +132,12 @@ class Layered(Result):
 
         Examples
         --------
-        >>> stack.to_pyvista()  # doctest: +SKIP
+        >>> import terrane
+        >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
+        >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
+        >>> stack.to_pyvista().points.shape
+        (12, 3)
         """
         return self.mesh.to_pyvista()
 
@@ -141,7 +146,12 @@ class Layered(Result):
 
         Examples
         --------
-        >>> stack.to_meshio()  # doctest: +SKIP
+        >>> import terrane
+        >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
+        >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
+        >>> stack.to_meshio().cells_dict["triangle"].shape
+        (12, 3)
         """
         return self.mesh.to_meshio()
 
@@ -150,7 +160,11 @@ class Layered(Result):
 
         Examples
         --------
-        >>> stack.plot()  # doctest: +SKIP
+        >>> import terrane
+        >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
+        >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
+        >>> shown = stack.plot()
         """
         return self.mesh.plot(**options)
 

@@ -122,7 +122,10 @@ class Mesh(Result):
 
         Examples
         --------
-        >>> terrane.mesh([flat, wall]).to_pyvista()  # doctest: +SKIP
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "flat")
+        >>> terrane.mesh([flat]).to_pyvista().points.shape
+        (3, 3)
         """
         from ._interop import polydata
         return polydata(self.vertices, self.triangles, {"surface": self.surfaces_of.first})
@@ -132,7 +135,10 @@ class Mesh(Result):
 
         Examples
         --------
-        >>> terrane.mesh([flat, wall]).to_meshio()  # doctest: +SKIP
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "flat")
+        >>> terrane.mesh([flat]).to_meshio().cells_dict["triangle"].shape
+        (1, 3)
         """
         from ._interop import meshio_mesh
         return meshio_mesh(self.vertices, {"triangle": self.triangles},
@@ -143,7 +149,9 @@ class Mesh(Result):
 
         Examples
         --------
-        >>> terrane.mesh([flat, wall]).plot()  # doctest: +SKIP
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "flat")
+        >>> shown = terrane.mesh([flat]).plot()
         """
         return self.to_pyvista().plot(**{"scalars": "surface", "show_edges": True, **options})
 

@@ -290,7 +290,12 @@ class Model(Result):
 
         Examples
         --------
-        >>> m.to_pyvista()  # doctest: +SKIP
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+        ...     [0, 2, 3]], "flat", "horizon")
+        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> list(m.to_pyvista().keys())
+        ['below flat', 'above flat']
         """
         import importlib
         blocks = importlib.import_module("pyvista").MultiBlock()
@@ -303,7 +308,12 @@ class Model(Result):
 
         Examples
         --------
-        >>> m.to_meshio()  # doctest: +SKIP
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+        ...     [0, 2, 3]], "flat", "horizon")
+        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> m.to_meshio().cells_dict["triangle"].shape
+        (34, 3)
         """
         from ._interop import meshio_mesh
         sides = self._core.volumes.of_sides.astype(np.int32)
@@ -316,7 +326,11 @@ class Model(Result):
 
         Examples
         --------
-        >>> m.plot()  # doctest: +SKIP
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+        ...     [0, 2, 3]], "flat", "horizon")
+        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> shown = m.plot()
         """
         return self.to_pyvista().plot(**{"multi_colors": True, **options})
 

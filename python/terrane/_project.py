@@ -85,7 +85,12 @@ class Built(Result):
 
         Examples
         --------
-        >>> terrane.build("project.json").to_pyvista()  # doctest: +SKIP
+        >>> import terrane
+        >>> terrane.save(terrane.box((0, 0, 0), (1, 1, 1)), "box.ts")
+        >>> built = terrane.build({"format": "terrane-project 1", "surfaces": [{"file": "box.ts"}],
+        ...     "outputs": {"surfaces": ["obj"]}})
+        >>> list(built.to_pyvista().keys())
+        ['inside the boundary']
         """
         return self.model.to_pyvista()
 
@@ -94,7 +99,12 @@ class Built(Result):
 
         Examples
         --------
-        >>> terrane.build("project.json").to_meshio()  # doctest: +SKIP
+        >>> import terrane
+        >>> terrane.save(terrane.box((0, 0, 0), (1, 1, 1)), "box.ts")
+        >>> built = terrane.build({"format": "terrane-project 1", "surfaces": [{"file": "box.ts"}],
+        ...     "outputs": {"surfaces": ["obj"]}})
+        >>> built.to_meshio().cells_dict["triangle"].shape
+        (12, 3)
         """
         return self.model.to_meshio() if self.tetrahedra is None else self.tetrahedra.to_meshio()
 
@@ -103,7 +113,11 @@ class Built(Result):
 
         Examples
         --------
-        >>> terrane.build("project.json").plot()  # doctest: +SKIP
+        >>> import terrane
+        >>> terrane.save(terrane.box((0, 0, 0), (1, 1, 1)), "box.ts")
+        >>> built = terrane.build({"format": "terrane-project 1", "surfaces": [{"file": "box.ts"}],
+        ...     "outputs": {"surfaces": ["obj"]}})
+        >>> shown = built.plot()
         """
         return self.model.plot(**options)
 

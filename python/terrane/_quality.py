@@ -83,7 +83,13 @@ class Improved(Result):
 
         Examples
         --------
-        >>> better.to_pyvista()  # doctest: +SKIP
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+        ...     [0, 2, 3]], "flat", "horizon")
+        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> better = terrane.improve(m.mesh, 1.0)
+        >>> len(better.to_pyvista().points) == len(better.mesh.vertices)
+        True
         """
         return self.mesh.to_pyvista()
 
@@ -92,7 +98,13 @@ class Improved(Result):
 
         Examples
         --------
-        >>> better.to_meshio()  # doctest: +SKIP
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+        ...     [0, 2, 3]], "flat", "horizon")
+        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> better = terrane.improve(m.mesh, 1.0)
+        >>> len(better.to_meshio().cells_dict["triangle"]) == len(better.mesh.triangles)
+        True
         """
         return self.mesh.to_meshio()
 
@@ -101,7 +113,12 @@ class Improved(Result):
 
         Examples
         --------
-        >>> better.plot()  # doctest: +SKIP
+        >>> import terrane
+        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
+        ...     [0, 2, 3]], "flat", "horizon")
+        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> better = terrane.improve(m.mesh, 1.0)
+        >>> shown = better.plot()
         """
         return self.mesh.plot(**options)
 

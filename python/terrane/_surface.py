@@ -156,7 +156,10 @@ class Surface:
 
         Examples
         --------
-        >>> surface.to_pyvista()  # doctest: +SKIP
+        >>> import terrane
+        >>> surface = terrane.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], "top")
+        >>> surface.to_pyvista().points.shape
+        (3, 3)
         """
         from ._interop import surface_to_pyvista
         return surface_to_pyvista(self)
@@ -166,7 +169,10 @@ class Surface:
 
         Examples
         --------
-        >>> surface.to_meshio()  # doctest: +SKIP
+        >>> import terrane
+        >>> surface = terrane.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], "top")
+        >>> surface.to_meshio().cells_dict["triangle"].shape
+        (1, 3)
         """
         from ._interop import surface_to_meshio
         return surface_to_meshio(self)
@@ -176,7 +182,9 @@ class Surface:
 
         Examples
         --------
-        >>> surface.plot()  # doctest: +SKIP
+        >>> import terrane
+        >>> surface = terrane.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], "top")
+        >>> shown = surface.plot()
         """
         return self.to_pyvista().plot(**options)
 

@@ -263,7 +263,10 @@ class Tetrahedra(Result):
 
         Examples
         --------
-        >>> cells.to_pyvista()  # doctest: +SKIP
+        >>> import terrane
+        >>> cells = terrane.tetrahedralize(terrane.model(terrane.box((0, 0, 0), (1, 1, 1))))
+        >>> len(cells.to_pyvista().points) == len(cells.vertices)
+        True
         """
         from ._interop import unstructured_grid
         return unstructured_grid(self.vertices, self.tetrahedra, {"region": self.region_of})
@@ -273,7 +276,10 @@ class Tetrahedra(Result):
 
         Examples
         --------
-        >>> cells.to_meshio()  # doctest: +SKIP
+        >>> import terrane
+        >>> cells = terrane.tetrahedralize(terrane.model(terrane.box((0, 0, 0), (1, 1, 1))))
+        >>> len(cells.to_meshio().cells_dict["tetra"]) == len(cells.tetrahedra)
+        True
         """
         from ._interop import meshio_mesh
         kinds = {"tetra": self.tetrahedra, "triangle": self.faces}
@@ -288,7 +294,9 @@ class Tetrahedra(Result):
 
         Examples
         --------
-        >>> cells.plot()  # doctest: +SKIP
+        >>> import terrane
+        >>> cells = terrane.tetrahedralize(terrane.model(terrane.box((0, 0, 0), (1, 1, 1))))
+        >>> shown = cells.plot()
         """
         return self.to_pyvista().plot(**{"scalars": "region", "show_edges": True, **options})
 

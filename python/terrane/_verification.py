@@ -39,7 +39,11 @@ class VerifiedFile(NamedTuple):
 
     Examples
     --------
-    >>> terrane.verify("model.json").outputs[0].check  # doctest: +SKIP
+    >>> import terrane
+    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "top")
+    >>> terrane.verify(terrane.arrange([flat])).outputs  # an arrangement that is in no file
+    []
+    >>> terrane.VerifiedFile("model.obj", "doubles", []).check
     'doubles'
     """
 

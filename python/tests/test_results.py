@@ -150,42 +150,7 @@ if __name__ == "__main__":
     assert done.stdout == "equal\n", done.stderr
 
 
-# --- PyVista, by a package that has what we use of it
-
-
-class FakeData(dict):
-    def __setitem__(self, name, values):
-        super().__setitem__(name, np.asarray(values))
-
-
-class FakePolyData:
-    def __init__(self, points, faces):
-        self.points, self.faces, self.cell_data, self.point_data = points, faces, FakeData(), FakeData()
-        self.shown = None
-
-    def plot(self, **options):
-        self.shown = options
-        return options
-
-
-class FakeGrid(FakePolyData):
-    def __init__(self, cells, kinds, points):
-        super().__init__(points, cells)
-        self.kinds = kinds
-
-
-class FakeBlocks(dict):
-    def plot(self, **options):
-        return options
-
-
-@pytest.fixture
-def pyvista(monkeypatch):
-    """A stand-in for PyVista, which Debian has not."""
-    module = types.ModuleType("pyvista")
-    module.PolyData, module.UnstructuredGrid, module.MultiBlock = FakePolyData, FakeGrid, FakeBlocks
-    monkeypatch.setitem(sys.modules, "pyvista", module)
-    return module
+# --- PyVista, by the stand-in of conftest.py
 
 
 @pytest.mark.parametrize("kind", ["Arrangement", "RoundedMesh", "Mesh", "Improved", "Filled", "Layered"])

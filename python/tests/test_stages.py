@@ -441,6 +441,25 @@ def test_edge_lengths_improve_the_model_first(model):
     assert cells.shape()["dihedral"][0] > model.tetrahedra().shape()["dihedral"][0]
 
 
+def needles(k):
+    """Return a model with thin triangles beside its cuts, which are not improved."""
+    x, y = (a.ravel() for a in np.meshgrid([99.0, 102.0, 105.0], [99.0, 102.0, 105.0], indexing="ij"))
+    triangles = [t for a in (0, 1, 3, 4) for t in ((a, a + 3, a + 4), (a, a + 4, a + 1))]
+    top, base = (terrane.Surface(np.c_[x, y, z + 0.4 * np.sin(phase + k * np.arange(9))], triangles, name, "horizon")
+                 for name, z, phase in (("top", 1, 0), ("base", -1, 2)))
+    fault = terrane.Surface([[101.2, 98, -4], [101.4, 106, -4], [102.6, 106, 5], [102.3, 98, 5]], [[0, 1, 2], [0, 2, 3]],
+                            "F1", "fault")
+    return terrane.model([top, base, fault], box=((100, 100, -3), (104, 104, 3)))
+
+
+@pytest.mark.tetgen
+@pytest.mark.parametrize("k, length", [(2, 2.0), (5, 2.0), (10, 2.0), (12, 2.0), (16, 2.0), (16, 0.8), (19, 1.2)])
+def test_nodes_that_tetgen_puts_beside_a_triangle_go_back(k, length):
+    """TetGen's nodes in thin triangles are hundreds of spacings beside them: once an `internal` error."""
+    cells = terrane.tetrahedralize(needles(k), edge_length=length, time_limit=60)
+    assert cells.violations == [] and cells.mesher == "TetGen"
+
+
 def test_improved_models_are_pickled(model):
     import pickle
     better = model.improved(0.8)

@@ -5,8 +5,12 @@
 
 #include <clocale>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
+#include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/session/styles.hpp>
 #include <terrane/cli/session/text_width.hpp>
 #include <terrane/cli/session/time_left.hpp>
@@ -118,7 +122,7 @@ TEST_CASE("styles: no text has other control characters than ours") {
                    "31m \x9b"
                    "31m",
                    true) == "\\u009b31m \\x9b31m");
-    CHECK(rendered("砂é\u200f\xf0\x9f\x8c\x8b", true) == "砂é\u200f\xf0\x9f\x8c\x8b");
+    CHECK(rendered("砂é\u200d\xf0\x9f\x8c\x8b", true) == "砂é\u200d\xf0\x9f\x8c\x8b");
     CHECK(rendered(bad("a\x05\x01z"), true) == "\033[31ma  z\033[0m");
     CHECK(rendered("a\x02z\nb", true) == "a\033[31mz\033[0m\nb"); // ends with its line
     CHECK(is_plain("a ~\tz\n"));
@@ -130,8 +134,23 @@ TEST_CASE("styles: no text has other control characters than ours") {
 
 TEST_CASE("styles: no name turns the text behind it round") {
     CHECK(rendered("a\u202eb\u2066c\u2069\u2028d", true) == "a\\u202eb\\u2066c\\u2069\\u2028d");
-    for (const std::string_view kept : {"\u200e", "\u200f", "\u2027", "\u202f", "\u2065", "\u206a"})
-        CHECK(rendered(kept, true) == kept); // marks and blanks change no order but their own
+    // All that Unicode names as Bidi_Control, and the separators of lines and paragraphs.
+    for (const auto& [given, code] : std::vector<std::pair<std::string, std::string>>{
+             {"\u061c", "061c"}, {"\u200e", "200e"}, {"\u200f", "200f"}, {"\u2028", "2028"},
+             {"\u2029", "2029"}, {"\u202a", "202a"}, {"\u202b", "202b"}, {"\u202c", "202c"},
+             {"\u202d", "202d"}, {"\u202e", "202e"}, {"\u2066", "2066"}, {"\u2067", "2067"},
+             {"\u2068", "2068"}, {"\u2069", "2069"}}) {
+        CHECK(rendered(given, true) == "\\u" + code);
+        CHECK(rendered(given, false) == "\\u" + code);
+        CHECK(width_of(given) == 6);
+        const auto json = text_of(Json{{"name", given}});
+        CHECK(json.find("\\u" + code) != std::string::npos);
+        CHECK(json.find(given) == std::string::npos);
+        CHECK(Json::parse(json)["name"] == given);
+    }
+    for (const std::string_view kept :
+         {"\u061b", "\u200c", "\u200d", "\u2010", "\u2027", "\u202f", "\u2065", "\u206a"})
+        CHECK(rendered(kept, true) == kept); // letters, joiners and blanks
     CHECK(width_of("a\u202eb") == width_of(rendered("a\u202eb", false)));
     CHECK(padded("\u2067", 8) == "\u2067  ");
     CHECK(cut_to("\u2067ab", 7) == "\u2067a");

@@ -145,6 +145,11 @@ export async function tryFindings(page) {
     return list.every((f, i) => i === 0 || f.kind !== list[i - 1].kind || f.measure === "angle" || f.size <= list[i - 1].size);
   });
   check(sorted, "findings of a kind come by their size");
+  const rows = await page.locator(".finding").allTextContents();
+  const worst = rows.filter((text) => /smallest angle|dihedral angle/.test(text));
+  const twice = worst.filter((text) => text.match(text.includes("dihedral") ? /°|degrees/g : /\bq /g)?.length !== 1);
+  check(worst.length > 0, "the worst triangles are listed");
+  check(twice.length === 0, "a finding states its q or angle once", ...twice.slice(0, 3));
 }
 
 export async function tryTables(page) {

@@ -14,6 +14,7 @@
 
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
+#include <terrane/algorithms/tetgen/detail/facet_nodes.hpp>
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -123,9 +124,11 @@ private:
         return Done{};
     }
 
-    /// Puts added vertices on a side of the box exactly on it, as TetGen rounds them. Other
-    /// vertices stay: TetGen may take a face inside the box for a part of its side.
+    /// Puts added vertices on a side of the box exactly on it, as TetGen rounds them, and those on
+    /// triangles next to these. Other vertices stay: TetGen may take a face inside the box for a part
+    /// of its side.
     Status take_vertices() {
+        if (!put_on_triangles(domain_, in_)) return broken("put a vertex beside its triangle");
         out_.vertices = std::move(in_.points);
         const auto& [low, high] = domain_.box;
         for (std::size_t i = 0; i < in_.faces.size(); ++i) {

@@ -7,7 +7,7 @@
 #include <span>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
-#include <terrane/algorithms/tetrahedra/detail/allowance.hpp>
+#include <terrane/algorithms/tetrahedra/allowance.hpp>
 #include <terrane/algorithms/tetrahedra/detail/outline.hpp>
 #include <terrane/kernel/predicates.hpp>
 

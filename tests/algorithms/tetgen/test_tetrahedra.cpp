@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -20,6 +21,7 @@
 #include "support/read.hpp"
 #include "support/rounded.hpp"
 #include "support/shapes.hpp"
+#include "support/solids.hpp"
 #include "support/tetgen_cases.hpp"
 
 using namespace terrane;
@@ -398,4 +400,31 @@ TEST_CASE("tetrahedra: a bound on shapes divides no triangle of a surface", "[te
         return must(mesh, {.margin = 1, .radius_edge_ratio = bound, .optimise = {}});
     };
     CHECK(shape_of(as_filled(1.4)).radius_edge.mean < shape_of(as_filled({})).radius_edge.mean);
+}
+
+TEST_CASE("tetrahedra: nodes at circles' centres in thin triangles are next to these",
+          "[tetrahedra]") {
+    // Cuts leave needles of these sheets. TetGen divides them at centres of circles, which it
+    // computes from nodes that are rounded: up to hundreds of spacings beside the triangle.
+    const auto sheet = [](double height, double phase, double frequency) {
+        return unit_grid(2, 2, [=](double u, double v) {
+            const double n = 6 * u + 2 * v;
+            return Point3{99 + 6 * u, 99 + 6 * v, height + 0.4 * std::sin(phase + frequency * n)};
+        });
+    };
+    const auto mesh_at = [&](double frequency) {
+        return mesh_of({box({100, 100, -3}, {104, 104, 3}), sheet(1, 0, frequency),
+                        sheet(-1, 2, frequency),
+                        quad({101.2, 98, -4}, {101.4, 106, -4}, {102.6, 106, 5}, {102.3, 98, 5})});
+    };
+    for (const auto& [frequency, edge] : {std::pair{10.0, 2.0}, {16.0, 2.0}, {16.0, 1.2}}) {
+        CAPTURE(frequency, edge);
+        const Mesh mesh = mesh_at(frequency);
+        const auto made = tetrahedralize(
+            mesh, {.mesher = Mesher::tetgen, .edge_length = edge, .optimise = {}}, {});
+        REQUIRE(made);
+        const auto judged = check_tetrahedra(*made, mesh, find_volumes(mesh).value());
+        for (const auto& v : judged.violations) UNSCOPED_INFO(message(v));
+        CHECK(judged.violations.empty());
+    }
 }

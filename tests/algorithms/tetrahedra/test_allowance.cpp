@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // The allowance against rational arithmetic: statements (1) and (4) of tetrahedra.md.
-#include <terrane/algorithms/tetrahedra/detail/allowance.hpp>
+#include <terrane/algorithms/tetrahedra/allowance.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@
 #include <terrane/kernel/predicates.hpp>
 
 using namespace terrane;
-using namespace terrane::tetrahedra::detail;
+using namespace terrane::tetrahedra;
 using namespace test_support;
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/tetrahedra/detail/allowance.hpp>
+#include <terrane/algorithms/tetrahedra/allowance.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <terrane/kernel/polynomials.hpp>
 #include <terrane/kernel/predicates.hpp>
 
-namespace terrane::tetrahedra::detail {
+namespace terrane::tetrahedra {
 namespace {
 
 using polynomial::cartesian;
@@ -125,4 +125,4 @@ double volume_within_reach(const std::array<Point3, 3>& triangle) {
     return (2 * d * area + pi / 2 * d * d * perimeter + pi * 4 / 3 * d * d * d) * rounded_up;
 }
 
-} // namespace terrane::tetrahedra::detail
+} // namespace terrane::tetrahedra

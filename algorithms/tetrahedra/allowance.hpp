@@ -11,7 +11,7 @@
 
 #include <terrane/kernel/point.hpp>
 
-namespace terrane::tetrahedra::detail {
+namespace terrane::tetrahedra {
 
 constexpr double allowed_spacings = 5;
 
@@ -37,4 +37,4 @@ double reach(const std::array<Point3, 3>& triangle);
 /// An upper bound of the volume of all points that are no farther from the triangle than its reach.
 double volume_within_reach(const std::array<Point3, 3>& triangle);
 
-} // namespace terrane::tetrahedra::detail
+} // namespace terrane::tetrahedra
