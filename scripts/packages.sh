@@ -4,8 +4,8 @@
 # Makes Debian packages, judges them with lintian, and uses them in a clean Debian 12:
 #   scripts/packages.sh [BUILD]
 # BUILD is a build tree with the prefix /usr; without it the preset package is built. The packages are put
-# into out/packages; TERRANE_MAINTAINER is the name and address in them, without which a tagged version, a
-# release, is refused. Needs dpkg-dev and lintian; as root, with debootstrap and a mirror of Debian, also a
+# into out/packages. TERRANE_MAINTAINER, "NAME <ADDRESS>", is who answers for them; nothing is made without it, or
+# without the same CMake variable in BUILD. Needs dpkg-dev and lintian; as root, with debootstrap and a mirror of Debian, also a
 # root of its own, into which the packages are installed as apt does it. MIRROR, SUITE and ROOT say from where, what and where; BASE names a clean root that
 # was made before, which is copied. NO_ROOT=1 leaves that out.
 set -euo pipefail
@@ -17,21 +17,21 @@ suite=${SUITE:-bookworm}
 
 fail() { echo "packages: $1" >&2; exit 1; }
 
+# Whether a text is a name and an address. One that can't exist would be worse than none.
+is_contact() { [[ $1 =~ ^[^\<\>]+\ \<[^\<\>@\ ]+@[^\<\>@\ ]+\>$ && $1 != *.invalid\> ]]; }
+needed='TERRANE_MAINTAINER="NAME <ADDRESS>" must name who answers for the packages'
+
 if [[ -z $build ]]; then
     build=build/package
-    cmake --preset package ${TERRANE_MAINTAINER:+-DTERRANE_MAINTAINER="$TERRANE_MAINTAINER"} >/dev/null
+    is_contact "${TERRANE_MAINTAINER:-}" || fail "$needed"
+    cmake --preset package -DTERRANE_MAINTAINER="$TERRANE_MAINTAINER" >/dev/null
     cmake --build --preset package
 fi
 grep -qx 'CMAKE_INSTALL_PREFIX:PATH=/usr' "$build/CMakeCache.txt" ||
     fail "$build is not for the prefix /usr: configure with -DCMAKE_INSTALL_PREFIX=/usr"
 
-# A placeholder is good enough to try packages, but nobody answers at its address.
 contact=$(sed -n 's/^TERRANE_MAINTAINER:STRING=//p' "$build/CMakeCache.txt")
-tag=$(git describe --exact-match --tags --match 'v[0-9]*' 2>/dev/null || true)
-if [[ $contact == *.invalid* ]]; then
-    [[ -z $tag ]] || fail "$tag is a release: TERRANE_MAINTAINER=\"NAME <ADDRESS>\" must name who answers for it"
-    echo "packages: without TERRANE_MAINTAINER they name $contact, and must not be published" >&2
-fi
+is_contact "$contact" || fail "$needed: configure $build with -DTERRANE_MAINTAINER=..."
 
 rm -rf "$packages"
 (cd "$build" && cpack -G DEB -B "$packages" >/dev/null)

@@ -170,7 +170,8 @@ def main():
     shutil.rmtree(work, ignore_errors=True)
     (work / "root").mkdir(parents=True)
     # The fastest compression that dpkg knows, as these packages are unpacked at once.
-    run("cpack", "-G", "DEB", "-B", work / "packages", "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip", cwd=options.build)
+    run("cpack", "-G", "DEB", "-B", work / "packages", "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip",
+        "-D", "CPACK_PACKAGE_CONTACT=The tests <tests@host.invalid>", cwd=options.build)
     packages = sorted((work / "packages").glob("*.deb"))
     flaws, names = judge_packages(packages)
     for package in packages:

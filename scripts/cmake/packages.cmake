@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Debian packages: cpack -G DEB in the build tree of the preset package (scripts/packages.sh does all of it).
 # There is one package per component of installation; python3-terrane appears where there is a component python.
-set(TERRANE_MAINTAINER "Terrane maintainers <maintainers@terrane.invalid>" CACHE STRING
-    "Name and address in Debian packages; who releases them sets it")
+set(TERRANE_MAINTAINER "" CACHE STRING
+    "\"NAME <ADDRESS>\" of who answers for Debian packages; cpack makes none without it")
 set(TERRANE_DEBIAN_REVISION 1 CACHE STRING "Debian revision of the packages")
 get_cmake_property(installed_components COMPONENTS) # before those of this file
 set(debian_folder ${PROJECT_SOURCE_DIR}/scripts/packaging/debian)
@@ -12,6 +12,7 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME terrane)
 set(CPACK_PACKAGE_VENDOR Terrane)
 set(CPACK_PACKAGE_CONTACT "${TERRANE_MAINTAINER}")
+set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_DIR}/maintainer.cmake) # refuses packages that name nobody
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Tests each command from outside.
+#include <cmath>
 #include <cstdint>
 #include <sstream>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
@@ -125,12 +127,33 @@ TEST_CASE("cli: no surface moves farther than --max-move", "[cli]") {
     CHECK(rounding["max_allowed"] == 1024 * 0x1p-31);
     CHECK(rounding["max_move"] <= moved);
 
+    // A smaller limit is kept, too, by smaller moves; the least move with which the surfaces can be
+    // separated is allowed, and the double below it is refused.
+    const auto deviation_within = [&](double limit) {
+        const auto r = folder.run(fmt::format("{} --max-move {}", arrange_utm, limit));
+        CAPTURE(limit, r.err);
+        REQUIRE(r.status == 0);
+        const double found = Json::parse(folder.read("s.json"))["rounding"]["surface_deviation"];
+        CHECK(found <= limit);
+        return found;
+    };
+    for (const double limit : {1e-8, moved, std::nextafter(moved, 0.0), 1e-9})
+        deviation_within(limit);
+    const double least = deviation_within(6e-10);
+    CHECK(deviation_within(least) == least);
     const Folder other;
-    const auto refused = other.run(arrange_utm + " --max-move 5e-10");
+    const double below = std::nextafter(least, 0.0);
+    const auto refused = other.run(fmt::format("{} --max-move {}", arrange_utm, below));
     CHECK(refused.status == 1);
-    CHECK(contains(refused.out, "no surface may move by more than 5e-10 to separate them"));
+    CHECK(contains(refused.out,
+                   fmt::format("no surface may move by more than {:.3g} to separate them", below)));
     CHECK(contains(refused.err, "(part of "));
     CHECK(other.left() == std::set<std::string>{"s.json"});
+    // It is more than where the nearest doubles are, at which some surfaces cross.
+    const double nearest = Json::parse(other.read("s.json"))["rounding"]["surface_deviation"];
+    CHECK(nearest < below);
+    CHECK(other.run(fmt::format("{} --max-move {}", arrange_utm, nearest)).status == 1);
+    CHECK(other.run(fmt::format("{} --max-move {}", arrange_utm, nearest / 2)).status == 2);
     const auto never = other.run(arrange_utm + " --max-move 1e-12");
     CHECK(never.status == 2);
     CHECK(contains(never.err, "max_move"));
