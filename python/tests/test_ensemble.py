@@ -380,3 +380,12 @@ def test_kept_needs_a_folder_that_can_be_made():
     task = _ensemble_work.Task(b"", "", "", 1, (), (0, 0, 1, 1), (1, 1), 1, "key", "")
     with pytest.raises(terrane.Error, match="cannot be made"):
         _ensemble_kept.Kept("file/inside", task)
+
+
+def test_names_on_the_terminal_are_harmless():
+    """What could move the cursor, choose a colour, or turn the text round is written as its code."""
+    from terrane._ensemble_command import _visible
+    turning = "\u061c\u200e\u200f\u2028\u2029\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"
+    for c in "\x00\x07\x08\r\x1b\x7f\x80\x9b\x9f" + turning:
+        assert _visible(f"a{c}b") == f"a\\u{ord(c):04x}b"
+    assert _visible("砂é\u200d\tA\n") == "砂é\u200d\tA\n"
