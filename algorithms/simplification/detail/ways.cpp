@@ -61,6 +61,59 @@ bool Ways::meet_at_edge(const NearPlaces& c, double limit) const {
     return false;
 }
 
+/// Follows the section of the surfaces with a plane through both places, from edge to edge.
+bool Ways::meet_in_section(const NearPlaces& c, const Point3& normal, double limit) const {
+    struct Step {
+        std::uint32_t cell;
+        Point3 at;
+        double way;
+    };
+    const auto& points = complex_.points();
+    const Point3 x = at(c.from), y = at(c.to);
+    const auto height = [&](std::uint32_t v) { return dot(minus(points[v], x), normal); };
+    const auto goals = cells_of(c.to);
+    std::vector<Step> front;
+    for (const std::uint32_t t : cells_of(c.from)) front.push_back({t, x, 0});
+    std::unordered_map<std::uint32_t, double> best;
+    while (!front.empty()) {
+        const Step step = front.back();
+        front.pop_back();
+        const auto [known, is_new] = best.try_emplace(step.cell, step.way);
+        if (!is_new && known->second <= step.way) continue;
+        known->second = step.way;
+        if (step.way + between(step.at, y) >= limit) continue;
+        if (std::find(goals.begin(), goals.end(), step.cell) != goals.end()) return true;
+        const Triangle& corners = complex_.cells()[step.cell].corners;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = corners[i], b = corners[(i + 1) % 3];
+            const double h = height(a), k = height(b);
+            if ((h > 0) == (k > 0)) continue;
+            const double share = h / (h - k);
+            const Point3 &p = points[a], &q = points[b];
+            const Point3 next{p.x + share * (q.x - p.x), p.y + share * (q.y - p.y),
+                              p.z + share * (q.z - p.z)};
+            for (const std::uint32_t t : complex_.star(a, b))
+                if (t != step.cell) front.push_back({t, next, step.way + between(step.at, next)});
+        }
+    }
+    return false;
+}
+
+/// Tries sections across the cells at both places: where two surfaces meet in a line, they are
+/// perpendicular to it if the places are nearest to each other.
+bool Ways::meet_in_a_section(const NearPlaces& c, double limit) const {
+    const Point3 way = minus(at(c.to), at(c.from));
+    for (const Place* place : {&c.from, &c.to})
+        for (const std::uint32_t t : cells_of(*place)) {
+            const Triangle& corners = complex_.cells()[t].corners;
+            const auto& p = complex_.points();
+            const Point3 upwards =
+                cross(minus(p[corners[1]], p[corners[0]]), minus(p[corners[2]], p[corners[0]]));
+            if (meet_in_section(c, cross(way, upwards), limit)) return true;
+        }
+    return false;
+}
+
 bool Ways::are_far(const NearPlaces& c, bool along_curves) const {
     const double limit = tuning.far_along * c.distance;
     const auto& points = complex_.points();
@@ -97,7 +150,8 @@ bool Ways::are_far(const NearPlaces& c, bool along_curves) const {
 }
 
 bool Ways::are_far_along_surfaces(const NearPlaces& c) const {
-    return !meet_at_edge(c, tuning.far_along * c.distance) && are_far(c, false);
+    const double limit = tuning.far_along * c.distance;
+    return !meet_at_edge(c, limit) && are_far(c, false) && !meet_in_a_section(c, limit);
 }
 
 bool Ways::are_far_along_curves(const NearPlaces& c) const {

@@ -174,9 +174,8 @@ void check_sides(const Mesh& mesh) {
             continue;
         const auto all_at = [&](double Point3::*axis, double value) {
             const Triangle& c = mesh.triangles[t];
-            return std::all_of(c.begin(), c.end(), [&](std::uint32_t v) {
-                return std::abs(mesh.vertices[v].*axis - value) <= 1e-9;
-            });
+            return std::all_of(c.begin(), c.end(),
+                               [&](std::uint32_t v) { return mesh.vertices[v].*axis == value; });
         };
         const Point3& corner = mesh.vertices[mesh.triangles[t][0]];
         INFO("at " << corner.x << " " << corner.y << " " << corner.z);
@@ -299,6 +298,49 @@ TEST_CASE("simplify: a sharp wedge is zipped, not farther than where it is open"
     CHECK(common.triangles > 0);
     CHECK(common.from > 50 - 20 - 9);
     CHECK(common.to < 50 + 20 + 9);
+}
+
+TEST_CASE("simplify: a wedge of more than 20 degrees stays open", "[simplification]") {
+    for (const double slope : {0.4, 0.5}) { // 21.8 and 26.6 degrees
+        const auto a =
+            in_box({sheet_over_box([](double) { return 30.0; }, "flat"),
+                    sheet_over_box([&](double x) { return 30 + slope * (x - 50); }, "inclined")});
+        const auto s = simplified(a, 3);
+        INFO("slope " << slope);
+        CHECK(s.report.sheets == 0);
+        CHECK(s.report.curves == 0);
+        CHECK(common_part(s.rounded.mesh, "flat", "inclined").triangles == 0);
+    }
+}
+
+TEST_CASE("simplify: two surfaces that are joined move alike", "[simplification]") {
+    const auto a = in_box({sheet_over_box([](double) { return 30.0; }, "low"),
+                           sheet_over_box([](double) { return 33.0; }, "high")});
+    const auto s = simplified(a, 6, true);
+    const Mesh& after = s.rounded.mesh;
+    for (std::size_t t = 0; t < after.triangles.size(); ++t)
+        for (const std::uint32_t i : after.surfaces_of[t])
+            if (after.surfaces[i].role != Role::boundary)
+                for (const std::uint32_t v : after.triangles[t])
+                    CHECK(after.vertices[v].z == Approx(31.5).margin(0.5));
+}
+
+TEST_CASE("simplify: what is simple stays as it is", "[simplification]") {
+    const auto a =
+        in_box({sheet_over_box([](double) { return 30.0; }, "flat"),
+                sheet_over_box([](double x) { return 30 + 0.15 * (x - 50); }, "inclined"),
+                wall(50, -10, 90, "wall"), cross_wall(40, -10, 50, "left"),
+                cross_wall(41, 50, 110, "right")});
+    const auto first = simplify(*a.rounded.conforming, {.resolution = 5});
+    REQUIRE(first);
+    const auto again = simplify(*first->rounded.conforming, {.resolution = 5});
+    REQUIRE(again);
+    for (const LeftAlone& l : first->report.left)
+        UNSCOPED_INFO("left " << l.distance << " at " << l.place.x << " " << l.place.y << " "
+                              << l.place.z << " " << name_of(l.reason));
+    CHECK(again->report.corners == 0);
+    CHECK(again->report.curves == 0);
+    CHECK(again->report.sheets == 0);
 }
 
 TEST_CASE("simplify: a thin layer stays and is listed, or is dissolved", "[simplification]") {
