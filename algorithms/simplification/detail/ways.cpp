@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <queue>
 #include <unordered_map>
 #include <utility>
@@ -30,6 +31,26 @@ double way_across(const Point3& x, const Point3& y, const Point3& a, const Point
         (way(p) < way(q) ? high : low) = way(p) < way(q) ? q : p;
     }
     return way((low + high) / 2);
+}
+
+/// Returns the normal of the plane through two places that contains the shortest way between them
+/// across the line in which two planes meet, if each place is on one of these. None: they are
+/// parallel.
+std::optional<Point3> section_across(const Point3& x, const Point3& of_x, const Point3& y,
+                                     const Point3& of_y) {
+    const Point3 line = cross(of_x, of_y);
+    const Point3 from_x = cross(line, of_x), from_y = cross(line, of_y);
+    const double slope_x = dot(from_x, of_y), slope_y = dot(from_y, of_x);
+    if (slope_x == 0 || slope_y == 0) return std::nullopt;
+    const Point3 way = minus(y, x);
+    const auto foot = [](const Point3& p, const Point3& along, double share) {
+        return Point3{p.x + share * along.x, p.y + share * along.y, p.z + share * along.z};
+    };
+    const Point3 a = foot(x, from_x, dot(way, of_y) / slope_x);
+    const Point3 b = foot(y, from_y, -dot(way, of_x) / slope_y);
+    const double to_a = between(x, a), to_b = between(y, b);
+    if (!(to_a + to_b > 0)) return std::nullopt;
+    return cross(way, minus(foot(a, minus(b, a), to_a / (to_a + to_b)), x));
 }
 
 } // namespace
@@ -99,17 +120,19 @@ bool Ways::meet_in_section(const NearPlaces& c, const Point3& normal, double lim
     return false;
 }
 
-/// Tries sections across the cells at both places: where two surfaces meet in a line, they are
-/// perpendicular to it if the places are nearest to each other.
+Point3 Ways::normal_of(std::uint32_t cell) const {
+    const auto& [a, b, c] = complex_.cells()[cell].corners;
+    const auto& p = complex_.points();
+    return cross(minus(p[b], p[a]), minus(p[c], p[a]));
+}
+
+/// Tries the sections that contain the shortest way if the cells at both places go on as planes.
 bool Ways::meet_in_a_section(const NearPlaces& c, double limit) const {
-    const Point3 way = minus(at(c.to), at(c.from));
-    for (const Place* place : {&c.from, &c.to})
-        for (const std::uint32_t t : cells_of(*place)) {
-            const Triangle& corners = complex_.cells()[t].corners;
-            const auto& p = complex_.points();
-            const Point3 upwards =
-                cross(minus(p[corners[1]], p[corners[0]]), minus(p[corners[2]], p[corners[0]]));
-            if (meet_in_section(c, cross(way, upwards), limit)) return true;
+    const Point3 x = at(c.from), y = at(c.to);
+    for (const std::uint32_t s : cells_of(c.from))
+        for (const std::uint32_t t : cells_of(c.to)) {
+            const auto normal = section_across(x, normal_of(s), y, normal_of(t));
+            if (normal && meet_in_section(c, *normal, limit)) return true;
         }
     return false;
 }
