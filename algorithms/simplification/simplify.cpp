@@ -204,7 +204,7 @@ private:
         }
         for (std::uint32_t v = 1; v < volumes.measures.size(); ++v) {
             const std::uint32_t b = result_.block_before[v];
-            const bool is_part = b == none || largest[b] != v;
+            const bool is_part = b == none || b == 0 || largest[b] != v;
             const double most = (is_part ? tuning.part_share : 1) * options_.resolution;
             if (thickness[v] < most && (is_part || options_.dissolve)) blocks.push_back(v);
         }
@@ -220,8 +220,8 @@ private:
             result_.block_before = simplification::detail::matched_blocks(before_, after);
             const auto blocks = to_dissolve(*volumes);
             if (round < tuning.rounds && !blocks.empty() &&
-                simplification::detail::dissolve(after.mesh, *volumes, blocks, current_.cells) >
-                    0) {
+                simplification::detail::dissolve(after.mesh, *volumes, blocks, result_.block_before,
+                                                 current_.cells) > 0) {
                 const Complex complex(current_.mesh.vertices, current_.past, current_.cells,
                                       current_.mesh.surfaces);
                 if (auto done = arrange_again(complex); !done) return done;
@@ -252,6 +252,7 @@ private:
         bool any = false;
         for (const ChangedBlock& change : result_.report.blocks) {
             if (change.parts == 0 && options_.dissolve) continue;
+            if (change.block == 0) continue; // nearly all surfaces may be at it
             any = any || !locked[change.block];
             locked[change.block] = true;
         }

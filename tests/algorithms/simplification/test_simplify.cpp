@@ -330,6 +330,26 @@ TEST_CASE("simplify: two surfaces that are joined move alike", "[simplification]
     CHECK(halfway > all * 8 / 10); // some at the sides of the box are left alone
 }
 
+TEST_CASE("simplify: sheets that bound no block are joined, and enclose none", "[simplification]") {
+    // They are 0.5 apart at x = 0, cross at 50, and are 0.5 apart at 100.
+    const std::vector<Surface> surfaces{
+        sheet_over_box([](double) { return 30.0; }, "flat"),
+        sheet_over_box([](double x) { return 29.5 + 0.01 * x; }, "inclined"),
+        sheet_over_box([](double x) { return 30.5 - 0.01 * x; }, "declined")};
+    const auto exact = arrange(surfaces);
+    REQUIRE(exact);
+    const auto rounded = round_to_doubles(*exact);
+    REQUIRE(rounded);
+    REQUIRE(rounded->conforming);
+    REQUIRE(blocks_of(rounded->mesh) == 0);
+    const auto s = simplify(*rounded->conforming, {.resolution = 3});
+    REQUIRE(s);
+    CHECK(s->report.is_shown);
+    CHECK(s->report.corners + s->report.curves + s->report.sheets > 0);
+    CHECK(common_part(s->rounded.mesh, "flat", "inclined").triangles > 0);
+    CHECK(blocks_of(s->rounded.mesh) == 0);
+}
+
 TEST_CASE("simplify: a thin layer stays and is listed, or is dissolved", "[simplification]") {
     const auto a = in_box({sheet_over_box([](double) { return 30.0; }, "low"),
                            sheet_over_box([](double) { return 33.0; }, "high")});
