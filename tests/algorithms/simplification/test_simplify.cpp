@@ -25,6 +25,8 @@
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
+#include <terrane/algorithms/simplification/detail/pockets.hpp>
+#include <terrane/algorithms/simplification/detail/traced_mesh.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
@@ -330,24 +332,24 @@ TEST_CASE("simplify: two surfaces that are joined move alike", "[simplification]
     CHECK(halfway > all * 8 / 10); // some at the sides of the box are left alone
 }
 
-TEST_CASE("simplify: sheets that bound no block are joined, and enclose none", "[simplification]") {
-    // They are 0.5 apart at x = 0, cross at 50, and are 0.5 apart at 100.
-    const std::vector<Surface> surfaces{
-        sheet_over_box([](double) { return 30.0; }, "flat"),
-        sheet_over_box([](double x) { return 29.5 + 0.01 * x; }, "inclined"),
-        sheet_over_box([](double x) { return 30.5 - 0.01 * x; }, "declined")};
-    const auto exact = arrange(surfaces);
+TEST_CASE("simplify: a pocket that was outside opens to it, a block does not", "[simplification]") {
+    Surface pocket = tetrahedron({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, "pocket");
+    pocket.role = Role::fault;
+    const auto exact = arrange(std::vector{pocket});
     REQUIRE(exact);
     const auto rounded = round_to_doubles(*exact);
     REQUIRE(rounded);
-    REQUIRE(rounded->conforming);
-    REQUIRE(blocks_of(rounded->mesh) == 0);
-    const auto s = simplify(*rounded->conforming, {.resolution = 3});
-    REQUIRE(s);
-    CHECK(s->report.is_shown);
-    CHECK(s->report.corners + s->report.curves + s->report.sheets > 0);
-    CHECK(common_part(s->rounded.mesh, "flat", "inclined").triangles > 0);
-    CHECK(blocks_of(s->rounded.mesh) == 0);
+    const auto traced = simplification::detail::traced(rounded->mesh);
+    const auto volumes = find_volumes(traced.mesh);
+    REQUIRE(volumes);
+    REQUIRE(volumes->block_count() == 1);
+    const std::vector<std::uint32_t> blocks{1};
+    for (const std::uint32_t before : {0U, 1U}) {
+        auto cells = traced.cells;
+        const std::vector<std::uint32_t> block_before{0, before};
+        CHECK(simplification::detail::dissolve(traced.mesh, *volumes, blocks, block_before,
+                                               cells) == (before == 0 ? 1 : 0));
+    }
 }
 
 TEST_CASE("simplify: a thin layer stays and is listed, or is dissolved", "[simplification]") {
