@@ -17,6 +17,33 @@ typedef struct terrane_volumes terrane_volumes;
 /// A mesh with its blocks, numbered as those of the exact arrangement.
 typedef struct terrane_model terrane_model;
 
+/// A mesh whose near features were joined, with its arrangement. Experimental.
+typedef struct terrane_simplified terrane_simplified;
+
+/// Options of terrane_simplify. Lengths are in the unit of the mesh.
+typedef struct terrane_simplify_options {
+    size_t struct_size; ///< sizeof(terrane_simplify_options)
+    double resolution;  ///< places that are nearer are joined, if they can be; > 0
+    double max_move;    ///< no surface goes farther than this; 0: resolution
+    double edge_length; ///< of the triangles that are made first; 0: six resolutions
+    int32_t dissolve;   ///< not 0: blocks thinner than the resolution, on average, may go
+    int32_t reserved;   ///< 0
+} terrane_simplify_options;
+
+/// What was joined.
+typedef struct terrane_simplify_report {
+    double max_move;   ///< limit of all movements, shown in both directions
+    uint64_t corners;  ///< times that two corners were joined
+    uint64_t curves;   ///< that places of two curves were
+    uint64_t sheets;   ///< that other places of surfaces were
+    uint64_t divided;  ///< edges divided where surfaces are near
+    uint64_t left;     ///< near places that were left alone
+    uint64_t changed;  ///< blocks that did not stay one and the same
+    uint64_t vanished; ///< surfaces of which nothing is left
+    uint32_t rounds;   ///< arrangements of moved surfaces
+    uint32_t attempts; ///< times that it began
+} terrane_simplify_report;
+
 /// A unit of a stratigraphic column.
 typedef struct terrane_column_unit {
     const char* name;    ///< of the unit; not empty, and in no other entry
@@ -75,6 +102,49 @@ TERRANE_API terrane_code terrane_locate_points(const terrane_volumes* volumes, c
 /// with terrane_structure_free. Errors: BAD_OPTION (volumes of an arrangement), OUT_OF_MEMORY.
 TERRANE_API terrane_code terrane_build_structure(const terrane_volumes* volumes,
                                                  terrane_structure** out, terrane_error** error);
+
+/// Gives options their defaults: no resolution. Errors: BAD_ARGUMENT.
+TERRANE_API terrane_code terrane_simplify_options_init(terrane_simplify_options* options,
+                                                       size_t struct_size);
+/// Joins places of a conforming mesh that are nearer than a resolution. Experimental: what is joined
+/// may change. The triangles of the result can be improved then, and its arrangement, mesh and
+/// improved mesh make a model. A mesh without proof is proven first. Free the result with
+/// terrane_simplified_free. Errors: IMPROPER_CONTACT, BAD_OPTION (also where it is not shown that no
+/// surface goes farther than max_move), NOTHING_TO_DO, INTERRUPTED, OUT_OF_MEMORY.
+TERRANE_API terrane_code terrane_simplify(const terrane_mesh* mesh,
+                                          const terrane_simplify_options* options,
+                                          const terrane_run* run, terrane_simplified** out,
+                                          terrane_error** error);
+/// Frees a simplified mesh.
+TERRANE_API void terrane_simplified_free(terrane_simplified* simplified);
+/// Returns the moved surfaces, in the order of the mesh before, a part of the handle.
+TERRANE_API const terrane_surfaces*
+terrane_simplified_surfaces(const terrane_simplified* simplified);
+/// Returns the arrangement of the moved surfaces, a part of the handle.
+TERRANE_API const terrane_arrangement*
+terrane_simplified_arrangement(const terrane_simplified* simplified);
+/// Returns the conforming mesh that the arrangement was rounded to, a part of the handle.
+TERRANE_API const terrane_mesh* terrane_simplified_mesh(const terrane_simplified* simplified);
+/// Copies what was joined; `struct_size` is sizeof(terrane_simplify_report). Errors: BAD_ARGUMENT.
+TERRANE_API terrane_code terrane_simplified_get_report(const terrane_simplified* simplified,
+                                                       terrane_simplify_report* report,
+                                                       size_t struct_size);
+/// Returns, per volume of the simplified mesh, the volume before that most of it was.
+TERRANE_API const uint32_t* terrane_simplified_block_before(const terrane_simplified* simplified,
+                                                            size_t* count);
+/// Returns the blocks before that were thinner than the resolution and are there still, or were left
+/// alone since joining changed them.
+TERRANE_API const uint32_t* terrane_simplified_kept(const terrane_simplified* simplified,
+                                                    size_t* count);
+/// Tells whether each surface of the simplified mesh, as it was improved, is shown to be within the
+/// resolution of what it was before it was simplified, and that within the resolution of it:
+/// *is_shown becomes 1 or 0. Errors: BAD_OPTION (the handles do not belong together),
+/// OUT_OF_MEMORY.
+TERRANE_API terrane_code terrane_simplified_keeps_resolution(const terrane_simplified* simplified,
+                                                             const terrane_improved* improved,
+                                                             const terrane_run* run,
+                                                             int32_t* is_shown,
+                                                             terrane_error** error);
 
 /// Makes the model of an arrangement: blocks of the rounded mesh with the numbers of the exact
 /// ones. `rounded` was made from `arrangement` and is conforming. `improved` was made from

@@ -9,7 +9,9 @@
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
+#include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/simplification/simplify.hpp>
 
 namespace terrane {
 
@@ -19,12 +21,32 @@ struct Resolution {
     bool dissolve = false; ///< blocks thinner than the resolution may go, see SimplifyOptions
 };
 
-/// Simplifies the surfaces of `arranged`, whose mesh must be conforming: its surfaces, arrangement
-/// and mesh become the simplified ones, and `simplified` says what changed. Improvement may then
-/// deviate by options.max_deviation, or, where that is 0, by what improve() would allow, but at
-/// most a quarter of the resolution, which options.max_deviation is set to; joining may move the
-/// surfaces by the rest of the resolution, or is refused. Errors: those of simplify(); bad_option (max_deviation is not
-/// less than the resolution).
+/// Simplifies a mesh that is to be improved then. Improvement may deviate by options.max_deviation,
+/// or, where that is 0, by what improve() would allow, but at most a quarter of the resolution, which
+/// options.max_deviation is set to; joining may move the surfaces by the rest of the resolution, or
+/// is refused. Errors: those of simplify(); bad_option (max_deviation is not less than the
+/// resolution).
+Result<Simplified> simplify_for(const ConformingMesh& mesh, const Resolution& resolution,
+                                ImproveOptions& options, const RoundingOptions& rounding = {},
+                                const Run& run = {});
+
+/// A mesh that was simplified, and the improved one.
+struct ImprovedAtResolution {
+    Simplified simplified;
+    ImprovedAndMeasured improved;
+};
+
+/// Simplifies a mesh, improves it, and shows that both together have moved no surface by more than
+/// the resolution. Errors: those of simplify_for() and improve_and_measure(); bad_option (that is
+/// not shown).
+Result<ImprovedAtResolution> improve_at_resolution(const ConformingMesh& mesh,
+                                                   const Resolution& resolution,
+                                                   ImproveOptions options,
+                                                   const RoundingOptions& rounding = {},
+                                                   const Run& run = {});
+
+/// Simplifies the surfaces of `arranged` as simplify_for() does; its mesh must be conforming. Its surfaces,
+/// arrangement and mesh become the simplified ones, and `simplified` says what changed.
 Status simplify_to(const Resolution& resolution, ImproveOptions& options,
                    const RoundingOptions& rounding, Arranged& arranged, const Run& run = {});
 

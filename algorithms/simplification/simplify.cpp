@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -56,6 +57,28 @@ Status check_options(const Mesh& mesh, const SimplifyOptions& options) {
         return bad_resolution(
             fmt::format("must be less than the extent of the model, {:.6g}", extent));
     return Done{};
+}
+
+/// Puts vertices back on those sides of the boundary that were in a plane parallel to two axes: where
+/// improve() projects to such a plane, a rounding error may be left, and sides would not be planes.
+void put_on_planes(const Mesh& before, Mesh& mesh) {
+    for (double Point3::*const axis : {&Point3::x, &Point3::y, &Point3::z}) {
+        std::vector<std::optional<double>> plane(before.surfaces.size()); // NaN: none
+        for (std::size_t t = 0; t < before.triangles.size(); ++t)
+            for (const std::uint32_t s : before.surfaces_of[t])
+                for (const std::uint32_t v : before.triangles[t]) {
+                    const double at = before.vertices[v].*axis;
+                    if (plane[s].value_or(at) != at) // also where it is NaN
+                        plane[s] = std::nan("");
+                    else
+                        plane[s] = at;
+                }
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+            for (const std::uint32_t s : mesh.surfaces_of[t])
+                if (mesh.surfaces[s].role == Role::boundary && plane[s] && !std::isnan(*plane[s]))
+                    for (const std::uint32_t v : mesh.triangles[t])
+                        mesh.vertices[v].*axis = *plane[s];
+    }
 }
 
 /// Simplifies one mesh.
@@ -112,6 +135,7 @@ private:
         before_ = is_good ? renumbered(*volumes, improved->volume_before,
                                        improved->volumes_before.measures.size())
                           : std::move(*volumes);
+        put_on_planes(*given_, first_.mesh);
         return Done{};
     }
 
@@ -180,7 +204,7 @@ private:
         }
         for (std::uint32_t v = 1; v < volumes.measures.size(); ++v) {
             const std::uint32_t b = result_.block_before[v];
-            const bool is_part = b == none || largest[b] != v;
+            const bool is_part = b == none || b == 0 || largest[b] != v;
             const double most = (is_part ? tuning.part_share : 1) * options_.resolution;
             if (thickness[v] < most && (is_part || options_.dissolve)) blocks.push_back(v);
         }
@@ -196,8 +220,8 @@ private:
             result_.block_before = simplification::detail::matched_blocks(before_, after);
             const auto blocks = to_dissolve(*volumes);
             if (round < tuning.rounds && !blocks.empty() &&
-                simplification::detail::dissolve(after.mesh, *volumes, blocks, current_.cells) >
-                    0) {
+                simplification::detail::dissolve(after.mesh, *volumes, blocks, result_.block_before,
+                                                 current_.cells) > 0) {
                 const Complex complex(current_.mesh.vertices, current_.past, current_.cells,
                                       current_.mesh.surfaces);
                 if (auto done = arrange_again(complex); !done) return done;
@@ -228,6 +252,7 @@ private:
         bool any = false;
         for (const ChangedBlock& change : result_.report.blocks) {
             if (change.parts == 0 && options_.dissolve) continue;
+            if (change.block == 0) continue; // nearly all surfaces may be at it
             any = any || !locked[change.block];
             locked[change.block] = true;
         }

@@ -21,11 +21,13 @@
 #include <terrane/algorithms/layers/layers.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/algorithms/regions/regions.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/simplification/simplify.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/tetgen/fill_blocks.hpp>
 #include <terrane/algorithms/verify/verify.hpp>
@@ -66,6 +68,7 @@ enum class Kind : std::uint64_t {
     tetrahedra,
     verdict,
     built,
+    simplified,
 };
 
 /// The base of handles: their type comes first in memory.
@@ -157,6 +160,16 @@ struct terrane_improved : terrane::capi::detail::Handle<terrane::capi::detail::K
     terrane::SharedMesh before; ///< the mesh that was improved
     terrane_mesh mesh;
     terrane_improve_report report{};
+};
+
+struct terrane_simplified : terrane::capi::detail::Handle<terrane::capi::detail::Kind::simplified> {
+    explicit terrane_simplified(terrane::Simplified made, const terrane_mesh& before);
+
+    terrane::AtResolution at; ///< the mesh before, and what was joined
+    terrane_surfaces surfaces{};
+    terrane_arrangement arrangement;
+    terrane_mesh mesh;
+    std::vector<std::uint32_t> block_before;
 };
 
 struct terrane_sealed : terrane::capi::detail::Handle<terrane::capi::detail::Kind::sealed> {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
@@ -28,18 +31,60 @@ py::dict dict_of_improvement(const ImproveReport& r) {
                     "worst_cause"_a = to_text(name_of(r.worst_cause)));
 }
 
+py::dict dict_of_joined(const SimplifyReport& r) {
+    py::list blocks, block_contacts, surface_contacts, left, deviations;
+    for (const ChangedBlock& b : r.blocks)
+        blocks.append(py::dict("block"_a = b.block, "volume"_a = b.volume, "parts"_a = b.parts,
+                               "into"_a = b.into));
+    const auto add = [](py::list& list, const ChangedContact& c) {
+        list.append(py::make_tuple(c.between[0], c.between[1], c.is_new));
+    };
+    for (const ChangedContact& c : r.block_contacts) add(block_contacts, c);
+    for (const ChangedContact& c : r.surface_contacts) add(surface_contacts, c);
+    for (const LeftAlone& l : r.left)
+        left.append(py::make_tuple(l.distance, py::make_tuple(l.place.x, l.place.y, l.place.z),
+                                   to_text(std::string(name_of(l.reason)))));
+    for (const Deviation& d : r.deviations) deviations.append(py::make_tuple(d.out, d.back));
+    return py::dict("length"_a = r.resolution, "max_move"_a = r.max_move, "corners"_a = r.corners,
+                    "curves"_a = r.curves, "surfaces"_a = r.sheets, "divided"_a = r.divided,
+                    "rounds"_a = r.rounds, "attempts"_a = r.attempts, "blocks"_a = blocks,
+                    "block_contacts"_a = block_contacts, "surface_contacts"_a = surface_contacts,
+                    "vanished"_a = r.vanished, "kept_blocks"_a = r.kept,
+                    "deviations"_a = deviations, "left_alone"_a = left);
+}
+
+/// An improved mesh, and what was joined at a resolution before.
+struct ImprovedMesh {
+    ImprovedAndMeasured made;
+    std::optional<SimplifyReport> joined;
+};
+
+Result<ImprovedMesh> improved_mesh(const MeshPointer& mesh, const Resolution& resolution,
+                                   ImproveOptions options, const Run& run) {
+    if (resolution.length == 0) {
+        auto made = improve_and_measure(*mesh->conforming, options, run);
+        if (!made) return made.error();
+        return ImprovedMesh{std::move(*made), {}};
+    }
+    auto made = improve_at_resolution(*mesh->conforming, resolution, options, {}, run);
+    if (!made) return made.error();
+    return ImprovedMesh{std::move(made->improved), std::move(made->simplified.report)};
+}
+
 py::tuple improve_mesh(const MeshPointer& mesh, const py::dict& options, const HowToRun& how) {
     if (!mesh->conforming) throw std::logic_error("a mesh without proof is improved");
-    const auto made = run_stage(how, [mesh, o = to_improve_options(options)](const Run& run) {
-        return improve_and_measure(*mesh->conforming, o, run);
-    });
+    const auto found =
+        run_stage(how, [mesh, resolution = to_resolution(options), o = to_improve_options(options)](
+                           const Run& run) { return improved_mesh(mesh, resolution, o, run); });
+    const ImprovedAndMeasured& made = found.made;
     const Improved& improved = made.improved;
     std::vector<std::array<double, 2>> deviations;
     for (const Deviation& d : made.deviations) deviations.push_back({d.out, d.back});
     return py::make_tuple(handle_of(improved.mesh, improved.conforming),
                           std::make_shared<Volumes>(improved.volumes), owned(improved.near_of),
                           owned(improved.report.bound_of), owned(made.bounds_back),
-                          owned(std::move(deviations)), dict_of_improvement(improved.report));
+                          owned(std::move(deviations)), dict_of_improvement(improved.report),
+                          found.joined ? py::object(dict_of_joined(*found.joined)) : py::none());
 }
 
 } // namespace
@@ -65,6 +110,13 @@ ImproveOptions to_improve_options(const py::dict& given) {
     set("max_volume_change", o.max_volume_change);
     set("max_triangles", o.max_triangles);
     return o;
+}
+
+Resolution to_resolution(const py::dict& given) {
+    Resolution resolution;
+    if (given.contains("resolution")) resolution.length = given["resolution"].cast<double>();
+    if (given.contains("dissolve")) resolution.dissolve = given["dissolve"].cast<bool>();
+    return resolution;
 }
 
 void bind_improve(py::module_& module) {

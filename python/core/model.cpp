@@ -81,22 +81,37 @@ Result<std::shared_ptr<ModelHandle>> made(std::vector<Surface> surfaces,
     return handle;
 }
 
+/// Joins what is nearer than the resolution, which a model is then about, and improves the rest.
+Result<ImprovedAndMeasured> joined_and_improved(ModelHandle& handle, const Resolution& resolution,
+                                                const ImproveOptions& options, const Run& run) {
+    auto made = improve_at_resolution(*handle.rounded, resolution, options, {}, run);
+    if (!made) return made.error();
+    handle.exact = std::make_shared<const Arrangement>(std::move(made->simplified.exact));
+    handle.rounding = made->simplified.rounded.report;
+    handle.rounded = made->simplified.rounded.conforming;
+    return std::move(made->improved);
+}
+
 /// Makes the same model with better triangles. Blocks keep their numbers, and what is known about gaps stays.
 ModelPointer improved(const ModelPointer& old, const py::dict& options, const HowToRun& how) {
     if (!old->exact)
         throw Failure{{ErrorCode::unsupported,
                        "a project improves its model itself, by its key improve", ""}};
-    auto made = run_stage(
-        how, [old, o = to_improve_options(options)](const Run& run) -> Result<ModelHandle> {
-            const auto better = improve_and_measure(*old->rounded, o, run);
-            if (!better) return better.error();
-            auto model = make_model(*old->exact, *old->rounded, better->improved, run,
-                                    {.column = old->column});
-            if (!model) return model.error();
-            ModelHandle handle = *old;
-            handle.model = std::move(*model);
-            return handle;
-        });
+    auto made = run_stage(how,
+                          [old, resolution = to_resolution(options),
+                           o = to_improve_options(options)](const Run& run) -> Result<ModelHandle> {
+                              ModelHandle handle = *old;
+                              auto better = resolution.length > 0
+                                                ? joined_and_improved(handle, resolution, o, run)
+                                                : improve_and_measure(*old->rounded, o, run);
+                              if (!better) return better.error();
+                              auto model =
+                                  make_model(*handle.exact, *handle.rounded, better->improved, run,
+                                             {.column = old->column});
+                              if (!model) return model.error();
+                              handle.model = std::move(*model);
+                              return handle;
+                          });
     return std::make_shared<ModelHandle>(std::move(made));
 }
 

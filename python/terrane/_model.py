@@ -182,7 +182,8 @@ class Model(Result):
                  **options: Any) -> "Model":
         """Return the same model with better triangles; see `terrane.improve` for the options.
 
-        Blocks keep their numbers and names. Volumes are those of the improved mesh.
+        Blocks keep their numbers and names. Volumes are those of the improved mesh. With a resolution, the blocks are those
+        of the surfaces that were joined at it, as `build` has them.
 
         Examples
         --------

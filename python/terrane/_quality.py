@@ -18,7 +18,7 @@ from ._surface import as_surface, parts_of_surfaces
 
 _OPTIONS = ("edge_length", "max_deviation", "curve_length", "turn", "layers_in_gaps", "smallest", "growth",
             "crease_angle", "curve_angle", "thickness_share", "least_quality", "max_volume_change",
-            "max_triangles")
+            "max_triangles", "resolution")
 
 
 class Improved(Result):
@@ -37,6 +37,8 @@ class Improved(Result):
         Per surface the measured distance from the new to the old mesh, and back.
     report : dict
         Counts of changes, and why the worst triangle cannot be better.
+    resolution : dict, or None
+        What was joined at a resolution, and how blocks and contacts changed by it; None: nothing was asked for.
 
     Examples
     --------
@@ -51,16 +53,17 @@ class Improved(Result):
     True
     """
 
-    __slots__ = ("mesh", "volumes", "near_of", "bounds", "deviations", "report")
+    __slots__ = ("mesh", "volumes", "near_of", "bounds", "deviations", "report", "resolution")
 
     def __init__(self, mesh: Mesh, volumes: Volumes, near_of: UInt32Array, bounds: Float64Array,
-                 deviations: Float64Array, report: Dict[str, Any]) -> None:
+                 deviations: Float64Array, report: Dict[str, Any], resolution: Optional[Dict[str, Any]] = None) -> None:
         self.mesh = mesh
         self.volumes = volumes
         self.near_of = near_of
         self.bounds = bounds
         self.deviations = deviations
         self.report = report
+        self.resolution = resolution
 
     def save(self, path: Path, format: Optional[str] = None, **options: Any) -> None:
         """Write the mesh; see `Mesh.save`.
@@ -124,7 +127,7 @@ class Improved(Result):
 
     def _state(self) -> Tuple[Any, ...]:
         return (self.mesh._state(), self.volumes.of_sides, self.volumes.measures, self.near_of, self.bounds,
-                self.deviations, self.report)
+                self.deviations, self.report, self.resolution)
 
     @classmethod
     def _from_state(cls, *state: Any) -> "Improved":
@@ -146,8 +149,11 @@ class Improved(Result):
 def improve_options(mesh: Mesh, edge_length: float, options: Mapping[str, Any]) -> Dict[str, Any]:
     """Return the options of `improve`, checked."""
     values: Dict[str, Any] = {"passes": as_count(options.get("passes", 6), "passes", 1, 100)}
+    values["dissolve"] = bool(options.get("dissolve", False))
+    if values["dissolve"] and not options.get("resolution"):
+        raise bad_option("needs a resolution", "dissolve")
     for name, value in {"edge_length": edge_length, **options}.items():
-        if name in ("passes", "edge_length_of"):
+        if name in ("passes", "edge_length_of", "dissolve"):
             continue
         if name not in _OPTIONS:
             raise TypeError(f"improve() has no option {name}; it has {', '.join(_OPTIONS)}")
@@ -167,6 +173,7 @@ def improve_options(mesh: Mesh, edge_length: float, options: Mapping[str, Any]) 
 
 def improve(mesh: Any, edge_length: float = 0, *, max_deviation: float = 0,
             edge_length_of: Optional[Mapping[str, float]] = None, passes: int = 6,
+            resolution: float = 0, dissolve: bool = False,
             threads: Optional[int] = None, progress: Any = None, **options: float) -> Improved:
     """Remesh a conforming mesh with better triangles.
 
@@ -181,6 +188,11 @@ def improve(mesh: Any, edge_length: float = 0, *, max_deviation: float = 0,
         Lengths by surface.
     passes : int, optional
         Rounds of the four operations, 1 to 100.
+    resolution : float, optional
+        Places that are nearer are joined first, where they can be; 0: none are. Experimental, see
+        docs/explanation/resolution.md. No surface moves by more, or there is an error.
+    dissolve : bool, optional
+        Blocks that are thinner than the resolution, on average, may go.
     **options : float
         curve_length, turn, layers_in_gaps, smallest, growth, crease_angle, curve_angle, thickness_share,
         least_quality, max_volume_change, max_triangles: as in docs/how-to/improve.md.
@@ -192,13 +204,21 @@ def improve(mesh: Any, edge_length: float = 0, *, max_deviation: float = 0,
     >>> better = terrane.improve(mesh, 0.25)
     >>> len(better.mesh.triangles) > 100, better.report["sides_kept"]
     (True, True)
+    >>> flat = [terrane.Surface([[0, 0, z], [4, 0, z], [4, 4, z], [0, 4, z]], [[0, 1, 2], [0, 2, 3]], f"h{z}", "horizon")
+    ...         for z in (0, 0.1)]
+    >>> joined = terrane.improve(terrane.model(flat, box=((0, 0, -1), (4, 4, 2))).mesh, 1.0, resolution=0.3,
+    ...                          dissolve=True)
+    >>> len(joined.volumes.measures), [block["parts"] for block in joined.resolution["blocks"]]
+    (3, [0])
     """
     whole = proven(mesh_of(mesh), threads, progress)
     values = improve_options(whole, edge_length, {"max_deviation": max_deviation, "passes": passes,
-                                                  "edge_length_of": edge_length_of, **options})
-    core, volumes, near_of, bounds, _, deviations, report = _core.improve(whole._core, values, how(threads, progress))
+                                                  "edge_length_of": edge_length_of, "resolution": resolution,
+                                                  "dissolve": dissolve, **options})
+    core, volumes, near_of, bounds, _, deviations, report, joined = _core.improve(whole._core, values,
+                                                                                  how(threads, progress))
     made = Mesh(core)
-    return Improved(made, Volumes(volumes, made), near_of, bounds, deviations, report)
+    return Improved(made, Volumes(volumes, made), near_of, bounds, deviations, report, joined)
 
 
 def distance(from_surface: Any, to_surface: Any, *, threads: Optional[int] = None, progress: Any = None) -> float:

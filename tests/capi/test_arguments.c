@@ -47,6 +47,10 @@ static void test_getters(void* h) {
     NO_LISTS(terrane_regions_of_triangles(h, &lists));
     CHECK(terrane_improved_mesh(h) == NULL);
     NOTHING(terrane_improved_bounds(h, &n));
+    CHECK(terrane_simplified_surfaces(h) == NULL && terrane_simplified_arrangement(h) == NULL);
+    CHECK(terrane_simplified_mesh(h) == NULL);
+    NOTHING(terrane_simplified_block_before(h, &n));
+    NOTHING(terrane_simplified_kept(h, &n));
     CHECK(terrane_sealed_surfaces(h) == NULL && terrane_sealed_arrangement(h) == NULL);
     NOTHING(terrane_sealed_changes(h, &n));
     NOTHING(terrane_sealed_closed(h, &n));

@@ -56,6 +56,65 @@ static void test_volumes(void) {
     terrane_surfaces_free(s);
 }
 
+/// Two horizons that are 0.2 apart on one half and a fault: what is nearer than 0.5 is joined.
+static void test_resolution(void) {
+    const double low[] = {0, 0, 0, 10, 0, 0, 10, 10, 0, 0, 10, 0};
+    const double high[] = {0, 0, 0.2, 10, 0, 4, 10, 10, 4, 0, 10, 0.2};
+    const double corner[] = {-1, -1, -4}, opposite[] = {11, 11, 6};
+    const uint32_t square[] = {0, 1, 2, 0, 2, 3};
+    terrane_surfaces *s = NULL, *box = NULL;
+    terrane_arrangement* a = NULL;
+    terrane_mesh* mesh = NULL;
+    WORKS(terrane_surfaces_new(&s, &error));
+    WORKS(terrane_surfaces_add(s, "low", TERRANE_ROLE_HORIZON, low, 4, square, 2, &error));
+    WORKS(terrane_surfaces_add(s, "high", TERRANE_ROLE_HORIZON, high, 4, square, 2, &error));
+    WORKS(terrane_box_boundary(corner, opposite, &box, &error));
+    WORKS(terrane_surfaces_append(s, box, &error));
+    WORKS(terrane_arrange(s, NULL, NULL, &a, &error));
+    WORKS(terrane_round(a, NULL, NULL, &mesh, &error));
+    terrane_simplify_options options;
+    CHECK(terrane_simplify_options_init(&options, sizeof options) == TERRANE_OK);
+    terrane_simplified* simple = NULL;
+    FAILS(TERRANE_BAD_OPTION, terrane_simplify(mesh, &options, NULL, &simple, &error));
+    options.resolution = 0.5;
+    options.max_move = 0.4;
+    WORKS(terrane_simplify(mesh, &options, NULL, &simple, &error));
+    terrane_simplify_report report;
+    CHECK(terrane_simplified_get_report(simple, &report, sizeof report) == TERRANE_OK);
+    CHECK(report.corners + report.curves + report.sheets > 0 && report.max_move == 0.4);
+    CHECK(report.vanished == 0 && report.attempts >= 1);
+    CHECK(terrane_surfaces_count(terrane_simplified_surfaces(simple)) == 8);
+    const terrane_mesh* const joined = terrane_simplified_mesh(simple);
+    CHECK(terrane_mesh_is_conforming(joined) == 1);
+    size_t n = 0, volumes = 0;
+    const uint32_t* const before = terrane_simplified_block_before(simple, &n);
+    terrane_simplified_kept(simple, NULL);
+    terrane_improve_options better;
+    CHECK(terrane_improve_options_init(&better, sizeof better) == TERRANE_OK);
+    better.max_deviation = 0.1;
+    terrane_improved *improved = NULL, *other = NULL;
+    WORKS(terrane_improve(joined, &better, NULL, &improved, &error));
+    int32_t is_shown = -1;
+    WORKS(terrane_simplified_keeps_resolution(simple, improved, NULL, &is_shown, &error));
+    CHECK(is_shown == 1);
+    terrane_model* model = NULL;
+    WORKS(terrane_make_model(terrane_simplified_arrangement(simple), joined, improved, NULL, NULL,
+                             &model, &error));
+    terrane_volumes_measures(terrane_model_volumes(model), &volumes);
+    CHECK(volumes == n && n >= 2 && before[0] == 0);
+    WORKS(terrane_improve(mesh, &better, NULL, &other, &error));
+    FAILS(TERRANE_BAD_OPTION,
+          terrane_simplified_keeps_resolution(simple, other, NULL, &is_shown, &error));
+    terrane_improved_free(other);
+    terrane_model_free(model);
+    terrane_improved_free(improved);
+    terrane_simplified_free(simple);
+    terrane_mesh_free(mesh);
+    terrane_arrangement_free(a);
+    terrane_surfaces_free(box);
+    terrane_surfaces_free(s);
+}
+
 struct chain {
     terrane_surfaces* surfaces;
     terrane_arrangement* whole;
@@ -218,6 +277,7 @@ static void test_models(struct chain c) {
 
 void test_model(void) {
     test_volumes();
+    test_resolution();
     const struct chain c = make_chain();
     test_models(c);
     test_column(c);

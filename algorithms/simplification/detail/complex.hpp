@@ -58,6 +58,10 @@ struct Past {
 
     /// Bounds the distance from a place to these points.
     [[nodiscard]] double reach(const Point3& place) const;
+    /// Returns the place from which the farthest of these points is least far.
+    [[nodiscard]] Point3 middle() const {
+        return {low.x / 2 + high.x / 2, low.y / 2 + high.y / 2, low.z / 2 + high.z / 2};
+    }
     /// Stands for the points of another vertex, too.
     void unite(const Past& other);
 };

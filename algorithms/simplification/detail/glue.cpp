@@ -138,7 +138,11 @@ private:
     [[nodiscard]] std::array<Point3, 3> choices(const NearPlaces& c, const PlacedVertex& v,
                                                 const PlacedVertex& w) const {
         const Point3 &p = v.place, &q = w.place;
-        const Point3 middle{p.x / 2 + q.x / 2, p.y / 2 + q.y / 2, p.z / 2 + q.z / 2};
+        // Between where the points of both were, not between where they have come to: then both
+        // sides move alike, and as little as they can.
+        Past past = v.past;
+        past.unite(w.past);
+        const Point3 middle = past.middle();
         const Kind a = kind_of(c.from), b = kind_of(c.to);
         const bool first_stays = v.freedom.is_pinned || (!w.freedom.is_pinned && a < b);
         const bool second_stays = w.freedom.is_pinned || (!v.freedom.is_pinned && b < a);

@@ -29,10 +29,11 @@ bool is_boundary(const Mesh& mesh, const std::vector<std::uint32_t>& surfaces) {
 }
 
 /// Returns the triangles of the largest interface that may go; none if there is no such.
-std::vector<std::uint32_t> largest(const Mesh& mesh, const Interfaces& interfaces) {
+std::vector<std::uint32_t> largest(const Mesh& mesh, const Interfaces& interfaces, bool may_open) {
     const std::pair<double, std::vector<std::uint32_t>>* best = nullptr;
     for (const auto& [key, face] : interfaces.all)
-        if (key.first != 0 && !is_boundary(mesh, key.second) && (!best || face.first > best->first))
+        if ((key.first != 0 || may_open) && !is_boundary(mesh, key.second) &&
+            (!best || face.first > best->first))
             best = &face;
     return best ? best->second : std::vector<std::uint32_t>{};
 }
@@ -61,7 +62,8 @@ std::vector<double> thicknesses(const Mesh& mesh, const Volumes& volumes) {
 }
 
 std::size_t dissolve(const Mesh& mesh, const Volumes& volumes,
-                     std::span<const std::uint32_t> blocks, std::vector<Cell>& cells) {
+                     std::span<const std::uint32_t> blocks,
+                     std::span<const std::uint32_t> block_before, std::vector<Cell>& cells) {
     std::map<std::uint32_t, Interfaces> wanted;
     for (const std::uint32_t b : blocks) wanted[b];
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
@@ -78,7 +80,7 @@ std::size_t dissolve(const Mesh& mesh, const Volumes& volumes,
     std::vector<bool> is_used(volumes.measures.size()); // blocks that changed, or whose sides did
     for (const auto& [block, interfaces] : wanted) {
         if (is_used[block]) continue;
-        const auto gone = largest(mesh, interfaces);
+        const auto gone = largest(mesh, interfaces, block_before[block] == 0);
         if (gone.empty()) continue;
         ++count;
         const Cell& first = cells[gone.front()];

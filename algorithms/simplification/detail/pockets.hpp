@@ -22,8 +22,10 @@ namespace terrane::simplification::detail {
 std::vector<double> thicknesses(const Mesh& mesh, const Volumes& volumes);
 
 /// Dissolves blocks in the cells of a mesh, as long as they do not touch one another. Returns how
-/// many it dissolved; blocks that have no interface but the boundary and the outside stay.
+/// many it dissolved; blocks that have no interface but the boundary and the outside stay, unless they
+/// were outside themselves. `block_before`: per volume, the one that it was.
 std::size_t dissolve(const Mesh& mesh, const Volumes& volumes,
-                     std::span<const std::uint32_t> blocks, std::vector<Cell>& cells);
+                     std::span<const std::uint32_t> blocks,
+                     std::span<const std::uint32_t> block_before, std::vector<Cell>& cells);
 
 } // namespace terrane::simplification::detail

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <queue>
 #include <unordered_map>
 #include <utility>
@@ -32,6 +33,26 @@ double way_across(const Point3& x, const Point3& y, const Point3& a, const Point
     return way((low + high) / 2);
 }
 
+/// Returns the normal of the plane through two places that contains the shortest way between them
+/// across the line in which two planes meet, if each place is on one of these. None: they are
+/// parallel.
+std::optional<Point3> section_across(const Point3& x, const Point3& of_x, const Point3& y,
+                                     const Point3& of_y) {
+    const Point3 line = cross(of_x, of_y);
+    const Point3 from_x = cross(line, of_x), from_y = cross(line, of_y);
+    const double slope_x = dot(from_x, of_y), slope_y = dot(from_y, of_x);
+    if (slope_x == 0 || slope_y == 0) return std::nullopt;
+    const Point3 way = minus(y, x);
+    const auto foot = [](const Point3& p, const Point3& along, double share) {
+        return Point3{p.x + share * along.x, p.y + share * along.y, p.z + share * along.z};
+    };
+    const Point3 a = foot(x, from_x, dot(way, of_y) / slope_x);
+    const Point3 b = foot(y, from_y, -dot(way, of_x) / slope_y);
+    const double to_a = between(x, a), to_b = between(y, b);
+    if (!(to_a + to_b > 0)) return std::nullopt;
+    return cross(way, minus(foot(a, minus(b, a), to_a / (to_a + to_b)), x));
+}
+
 } // namespace
 
 std::vector<std::uint32_t> Ways::cells_of(const Place& place) const {
@@ -57,6 +78,61 @@ bool Ways::meet_at_edge(const NearPlaces& c, double limit) const {
             if (count == 2 && way_across(x, y, complex_.points()[common[0]],
                                          complex_.points()[common[1]]) < limit)
                 return true;
+        }
+    return false;
+}
+
+/// Follows the section of the surfaces with a plane through both places, from edge to edge.
+bool Ways::meet_in_section(const NearPlaces& c, const Point3& normal, double limit) const {
+    struct Step {
+        std::uint32_t cell;
+        Point3 at;
+        double way;
+    };
+    const auto& points = complex_.points();
+    const Point3 x = at(c.from), y = at(c.to);
+    const auto height = [&](std::uint32_t v) { return dot(minus(points[v], x), normal); };
+    const auto goals = cells_of(c.to);
+    std::vector<Step> front;
+    for (const std::uint32_t t : cells_of(c.from)) front.push_back({t, x, 0});
+    std::unordered_map<std::uint32_t, double> best;
+    while (!front.empty()) {
+        const Step step = front.back();
+        front.pop_back();
+        const auto [known, is_new] = best.try_emplace(step.cell, step.way);
+        if (!is_new && known->second <= step.way) continue;
+        known->second = step.way;
+        if (step.way + between(step.at, y) >= limit) continue;
+        if (std::find(goals.begin(), goals.end(), step.cell) != goals.end()) return true;
+        const Triangle& corners = complex_.cells()[step.cell].corners;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = corners[i], b = corners[(i + 1) % 3];
+            const double h = height(a), k = height(b);
+            if ((h > 0) == (k > 0)) continue;
+            const double share = h / (h - k);
+            const Point3 &p = points[a], &q = points[b];
+            const Point3 next{p.x + share * (q.x - p.x), p.y + share * (q.y - p.y),
+                              p.z + share * (q.z - p.z)};
+            for (const std::uint32_t t : complex_.star(a, b))
+                if (t != step.cell) front.push_back({t, next, step.way + between(step.at, next)});
+        }
+    }
+    return false;
+}
+
+Point3 Ways::normal_of(std::uint32_t cell) const {
+    const auto& [a, b, c] = complex_.cells()[cell].corners;
+    const auto& p = complex_.points();
+    return cross(minus(p[b], p[a]), minus(p[c], p[a]));
+}
+
+/// Tries the sections that contain the shortest way if the cells at both places go on as planes.
+bool Ways::meet_in_a_section(const NearPlaces& c, double limit) const {
+    const Point3 x = at(c.from), y = at(c.to);
+    for (const std::uint32_t s : cells_of(c.from))
+        for (const std::uint32_t t : cells_of(c.to)) {
+            const auto normal = section_across(x, normal_of(s), y, normal_of(t));
+            if (normal && meet_in_section(c, *normal, limit)) return true;
         }
     return false;
 }
@@ -97,7 +173,8 @@ bool Ways::are_far(const NearPlaces& c, bool along_curves) const {
 }
 
 bool Ways::are_far_along_surfaces(const NearPlaces& c) const {
-    return !meet_at_edge(c, tuning.far_along * c.distance) && are_far(c, false);
+    const double limit = tuning.far_along * c.distance;
+    return !meet_at_edge(c, limit) && are_far(c, false) && !meet_in_a_section(c, limit);
 }
 
 bool Ways::are_far_along_curves(const NearPlaces& c) const {

@@ -25,6 +25,8 @@
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
+#include <terrane/algorithms/simplification/detail/pockets.hpp>
+#include <terrane/algorithms/simplification/detail/traced_mesh.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
@@ -174,9 +176,8 @@ void check_sides(const Mesh& mesh) {
             continue;
         const auto all_at = [&](double Point3::*axis, double value) {
             const Triangle& c = mesh.triangles[t];
-            return std::all_of(c.begin(), c.end(), [&](std::uint32_t v) {
-                return std::abs(mesh.vertices[v].*axis - value) <= 1e-9;
-            });
+            return std::all_of(c.begin(), c.end(),
+                               [&](std::uint32_t v) { return mesh.vertices[v].*axis == value; });
         };
         const Point3& corner = mesh.vertices[mesh.triangles[t][0]];
         INFO("at " << corner.x << " " << corner.y << " " << corner.z);
@@ -299,6 +300,56 @@ TEST_CASE("simplify: a sharp wedge is zipped, not farther than where it is open"
     CHECK(common.triangles > 0);
     CHECK(common.from > 50 - 20 - 9);
     CHECK(common.to < 50 + 20 + 9);
+}
+
+TEST_CASE("simplify: a wedge of more than 20 degrees stays open", "[simplification]") {
+    for (const double slope : {0.4, 0.5}) { // 21.8 and 26.6 degrees
+        const auto a =
+            in_box({sheet_over_box([](double) { return 30.0; }, "flat"),
+                    sheet_over_box([&](double x) { return 30 + slope * (x - 50); }, "inclined")});
+        const auto s = simplified(a, 3);
+        INFO("slope " << slope);
+        CHECK(s.report.sheets == 0);
+        CHECK(s.report.curves == 0);
+        CHECK(common_part(s.rounded.mesh, "flat", "inclined").triangles == 0);
+    }
+}
+
+TEST_CASE("simplify: two surfaces that are joined move alike", "[simplification]") {
+    const auto a = in_box({sheet_over_box([](double) { return 30.0; }, "low"),
+                           sheet_over_box([](double) { return 33.0; }, "high")});
+    const auto s = simplified(a, 6, true);
+    const Mesh& after = s.rounded.mesh;
+    std::size_t halfway = 0, all = 0;
+    for (std::size_t t = 0; t < after.triangles.size(); ++t)
+        for (const std::uint32_t i : after.surfaces_of[t])
+            if (after.surfaces[i].role != Role::boundary)
+                for (const std::uint32_t v : after.triangles[t]) {
+                    ++all;
+                    halfway += after.vertices[v].z == Approx(31.5) ? 1 : 0;
+                }
+    INFO(halfway << " of " << all);
+    CHECK(halfway > all * 8 / 10); // some at the sides of the box are left alone
+}
+
+TEST_CASE("simplify: a pocket that was outside opens to it, a block does not", "[simplification]") {
+    Surface pocket = tetrahedron({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, "pocket");
+    pocket.role = Role::fault;
+    const auto exact = arrange(std::vector{pocket});
+    REQUIRE(exact);
+    const auto rounded = round_to_doubles(*exact);
+    REQUIRE(rounded);
+    const auto traced = simplification::detail::traced(rounded->mesh);
+    const auto volumes = find_volumes(traced.mesh);
+    REQUIRE(volumes);
+    REQUIRE(volumes->block_count() == 1);
+    const std::vector<std::uint32_t> blocks{1};
+    for (const std::uint32_t before : {0U, 1U}) {
+        auto cells = traced.cells;
+        const std::vector<std::uint32_t> block_before{0, before};
+        CHECK(simplification::detail::dissolve(traced.mesh, *volumes, blocks, block_before,
+                                               cells) == (before == 0 ? 1 : 0));
+    }
 }
 
 TEST_CASE("simplify: a thin layer stays and is listed, or is dissolved", "[simplification]") {
