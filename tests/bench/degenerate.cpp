@@ -136,8 +136,8 @@ bool print_family(const Family& family, const Settings& settings) {
     for (const int n : {family.n, 2 * family.n, 4 * family.n}) {
         const Measured m = measured_apart(family, n, settings);
         if (m.size() == 0) return false;
-        std::printf("%-16s %6d %8.0f %9.0f %10.0f %10.0f %9.3f %8.1f", family.name, n,
-                    m.input, m.triangles, m.parents, m.neighbours, m.seconds, m.bytes / 1e6);
+        std::printf("%-16s %6d %8.0f %9.0f %10.0f %10.0f %9.3f %8.1f", family.name, n, m.input,
+                    m.triangles, m.parents, m.neighbours, m.seconds, m.bytes / 1e6);
         const double per_entry = m.bytes / m.size();
         if (before.size() > 0) {
             const double time = exponent(before.seconds, m.seconds, before.size(), m.size());
@@ -172,8 +172,9 @@ Settings settings_of(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     const Settings settings = settings_of(argc, argv);
-    std::printf("%-16s %6s %8s %9s %10s %10s %9s %8s %7s %7s %8s %9s\n", "degenerate", "n",
-                "input", "output", "parents", "neighbours", "seconds", "MB", "time^", "memory^", "B/tri", "B/entry");
+    std::printf("%-16s %6s %8s %9s %10s %10s %9s %8s %7s %7s %8s %9s\n", "degenerate", "n", "input",
+                "output", "parents", "neighbours", "seconds", "MB", "time^", "memory^", "B/tri",
+                "B/entry");
     int result = 0;
     for (const Family& family : families()) {
         const auto& names = settings.names;
