@@ -162,7 +162,7 @@ private:
     void new_line(int level) {
         if (indent_ < 0) return;
         text += '\n';
-        text.append(static_cast<std::size_t>(indent_ * level), ' ');
+        text.append(static_cast<std::size_t>(indent_) * static_cast<std::size_t>(level), ' ');
     }
     // Values without others in them need no memory to be destroyed.
     void quote(const std::string& string) {
