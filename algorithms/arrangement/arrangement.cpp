@@ -246,7 +246,8 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     step.next("search");
     const Search used = method_used(options.search, soup.triangles.size());
     Pencils pencils;
-    const auto candidates = find_candidates(soup, patches.of, used, pencils, run);
+    const auto candidates =
+        find_candidates(soup, patches.of, used, pencils, part_of_stage(run, "arrange", 0.1, 0.3));
     TERRANE_ASSERT_PARANOID(is_sorted_unique(candidates));
     step.stop();
     report(0.3);

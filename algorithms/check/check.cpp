@@ -85,8 +85,9 @@ Result<CheckReport> check_valid(std::span<const Surface> surfaces, const Run& ru
     sort_out_duplicates(soup, report);
     report.vertices = count_used(soup);
     describe_edges(soup, report);
-    const auto candidates = candidate_pairs({soup.points, soup.triangles}, {}, Search::automatic);
     constexpr double search_share = 0.3; // of the time
+    const auto candidates = candidate_pairs({soup.points, soup.triangles}, {}, Search::automatic,
+                                            part_of_stage(run, "check", 0, search_share));
     report_part(run, "check", 0, search_share, 1, 1);
     constexpr std::size_t wave = 1U << 20U; // pairs between two reports of the progress
     for (std::size_t start = 0; start < candidates.size(); start += wave) {

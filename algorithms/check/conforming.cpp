@@ -11,6 +11,7 @@
 #include <terrane/algorithms/check/count_pairs.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
@@ -78,7 +79,8 @@ std::optional<CandidatePair> first_contact(std::span<const Point3> points,
     const auto improper = [&](const CandidatePair& p) {
         return improper_contact(points, triangles[p.first], triangles[p.second]).has_value();
     };
-    const auto pairs = candidate_pairs_of({points, triangles}, all, patches, improper, run);
+    const auto pairs =
+        candidate_pairs_of({points, triangles}, all, patches, improper, without_progress(run));
     return pairs.empty() ? std::nullopt : std::optional(pairs.front());
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/check/count_pairs.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 
 namespace terrane {
 
@@ -13,7 +14,7 @@ PairCounts count_pairs(std::span<const Point3> points, std::span<const Triangle>
     const auto class_of = [&](const CandidatePair& pair) {
         return static_cast<std::size_t>(decided_by(pair));
     };
-    const auto counts = count_candidate_pairs({points, triangles}, class_of, run);
+    const auto counts = count_candidate_pairs({points, triangles}, class_of, without_progress(run));
     const auto count = [&](DecidedBy reason) {
         return counts.at(static_cast<std::size_t>(reason));
     };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <mutex>
 #include <type_traits>
 #include <utility>
@@ -64,6 +65,27 @@ std::vector<Block> for_blocks(std::size_t count, std::size_t block_size, const R
         with_threads(run, [&] { for_each_index(blocks.size(), one); });
     }
     return blocks;
+}
+
+/// Does what for_blocks does, in waves of blocks, and calls report(done) after each, in the calling
+/// thread, where anybody wants to know the progress. `done` of the `count` elements are done.
+template <class Block, class Work, class Report>
+std::vector<Block> for_reported_blocks(std::size_t count, std::size_t block_size, const Run& run,
+                                       const Work& work, const Report& report) {
+    if (!run.progress) return for_blocks<Block>(count, block_size, run, work);
+    constexpr std::size_t waves = 64; // as many at most; each ends when its last block does
+    const std::size_t blocks = std::max(count / waves / block_size, std::size_t{run.threads} * 2);
+    const std::size_t wave = blocks * block_size;
+    std::vector<Block> all;
+    for (std::size_t start = 0; start < count; start += wave) {
+        const std::size_t size = std::min(wave, count - start);
+        auto some = for_blocks<Block>(size, block_size, run, [&](std::size_t a, std::size_t b) {
+            return work(start + a, start + b);
+        });
+        std::move(some.begin(), some.end(), std::back_inserter(all));
+        report(start + size);
+    }
+    return all;
 }
 
 /// Calls work(first, last) for ranges that partition [0, count), several at a time. The results

@@ -19,6 +19,13 @@ inline Run part_of_stage(const Run& run, std::string_view stage, double from, do
     return part;
 }
 
+/// Returns the run for a part whose share says nothing about the stage's.
+inline Run without_progress(const Run& run) {
+    Run part = run;
+    part.progress = nullptr;
+    return part;
+}
+
 /// Reports that `done` of `count` things are done, which are the part between `from` and `to` of a
 /// stage.
 inline void report_part(const Run& run, std::string_view stage, double from, double to,

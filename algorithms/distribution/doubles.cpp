@@ -7,6 +7,7 @@
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/distribution/detail/edges.hpp>
 #include <terrane/algorithms/distribution/detail/steps.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
@@ -86,7 +87,8 @@ std::uint64_t count_collapsed(const DoubleSoup& soup) {
 
 /// Counts the pairs of this block that meet improperly.
 std::uint64_t count_improper(Block& b, const DoubleSoup& soup, const Run& run) {
-    auto pairs = candidate_pairs_of({soup.points, soup.triangles}, soup.dirty, {}, {}, run);
+    auto pairs = candidate_pairs_of({soup.points, soup.triangles}, soup.dirty, {}, {},
+                                    without_progress(run));
     std::erase_if(pairs, [&](const CandidatePair& p) {
         const Box f = terrane::box_of(soup.points, soup.triangles[p.first]),
                   g = terrane::box_of(soup.points, soup.triangles[p.second]);

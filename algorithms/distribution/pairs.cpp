@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/distribution/detail/soup_of_faces.hpp>
 #include <terrane/algorithms/distribution/detail/steps.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
@@ -136,8 +137,8 @@ std::vector<CandidatePair> own_candidates(const Block& b, const SoupOfFaces& sou
     const EdgeSides edges = group_edges(soup.triangles, soup.points.size(), run);
     const auto groups = smooth_groups(b, soup, edges);
     const auto patches = find_injective_patches(soup.points, soup.triangles, groups, edges, run);
-    auto candidates =
-        candidate_pairs({soup.points, soup.triangles}, patches.of, Search::automatic, run);
+    auto candidates = candidate_pairs({soup.points, soup.triangles}, patches.of, Search::automatic,
+                                      without_progress(run));
     const PairTest test(b, soup);
     std::erase_if(candidates, [&](const CandidatePair& p) { return !test.is_own(p); });
     return candidates;

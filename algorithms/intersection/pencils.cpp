@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
@@ -350,7 +351,7 @@ std::vector<CandidatePair> coplanar_pairs(const TriangleSoup& soup, const Pencil
                 if (!groups.empty()) groups_here.push_back(groups[triangles.back()]);
             }
             for (const CandidatePair& p :
-                 candidate_pairs(boxes, groups_here, Search::automatic, run))
+                 candidate_pairs(boxes, groups_here, Search::automatic, without_progress(run)))
                 all.push_back({triangles[p.first], triangles[p.second]});
         }
     }

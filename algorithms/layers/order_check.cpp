@@ -12,6 +12,7 @@
 #include <gmpxx.h>
 
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -190,7 +191,7 @@ Result<std::vector<OutOfOrder>> below_of(const Mesh& mesh, const Layers& layers,
             triangle_of.push_back(t);
             layer_of.push_back(layer);
         }
-    const auto pairs = candidate_pairs(boxes, groups, Search::automatic, run);
+    const auto pairs = candidate_pairs(boxes, groups, Search::automatic, without_progress(run));
     const auto blocks = for_blocks<std::vector<OutOfOrder>>(
         pairs.size(), 1024, run, [&](std::size_t first, std::size_t last) {
             std::vector<OutOfOrder> found;

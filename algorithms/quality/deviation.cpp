@@ -162,9 +162,15 @@ std::vector<Deviation> deviations_of(const Mesh& before, const Mesh& after, cons
     for (std::uint32_t s = 0; s < before.surfaces.size(); ++s) {
         if (run.stop.stop_requested()) break;
         const Surface old = surface_of_mesh(before, s), now = surface_of_mesh(after, s);
-        all.push_back({measured_distance(now, old, run), measured_distance(old, now, run)});
-        done += now.triangles.size() + old.triangles.size();
-        report_part(run, "measure", 0, 1, std::min(done, count), count);
+        const auto next = [&](const Surface& from) { // the run that measures from it
+            const auto share = [&] { return double(std::min(done, count)) / double(count); };
+            const double start = share();
+            done += from.triangles.size();
+            return part_of_stage(run, "measure", start, share());
+        };
+        const double out = measured_distance(now, old, next(now)),
+                     back = measured_distance(old, now, next(old));
+        all.push_back({out, back});
     }
     return all;
 }

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
@@ -212,6 +213,8 @@ private:
     std::vector<double> heights_;
 };
 
+constexpr double samples = 0.5; ///< the share of the time that they take, an estimate
+
 /// Measures, per triangle, the largest distance of its corners and its centroid.
 std::vector<double> sampled(const Surface& from, const TriangleTree& tree, const Run& run) {
     std::vector<double> of_vertices(from.vertices.size(), 0), largest(from.triangles.size(), 0);
@@ -225,6 +228,8 @@ std::vector<double> sampled(const Surface& from, const TriangleTree& tree, const
         for (std::size_t v = first; v < last && !is_stopped(v); ++v)
             if (is_used[v] != 0) of_vertices[v] = tree.distance(from.vertices[v], anywhere);
     });
+    report_part(run, "measure", 0, samples, from.vertices.size(),
+                from.vertices.size() + from.triangles.size());
     for_ranges(from.triangles.size(), run, [&](std::size_t first, std::size_t last) {
         for (std::size_t t = first; t < last && !is_stopped(t); ++t) {
             const auto& [a, b, c] = from.triangles[t];
@@ -233,6 +238,7 @@ std::vector<double> sampled(const Surface& from, const TriangleTree& tree, const
                                    tree.distance(centre_of(corners), anywhere)});
         }
     });
+    report_part(run, "measure", samples, 1, 0, 1);
     return largest;
 }
 
@@ -271,6 +277,7 @@ double measured_distance(const Surface& from, const Surface& to, const Run& run)
         };
         for_ranges(count, run, measure, 4, 64);
         for (std::size_t i = done; i < done + count; ++i) least = std::max(least, found[order[i]]);
+        report_part(run, "measure", samples, 1, done + count, order.size());
     }
     return least;
 }

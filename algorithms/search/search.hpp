@@ -89,7 +89,7 @@ using CrowdFinder = std::function<std::vector<std::uint32_t>(std::span<const std
 /// need no test). With Search::bvh, pairs of triangles with a crowded vertex in common are left out
 /// if they certainly meet in common corners and the edge between them only. With any method,
 /// find_crowds (if any) is called where some boxes overlap very many others, with the same ones. Once a
-/// stop is requested, pairs are missing.
+/// stop is requested, pairs are missing. Search::bvh reports its progress as stage "search".
 std::vector<CandidatePair> candidate_pairs(const BoxSource& boxes,
                                            std::span<const std::uint32_t> groups, Search method,
                                            const Run& run = {},
@@ -101,7 +101,7 @@ using PairFilter = std::function<bool(const CandidatePair&)>;
 /// Returns all pairs of overlapping boxes of which at least one is active, except those within one
 /// group, those that the filter (if any) rejects, and those at crowded vertices that candidate_pairs
 /// leaves out; sorted, unique. active: ascending indices of boxes. Cost: one test per box, then that of candidate_pairs for the boxes near active ones;
-/// rejected pairs take no memory.
+/// rejected pairs take no memory. Reports its progress as stage "search".
 std::vector<CandidatePair> candidate_pairs_of(const BoxSource& boxes,
                                               std::span<const std::uint32_t> active,
                                               std::span<const std::uint32_t> groups = {},
@@ -113,7 +113,8 @@ constexpr std::size_t pair_classes = 4;
 /// Returns the class of a pair. Called from several threads, each under an UpwardRounding.
 using PairClassifier = std::function<std::size_t(const CandidatePair&)>;
 
-/// Counts all pairs of overlapping boxes by class. Pairs take no memory.
+/// Counts all pairs of overlapping boxes by class. Pairs take no memory. Reports its progress as stage
+/// "search".
 std::array<std::uint64_t, pair_classes>
 count_candidate_pairs(const BoxSource& boxes, const PairClassifier& class_of, const Run& run = {});
 

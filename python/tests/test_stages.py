@@ -107,6 +107,63 @@ def test_improve_refuses(rounded, options, words):
         terrane.improve(rounded, **{"edge_length": 0.1, **options})
 
 
+# --- A resolution
+
+
+def two_levels(gap):
+    """Two horizontal squares, `gap` apart, in a box: three blocks, the middle one 4 x 4 x gap."""
+    flat = [terrane.Surface([[0, 0, z], [4, 0, z], [4, 4, z], [0, 4, z]], [[0, 1, 2], [0, 2, 3]], name, "horizon")
+            for name, z in (("low", 0), ("high", gap))]
+    return terrane.model(flat, box=((0, 0, -1), (4, 4, 2)))
+
+
+def test_a_thin_block_stays_unless_it_may_go():
+    whole = two_levels(0.125)
+    kept = terrane.improve(whole.mesh, 1.0, resolution=0.3)
+    assert len(kept.volumes.measures) == 1 + len(whole.blocks) # with the outside
+    assert kept.resolution["length"] == 0.3 and len(kept.resolution["kept_blocks"]) == 1
+    gone = terrane.improve(whole.mesh, 1.0, resolution=0.3, dissolve=True)
+    assert len(gone.volumes.measures) == len(whole.blocks) and gone.resolution["kept_blocks"] == []
+    assert [block["parts"] for block in gone.resolution["blocks"]] == [0]
+    # Nothing is lost of the box, and no surface is farther from where it was than the resolution.
+    assert gone.volumes.measures[1:].sum() == pytest.approx(48, rel=1e-12)
+    names = [s.name for s in gone.mesh.surfaces]
+    for name, height in (("low", 0), ("high", 0.125)):
+        of_level = gone.mesh.triangles[gone.mesh.surfaces_of.contain(names.index(name))]
+        assert len(of_level) > 8 and (np.abs(gone.mesh.vertices[of_level, 2] - height) <= 0.3).all()
+    assert (np.array(gone.resolution["deviations"]) <= 0.3).all() and gone.resolution["max_move"] <= 0.3
+
+
+def test_what_is_farther_apart_than_the_resolution_stays():
+    whole = two_levels(0.5)
+    better = terrane.improve(whole.mesh, 1.0, resolution=0.3, dissolve=True)
+    assert len(better.volumes.measures) == 1 + len(whole.blocks)
+    assert better.resolution["blocks"] == [] and better.resolution["kept_blocks"] == []
+    assert terrane.improve(whole.mesh, 1.0).resolution is None
+
+
+def test_a_model_is_improved_at_a_resolution():
+    better = two_levels(0.125).improved(1.0, resolution=0.3, dissolve=True)
+    assert len(better.blocks) == 2 and better.is_improved
+    assert better.volumes.measures[1:].sum() == pytest.approx(48, rel=1e-12)
+
+
+@compares_bytes
+def test_files_at_a_resolution_are_those_of_the_program():
+    status, _, text = run_program("improve", *THREE, "-o", "program.vtp", "--edge-length", "100", "--resolution", "20")
+    assert status == 0, text
+    mesh = terrane.round(terrane.arrange(terrane.read(THREE)))
+    terrane.improve(mesh, 100, resolution=20).save("python.vtp")
+    assert same_bytes("program.vtp", "python.vtp")
+
+
+@pytest.mark.parametrize("options, words", [({"resolution": -1}, "resolution"), ({"dissolve": True}, "dissolve"),
+                                            ({"resolution": float("nan")}, "resolution")])
+def test_a_resolution_refuses(rounded, options, words):
+    with pytest.raises(terrane.Error, match=words):
+        terrane.improve(rounded, 0.5, **options)
+
+
 def test_distance():
     flat = sheet()
     assert terrane.distance(flat, flat) == 0

@@ -23,7 +23,7 @@ void change_digit(const Folder& folder, const std::string& file, const std::stri
 
 } // namespace
 
-TEST_CASE("cli: volume: a certificate that verify takes", "[cli]") {
+TEST_CASE("cli: volume: a certificate that verify takes", "[cli][once]") {
     const Folder folder;
     std::vector<std::string> names{"ringmesh/modelA1.ml"};
     if (test_support::effort_divisor == 1) names.emplace_back("arch-platform/faults.ts");
@@ -63,7 +63,7 @@ TEST_CASE("cli: a certificate of blocks: what it cannot be about", "[cli]") {
     CHECK(folder.left().empty());
 }
 
-TEST_CASE("cli: tetrahedralize: a certificate that verify takes", "[cli][tetrahedra]") {
+TEST_CASE("cli: tetrahedralize: a certificate that verify takes", "[cli][tetrahedra][once]") {
     const Folder folder;
     const auto made =
         folder.run("tetrahedralize $D/ringmesh/modelA1.ml -o m.vtu -o m.msh -o m.mesh "

@@ -85,7 +85,7 @@ Json project() {
 
 } // namespace
 
-TEST_CASE("cli: blocks keep their numbers where rounding loses one of them", "[cli]") {
+TEST_CASE("cli: blocks keep their numbers where rounding loses one of them", "[cli][once]") {
     const Folder folder;
     const auto in = folder.input("planes.obj", planes);
     const auto volume = folder.run("volume " + in + " -o volume --parts obj --box 0,0,0,8,8,8 " +

@@ -265,7 +265,7 @@ TEST_CASE("cli: build: a certificate of tetrahedra that verify takes", "[cli]") 
     CHECK(contains(verified.out, "tetrahedra.vtu: holds these tetrahedra, bit for bit"));
 }
 
-TEST_CASE("cli: build: tetrahedra with sizes and cuts, by name", "[cli]") {
+TEST_CASE("cli: build: tetrahedra with sizes and cuts, by name", "[cli][once]") {
     const Case c;
     auto json = boxed_project();
     json["outputs"] = Json::parse(R"({"tetrahedra": ["vtu", "msh", "inp"]})");
@@ -320,7 +320,7 @@ TEST_CASE("cli: tetrahedra are made whichever standard streams are closed", "[cl
     }
 }
 
-TEST_CASE("cli: build gives the same bytes for any number of threads", "[cli]") {
+TEST_CASE("cli: build gives the same bytes for any number of threads", "[cli][once]") {
     const Case c;
     auto json = boxed_project();
     json["outputs"] = Json::parse(R"({"surfaces": ["obj"], "tetrahedra": ["vtu", "inp"],
@@ -332,7 +332,7 @@ TEST_CASE("cli: build gives the same bytes for any number of threads", "[cli]") 
     CHECK(c.folder.shell("diff -r -x log.txt -x statistics.json one two").status == 0);
 }
 
-TEST_CASE("cli: the example project", "[cli]") {
+TEST_CASE("cli: the example project", "[cli][once]") {
     const Folder folder;
     const auto r = folder.run("build $D/projects/modelA2.json -o one");
     INFO(r.err);
@@ -405,7 +405,7 @@ TEST_CASE("cli: without TetGen's helper, tetrahedra are refused before anything 
     CHECK(c.folder.left().empty());
 }
 
-TEST_CASE("cli: build: one file named 1000 times is one surface with many names", "[cli]") {
+TEST_CASE("cli: build: one file named 1000 times is one surface with many names", "[cli][once]") {
     const Folder folder;
     folder.input("sheet.obj", "v 0 0 0\nv 4 0 0\nv 4 4 1\nv 0 4 0\nf 1 2 3\nf 1 3 4\n");
     folder.input("fault.obj", "v 1 -1 -2\nv 1 5 -2\nv 3 5 3\nf 1 2 3\n");

@@ -128,7 +128,7 @@ TEST_CASE("cli: build fills holes, so that what they let through becomes two blo
     }
 }
 
-TEST_CASE("cli: build with fill makes what fill and then build make", "[cli]") {
+TEST_CASE("cli: build with fill makes what fill and then build make", "[cli][once]") {
     const MendingCase c;
     for (const std::string method : {"kriging", "rbf"}) {
         const auto filled =

@@ -59,7 +59,7 @@ TEST_CASE("cli: build --resume takes the stages that had ended", "[cli][resume]"
 }
 
 TEST_CASE("cli: build --resume takes no stage that other options would make otherwise",
-          "[cli][resume]") {
+          "[cli][resume][once]") {
     Interrupted c;
     SECTION("another length") {
         c.json["improve"]["edge_length"] = 2;

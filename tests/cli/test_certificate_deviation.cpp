@@ -20,7 +20,8 @@ std::string word_after(const std::string& text, const std::string& before) {
 
 } // namespace
 
-TEST_CASE("cli: certificates: a deviation that verify does not accept is warned of", "[cli]") {
+TEST_CASE("cli: certificates: a deviation that verify does not accept is warned of",
+          "[cli][once]") {
     for (const std::string name :
          {"regression/012-tip-of-needle-vanished.obj", "rounding/re1000070.obj"}) {
         INFO(name);

@@ -69,7 +69,7 @@ TEST_CASE("cli: statistics have the promised keys", "[cli]") {
     CHECK(method(" --search ab-median") == "ab-median");
 }
 
-TEST_CASE("cli: the same bytes for any number of threads and any search", "[cli]") {
+TEST_CASE("cli: the same bytes for any number of threads and any search", "[cli][once]") {
     const Folder folder;
     for (const std::string format : {"obj", "vtp"}) {
         const auto arrange = [&](const std::string& options) {
@@ -117,7 +117,7 @@ TEST_CASE("cli: the summary counts what decided each pair; --check full tests al
     CHECK(contains(wrong.err, "--check"));
 }
 
-TEST_CASE("cli: no surface moves farther than --max-move", "[cli]") {
+TEST_CASE("cli: no surface moves farther than --max-move", "[cli][once]") {
     const Folder folder;
     const std::string arrange_utm = "arrange $D/rounding/utm.obj -o out.obj --stats s.json";
     REQUIRE(folder.run(arrange_utm).status == 0);
@@ -213,7 +213,7 @@ TEST_CASE("cli: check locates what it finds", "[cli]") {
     CHECK(json["improper_contacts"][0]["place"][0] == 1.0);
 }
 
-TEST_CASE("cli: check lists all only when asked", "[cli]") {
+TEST_CASE("cli: check lists all only when asked", "[cli][once]") {
     const Folder folder;
     const auto some = folder.run("check " + real_model);
     CHECK(some.status == 1);
@@ -288,7 +288,7 @@ TEST_CASE("cli: arrange puts a point into each block for TetGen", "[cli]") {
 }
 
 #ifdef TERRANE_HAS_TETGEN
-TEST_CASE("cli: tetrahedralize reports checks and shapes", "[cli]") {
+TEST_CASE("cli: tetrahedralize reports checks and shapes", "[cli][once]") {
     const Folder folder;
     const auto r = folder.run("tetrahedralize $D/ringmesh/modelA1.ml -o a.msh --msh 2.2 -o a.inp "
                               "-o a.mesh --stats s.json");
@@ -319,7 +319,7 @@ TEST_CASE("cli: tetrahedralize reports checks and shapes", "[cli]") {
     CHECK(contains(folder.read("a.mesh"), "\nTetrahedra\n" + std::to_string(tetrahedra) + "\n"));
 }
 
-TEST_CASE("cli: tetrahedralize finds the regions that the models state", "[cli]") {
+TEST_CASE("cli: tetrahedralize finds the regions that the models state", "[cli][once]") {
     const Folder folder;
     const auto regions = [&](const std::string& model) {
         const auto r = folder.run("tetrahedralize $D/ringmesh/" + model +

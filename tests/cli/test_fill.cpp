@@ -96,7 +96,7 @@ TEST_CASE("cli: fill lists holes, by numbers, and writes nothing then", "[cli]")
     CHECK(holes[0]["kind"] == "hole");
 }
 
-TEST_CASE("cli: fill writes a certificate that verify takes", "[cli]") {
+TEST_CASE("cli: fill writes a certificate that verify takes", "[cli][once]") {
     const Folder folder;
     const auto in = folder.input("top.irap", irap(two_discs));
     for (const std::string method : {"kriging", "rbf"}) {
@@ -139,7 +139,7 @@ TEST_CASE("cli: fill by kriging and by RBF, with a map, points and a report", "[
     }
 }
 
-TEST_CASE("cli: fill foresees its errors, and smooths on request", "[cli]") {
+TEST_CASE("cli: fill foresees its errors, and smooths on request", "[cli][once]") {
     const Folder folder;
     const auto noisy = [](double x, double y) { // no two nodes have much in common
         const double hash = std::sin(12.9898 * x + 78.233 * y) * 43758.5453;

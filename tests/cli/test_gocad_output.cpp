@@ -23,7 +23,8 @@ std::map<std::string, double> written_volumes(const std::string& model) {
 
 } // namespace
 
-TEST_CASE("cli: a model for GOCAD gives the same blocks when it is read again", "[cli][gocad]") {
+TEST_CASE("cli: a model for GOCAD gives the same blocks when it is read again",
+          "[cli][gocad][once]") {
     const Folder folder;
     const auto r = folder.run("volume $D/ringmesh/modelA2.ml -o one --gocad m.ml --lines lines.pl");
     INFO(r.err);

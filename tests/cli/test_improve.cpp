@@ -39,7 +39,7 @@ TEST_CASE("cli: improve writes a conforming mesh, its statistics and histograms"
     CHECK(contains(svg, "after: " + std::to_string(after.at("triangles").get<int>())));
 }
 
-TEST_CASE("cli: improve writes a certificate that verify takes", "[cli]") {
+TEST_CASE("cli: improve writes a certificate that verify takes", "[cli][once]") {
     const Folder folder;
     folder.input("two.obj", crossing);
     REQUIRE(folder
@@ -76,7 +76,7 @@ TEST_CASE("cli: improve refuses what makes no sense, and writes nothing", "[cli]
     CHECK(folder.left().empty());
 }
 
-TEST_CASE("cli: improve states the volumes of blocks, and judges how they change", "[cli]") {
+TEST_CASE("cli: improve states the volumes of blocks, and judges how they change", "[cli][once]") {
     const Folder folder;
     const std::string thin = "improve $D/improve/thin_block.obj --edge-length 150 ";
     const Outcome kept = folder.run(thin + "-o kept.obj --stats kept.json --max-volume-change 20");

@@ -299,7 +299,8 @@ bool takes_stats(const std::string& arguments) {
 
 } // namespace
 
-TEST_CASE("cli: mistakes lead to warnings, and to status 2 with --strict", "[cli][plausibility]") {
+TEST_CASE("cli: mistakes lead to warnings, and to status 2 with --strict",
+          "[cli][plausibility][once]") {
     auto mistakes = heights_units_and_systems();
     for (Mistake& m : open_or_double()) mistakes.push_back(std::move(m));
     REQUIRE(mistakes.size() + refused().size() >= 60);
@@ -337,7 +338,7 @@ TEST_CASE("cli: mistakes that are refused", "[cli][plausibility]") {
     }
 }
 
-TEST_CASE("cli: inputs that fit together are not warned of", "[cli][plausibility]") {
+TEST_CASE("cli: inputs that fit together are not warned of", "[cli][plausibility][once]") {
     const Folder folder;
     for (const std::string name : {"ringmesh/modelA1.ml", "ringmesh/modelA2.ml"}) {
         INFO(name);

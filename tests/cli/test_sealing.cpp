@@ -108,7 +108,8 @@ TEST_CASE("cli: --seal and --extend refuse what makes no sense", "[cli]") {
     CHECK(folder.left().empty());
 }
 
-TEST_CASE("cli: certificates of sealed, extended and cut surfaces that verify takes", "[cli]") {
+TEST_CASE("cli: certificates of sealed, extended and cut surfaces that verify takes",
+          "[cli][once]") {
     const Folder folder;
     const auto in = folder.input("model.obj", gapped_model);
     for (const std::string& options :

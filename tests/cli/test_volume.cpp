@@ -113,7 +113,7 @@ TEST_CASE("cli: volume finds the blocks and writes them", "[cli]") {
     }
 }
 
-TEST_CASE("cli: volume gives the same bytes for any number of threads", "[cli]") {
+TEST_CASE("cli: volume gives the same bytes for any number of threads", "[cli][once]") {
     const Folder folder;
     const std::string in = "$D/ringmesh/modelA2.ml";
     REQUIRE(folder.run("volume " + in + " -o one --threads 1").status == 0);

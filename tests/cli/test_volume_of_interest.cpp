@@ -58,7 +58,7 @@ f 4 1 5 8
 
 } // namespace
 
-TEST_CASE("cli: all ways to name the same volume of interest give the same blocks", "[cli]") {
+TEST_CASE("cli: all ways to name the same volume of interest give the same blocks", "[cli][once]") {
     const Folder folder;
     const auto in = folder.input("model.obj", cut_model);
     folder.input("cube.obj", cube);

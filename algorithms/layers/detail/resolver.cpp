@@ -10,6 +10,7 @@
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 
@@ -67,7 +68,7 @@ Result<std::vector<LayerResolver::Relation>> LayerResolver::relate(const Set& so
         boxes.push_back(boxes_[t]);
         groups.push_back(1);
     }
-    const auto pairs = candidate_pairs(boxes, groups, Search::automatic, run_);
+    const auto pairs = candidate_pairs(boxes, groups, Search::automatic, without_progress(run_));
     const auto of = [&](std::uint32_t box) {
         return box < soft.size() ? soft[box] : hard[box - soft.size()];
     };

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/search/search.hpp>
@@ -113,7 +114,7 @@ void ReferenceSurface::find_isolated(const Run& run) {
             facets_[p.first].isolated = facets_[p.second].isolated = false;
         return false; // pairs need not be kept
     };
-    Run one = run; // marks are not synchronised
+    Run one = without_progress(run); // marks are not synchronised
     one.threads = 1;
     candidate_pairs_of(boxes, all, features_.sheet_of, mark, one);
 }

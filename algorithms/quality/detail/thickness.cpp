@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/search/search.hpp>
@@ -128,7 +129,7 @@ std::vector<double> thickness_of(std::span<const Point3> points,
         boxes[count + t] = box_of(points, triangles[t]);
         groups[count + t] = 1;
     }
-    Run one = run; // the results are not synchronised
+    Run one = without_progress(run); // the results are not synchronised
     one.threads = 1;
     candidate_pairs_of(
         boxes, prisms, groups,

@@ -12,6 +12,7 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
@@ -297,7 +298,8 @@ Status check_new(const Surface& surface, std::size_t old_triangles, const Run& r
     std::vector<std::uint32_t> active;
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
         if (soup.input_of[t] >= old_triangles) active.push_back(t);
-    const auto pairs = candidate_pairs_of({soup.points, soup.triangles}, active, {}, {}, run);
+    const auto pairs =
+        candidate_pairs_of({soup.points, soup.triangles}, active, {}, {}, without_progress(run));
     using Found = std::vector<Point3>;
     const auto blocks =
         for_blocks<Found>(pairs.size(), 16384, run, [&](std::size_t a, std::size_t b) {

@@ -101,6 +101,7 @@ Error Rounding::too_far() const {
 /// Therefore a part of one gets coarser grids, too, each as long as it removes contacts.
 void Rounding::repair(std::vector<CandidatePair>& pairs) {
     const bool is_whole = arrangement_.state->whole;
+    const Run quiet = without_progress(run_);
     std::vector<int> grids(rounding_tuning.fine_digits.begin(), rounding_tuning.fine_digits.end());
     if (!is_whole)
         grids.insert(grids.end(), rounding_tuning.coarse_digits.begin(),
@@ -115,7 +116,7 @@ void Rounding::repair(std::vector<CandidatePair>& pairs) {
         ++out_.report.rounds;
         const RoundingState before = state_;
         const std::size_t count = pairs.size();
-        auto left = snap_round(pairs, *grid) ? contacts() : pairs;
+        auto left = snap_round(pairs, *grid) ? contacts(quiet) : pairs;
         if (left.size() < count && deviation() <= task_.limit)
             pairs = std::move(left);
         else
@@ -132,7 +133,7 @@ void Rounding::search_nearby(std::vector<CandidatePair>& pairs) {
     const RoundingState before = state_;
     if (!search_neighbouring_doubles(state_, pairs, task_.kept, task_.limit - moved_.largest, run_))
         return;
-    auto left = contacts();
+    auto left = contacts(without_progress(run_));
     if (left.size() < pairs.size() && deviation() <= task_.limit) {
         ++out_.report.rounds;
         pairs = std::move(left);
@@ -167,26 +168,26 @@ PairFilter Rounding::is_improper() const {
 
 /// Finds the pairs that meet improperly. Two triangles without a dirty corner never do, and are
 /// tested on request only.
-std::vector<CandidatePair> Rounding::contacts() {
+std::vector<CandidatePair> Rounding::contacts(const Run& run) {
     state_.search_dirty();
     std::vector<std::uint32_t> active;
     if (tests_all()) {
         active.resize(state_.triangles.size());
         std::iota(active.begin(), active.end(), 0U);
     } else {
-        active = state_.dirty_triangles(run_);
+        active = state_.dirty_triangles(run);
     }
     if (active.empty()) return {};
     auto pairs =
-        candidate_pairs_of({state_.points, state_.triangles}, active, {}, is_improper(), run_);
+        candidate_pairs_of({state_.points, state_.triangles}, active, {}, is_improper(), run);
     state_.only_dirty(pairs);
     return pairs;
 }
 
 /// Finds the pairs that meet improperly right after rounding to nearest. Only pairs that neither
 /// injective patches nor the separation of faces exclude need a test.
-std::vector<CandidatePair> Rounding::first_contacts() {
-    if (changed_ || tests_all() || moved_.frame != nullptr) return contacts();
+std::vector<CandidatePair> Rounding::first_contacts(const Run& run) {
+    if (changed_ || tests_all() || moved_.frame != nullptr) return contacts(run);
     const Arrangement& a = arrangement_;
     const auto& dirty = state_.found_dirty;
     if (dirty.empty()) return {};
@@ -240,7 +241,7 @@ std::vector<CandidatePair> Rounding::first_contacts() {
     if (counts) first_search_ = {unproven.pairs, unproven.parts, dirty, patches};
     if (unproven.parts.empty()) return pairs;
     const auto more = candidate_pairs_of({state_.points, state_.triangles}, unproven.parts, patches,
-                                         improper, run_);
+                                         improper, run);
     pairs.insert(pairs.end(), more.begin(), more.end());
     sort_unique(pairs);
     return pairs;
@@ -272,11 +273,11 @@ void Rounding::snap_corners(std::span<const CandidatePair> pairs, const SnapGrid
 /// doubles. These are much finer than the grid, so most of the parts stay clear of each other.
 /// Returns false without dividing anything if there are more than most_pairs pairs.
 bool Rounding::divide_again(std::size_t most_pairs) {
-    const auto pairs = contacts();
+    const Run quiet =
+        without_progress(run_); // the share of one round says nothing about the others
+    const auto pairs = contacts(quiet);
     if (pairs.size() > most_pairs) return false;
     if (pairs.empty()) return true;
-    Run quiet = run_; // the share of one round says nothing about the others
-    quiet.progress = nullptr;
     Retriangulation division = retriangulate(state_.points, state_.triangles, pairs, {}, quiet);
     if (run_.stop.stop_requested()) return true;
     const auto first_new = static_cast<std::uint32_t>(state_.points.size());

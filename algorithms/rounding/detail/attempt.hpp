@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
@@ -44,7 +45,7 @@ public:
         to_nearest();
         if (moved_.largest == 0 && deviation() > task_.limit) return too_far();
         tell(0.2);
-        auto pairs = first_contacts();
+        auto pairs = first_contacts(part_of_stage(run_, "round", 0.2, 0.7));
         tell(0.7); // the shares are estimates, not measured
         state_.only_dirty(pairs);
         find_first_regions();
@@ -75,8 +76,8 @@ private:
     [[nodiscard]] double deviation() const;
     [[nodiscard]] Error too_far() const;
     [[nodiscard]] PairFilter is_improper() const;
-    std::vector<CandidatePair> first_contacts();
-    std::vector<CandidatePair> contacts();
+    std::vector<CandidatePair> first_contacts(const Run& run);
+    std::vector<CandidatePair> contacts(const Run& run);
     bool snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid);
     void snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid);
     bool divide_again(std::size_t most_pairs);

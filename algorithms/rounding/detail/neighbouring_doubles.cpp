@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/rounding/detail/tuning.hpp>
 #include <terrane/kernel/numbers.hpp>
@@ -113,7 +114,8 @@ void NeighbourSearch::find_near() {
                 active.push_back(t);
             }
     sort_unique(active);
-    const auto near = candidate_pairs_of({state_.points, state_.triangles}, active, {}, {}, run_);
+    const auto near = candidate_pairs_of({state_.points, state_.triangles}, active, {}, {},
+                                         without_progress(run_));
     for (const CandidatePair& p : near) {
         std::vector<std::uint32_t> corners;
         for (const std::uint32_t t : {p.first, p.second})

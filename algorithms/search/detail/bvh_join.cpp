@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/search/detail/packed_tree.hpp>
 #include <terrane/algorithms/search/detail/stars.hpp>
 
@@ -16,7 +17,8 @@ using PairBlocks = std::vector<Pairs>;
 constexpr std::size_t most_trees = 8; ///< with more groups than this, one tree holds all boxes
 constexpr std::size_t leaves_per_block = 256;
 
-/// The common inputs of all joins of one search.
+/// The common inputs of all joins of one search. Each join reports its share of the leaves as
+/// stage "search".
 struct Task {
     const BoxSource& boxes;
     std::span<const std::uint32_t> groups;
@@ -24,6 +26,14 @@ struct Task {
     const PairFilter& filter;              ///< may be empty
     const Run& run;
 
+    /// Returns the task with another run.
+    [[nodiscard]] Task with(const Run& other) const {
+        return {boxes, groups, crowds, filter, other};
+    }
+    /// Reports that so many of the leaves of a join are done.
+    void report(std::size_t leaves, std::size_t count) const {
+        report_part(run, "search", 0, 1, leaves, count);
+    }
     [[nodiscard]] bool are_of_one_group(std::uint32_t i, std::uint32_t j) const {
         return !groups.empty() && groups[i] != no_group && groups[i] == groups[j];
     }
@@ -39,8 +49,9 @@ void join(const PackedTree& a, const PackedTree& b, const Task& task, PairBlocks
           const Keep& keep) {
     const BoxSource& boxes = task.boxes;
     const PairFilter& filter = task.filter;
-    auto found = for_blocks<Pairs>(
-        a.leaf_count(), leaves_per_block, task.run, [&](std::size_t l, std::size_t end) {
+    auto found = for_reported_blocks<Pairs>(
+        a.leaf_count(), leaves_per_block, task.run,
+        [&](std::size_t l, std::size_t end) {
             Pairs pairs;
             for (; l < end; ++l)
                 a.join(static_cast<std::uint32_t>(l), b,
@@ -51,7 +62,8 @@ void join(const PackedTree& a, const PackedTree& b, const Task& task, PairBlocks
                            if (!filter || filter(pair)) pairs.push_back(pair);
                        });
             return pairs;
-        });
+        },
+        [&](std::size_t done) { task.report(done, a.leaf_count()); });
     std::move(found.begin(), found.end(), std::back_inserter(blocks));
 }
 
@@ -108,8 +120,9 @@ std::vector<LimitedPairs> join_limited(const PackedTree& tree, const Task& task,
         }
         [[nodiscard]] bool is_full() const { return pairs.size() > end; }
     };
-    return for_blocks<LimitedPairs>(
-        tree.leaf_count(), leaves_per_block, task.run, [&](std::size_t l, std::size_t end) {
+    return for_reported_blocks<LimitedPairs>(
+        tree.leaf_count(), leaves_per_block, task.run,
+        [&](std::size_t l, std::size_t end) {
             LimitedPairs found;
             for (; l < end; ++l) {
                 const auto leaf = static_cast<std::uint32_t>(l);
@@ -120,7 +133,8 @@ std::vector<LimitedPairs> join_limited(const PackedTree& tree, const Task& task,
                 found.busy.insert(found.busy.end(), busy.begin(), busy.end());
             }
             return found;
-        });
+        },
+        [&](std::size_t done) { task.report(done, tree.leaf_count()); });
 }
 
 /// Returns the crowds of a task and, for boxes without, those that were found.
@@ -151,8 +165,9 @@ void join_itself(const Selection& selection, const PackedTree& tree, const Task&
     parts.clear();
     std::sort(busy.begin(), busy.end());
     const auto crowds = with_crowds(task, find_crowds(busy));
+    const Run again = without_progress(task.run); // which has told of all leaves already
     join_itself(PackedTree(selection, crowds),
-                {task.boxes, task.groups, crowds, task.filter, task.run}, blocks);
+                {task.boxes, task.groups, crowds, task.filter, again}, blocks);
 }
 
 PairBlocks join_groups(const std::vector<Selection>& parts, const Task& task,
@@ -161,13 +176,24 @@ PairBlocks join_groups(const std::vector<Selection>& parts, const Task& task,
         for_blocks<PackedTree>(parts.size(), 1, task.run, [&](std::size_t k, std::size_t) {
             return PackedTree(parts[k], task.crowds);
         });
+    double leaves = 0, done = 0;
+    for (std::size_t a = 0; a < trees.size(); ++a)
+        leaves += static_cast<double>(trees[a].leaf_count() * (trees.size() - a));
+    const auto next = [&](const PackedTree& tree) { // the run of the next join of its leaves
+        const double from = done / leaves;
+        done += static_cast<double>(tree.leaf_count());
+        return part_of_stage(task.run, "search", from, done / leaves);
+    };
     PairBlocks blocks;
     const auto all = [](std::uint32_t, std::uint32_t) { return true; };
     for (std::size_t a = 0; a < trees.size(); ++a) {
+        const Run inside = next(trees[a]);
         if (task.groups[parts[a].indices[0]] == no_group)
-            join_itself(parts[a], trees[a], task, find_crowds, blocks);
-        for (std::size_t b = a + 1; b < trees.size(); ++b)
-            join(trees[a], trees[b], task, blocks, all);
+            join_itself(parts[a], trees[a], task.with(inside), find_crowds, blocks);
+        for (std::size_t b = a + 1; b < trees.size(); ++b) {
+            const Run between = next(trees[a]);
+            join(trees[a], trees[b], task.with(between), blocks, all);
+        }
     }
     return blocks;
 }
@@ -266,11 +292,15 @@ std::vector<CandidatePair> active_pairs(const BoxSource& boxes,
         append(is_active ? chosen : others, selection, k, k + 1);
     }
     const auto parts = groups.empty() ? std::vector<Selection>{} : by_group(chosen, groups);
-    PairBlocks blocks = parts.empty() ? join_all(chosen, task) : join_groups(parts, task);
+    const Run inside = part_of_stage(run, "search", 0, 0.5),
+              beyond = part_of_stage(run, "search", 0.5, 1);
+    PairBlocks blocks =
+        parts.empty() ? join_all(chosen, task.with(inside)) : join_groups(parts, task.with(inside));
     const auto keep = [&](std::uint32_t i, std::uint32_t j) {
         return !task.are_of_one_group(i, j);
     };
-    join(PackedTree(chosen, stars.of), PackedTree(others, stars.of), task, blocks, keep);
+    join(PackedTree(chosen, stars.of), PackedTree(others, stars.of), task.with(beyond), blocks,
+         keep);
     const auto is_active = [&](std::uint32_t i) {
         return std::binary_search(active.begin(), active.end(), i);
     };
@@ -285,7 +315,8 @@ std::vector<CandidatePair> pairs_of_crowds(std::span<const Box> boxes,
                                            std::span<const std::uint32_t> crowds, const Run& run) {
     const PairFilter none;
     const BoxSource source(boxes);
-    const Task task{source, groups, crowds, none, run};
+    const Run quiet = without_progress(run);
+    const Task task{source, groups, crowds, none, quiet};
     return concatenated(join_all(select_all(source), task));
 }
 
@@ -293,8 +324,9 @@ std::array<std::uint64_t, pair_classes> bvh_counts(const BoxSource& boxes,
                                                    const PairClassifier& class_of, const Run& run) {
     using Counts = std::array<std::uint64_t, pair_classes>;
     const PackedTree tree(select_all(boxes));
-    const auto of_blocks = for_blocks<Counts>(
-        tree.leaf_count(), leaves_per_block, run, [&](std::size_t leaf, std::size_t end) {
+    const auto of_blocks = for_reported_blocks<Counts>(
+        tree.leaf_count(), leaves_per_block, run,
+        [&](std::size_t leaf, std::size_t end) {
             Counts counts{};
             for (; leaf < end; ++leaf)
                 tree.join(static_cast<std::uint32_t>(leaf), tree,
@@ -303,7 +335,8 @@ std::array<std::uint64_t, pair_classes> bvh_counts(const BoxSource& boxes,
                                   ++counts.at(class_of({std::min(i, j), std::max(i, j)}));
                           });
             return counts;
-        });
+        },
+        [&](std::size_t done) { report_part(run, "search", 0, 1, done, tree.leaf_count()); });
     Counts sum{};
     for (const Counts& counts : of_blocks)
         for (std::size_t k = 0; k < sum.size(); ++k) sum.at(k) += counts.at(k);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
@@ -389,7 +390,7 @@ std::vector<std::array<std::uint32_t, 2>> near_cells(const Complex& complex, dou
     for (const std::uint32_t t : active)
         if (number_of[t] != none) wanted.push_back(number_of[t]);
     std::vector<std::array<std::uint32_t, 2>> pairs;
-    for (const auto& [s, t] : candidate_pairs_of(boxes, wanted, {}, {}, run))
+    for (const auto& [s, t] : candidate_pairs_of(boxes, wanted, {}, {}, without_progress(run)))
         pairs.push_back({cell_of[s], cell_of[t]});
     return pairs;
 }

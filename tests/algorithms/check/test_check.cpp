@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "support/claim.hpp"
+#include "support/shapes.hpp"
 
 #include <terrane/algorithms/check/check.hpp>
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <string_view>
 
 namespace {
 
@@ -103,4 +107,34 @@ TEST_CASE("check: what no stage may be given") {
     const auto stopped = check(std::vector{surface(bad.vertices, {{0, 1, 2}})}, run);
     REQUIRE_FALSE(stopped.ok());
     CHECK(stopped.error().code == ErrorCode::interrupted);
+}
+
+TEST_CASE("check: tells how far the search is, and hears a stop in it") {
+    const Surface waves = test_support::sheet_of( // 80 000 triangles, each beside a few others
+        200, 200, 1.0, [](int, int) { return true; },
+        [](double x, double y) {
+            return Point3{x, y, std::fmod(x * y, 7) / 16};
+        });
+    std::vector<double> shares;
+    std::stop_source stop;
+    Run run;
+    run.progress = [&](std::string_view stage, double share) {
+        CHECK(stage == "check");
+        shares.push_back(share);
+    };
+    REQUIRE(check(std::vector{waves}, run).ok());
+    CHECK(std::is_sorted(shares.begin(), shares.end()));
+    CHECK(std::ranges::count_if(shares, [](double s) { return s < 0.3; }) >= 4);
+    CHECK(shares.back() == 1);
+
+    double last = 0;
+    run.stop = stop.get_token();
+    run.progress = [&](std::string_view, double share) {
+        last = share;
+        stop.request_stop();
+    };
+    const auto stopped = check(std::vector{waves}, run);
+    REQUIRE_FALSE(stopped.ok());
+    CHECK(stopped.error().code == ErrorCode::interrupted);
+    CHECK(last <= 0.3);
 }

@@ -201,7 +201,7 @@ unsigned control_word() {
 } // namespace
 
 TEST_CASE("foreign arithmetic: a caller's rounding mode changes no bit, and is given back",
-          "[environment]") {
+          "[environment][once]") {
     const Subject subject;
     const Results expected = subject(1);
     for (const char* stage :

@@ -93,7 +93,7 @@ std::vector<Surface> lattice_soup(unsigned seed) {
 } // namespace
 
 TEST_CASE("distribution: certified cases have the digest of one process in any number of blocks",
-          "[distribution]") {
+          "[distribution][once]") {
     for (const auto& model : test_support::certified_inputs(300)) {
         CAPTURE(model.name);
         const auto exact = arrange(model.surfaces);

@@ -91,7 +91,7 @@ std::vector<Surface> star(int n, double shift) {
 
 } // namespace
 
-TEST_CASE("pencils: a sweep finds what a test of every pair finds") {
+TEST_CASE("pencils: a sweep finds what a test of every pair finds", "[once]") {
     Random random(20263);
     std::size_t left_out = 0;
     for (int k = 0; k < cases(3); ++k) {

@@ -57,7 +57,7 @@ TEST_CASE("model: blocks have the numbers of the exact ones where rounding loses
     }
 }
 
-TEST_CASE("model: each mesh is proven once, and searched for volumes once", "[volumes]") {
+TEST_CASE("model: each mesh is proven once, and searched for volumes once", "[volumes][once]") {
     const WorkCount count;
     const auto exact = arrange(sectors());
     REQUIRE(exact);

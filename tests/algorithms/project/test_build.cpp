@@ -32,7 +32,7 @@ struct Stages {
 
 } // namespace
 
-TEST_CASE("build: each mesh is proven once, and searched for volumes once", "[volumes]") {
+TEST_CASE("build: each mesh is proven once, and searched for volumes once", "[volumes][once]") {
     const WorkCount count;
     Project project;
     project.improve = ProjectImprove{.edge_length = 2, .max_deviation = {}, .edge_length_of = {}};

@@ -99,7 +99,7 @@ TEST_CASE("kept results: a taken mesh is proven once more", "[kept]") {
     CHECK(WorkCount::meshes_of("prove conforming") == 2);
 }
 
-TEST_CASE("kept results: other options have another key", "[kept]") {
+TEST_CASE("kept results: other options have another key", "[kept][once]") {
     Memory memory;
     Project project = improving_project();
     REQUIRE(memory.build(project));

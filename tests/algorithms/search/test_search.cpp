@@ -264,6 +264,46 @@ TEST_CASE("searches: no method goes on to another box once a stop is requested")
     }
 }
 
+TEST_CASE("searches: the hierarchy tells how far it is, and finds the same pairs") {
+    // A grid in which each box overlaps its neighbours, deep enough for several waves of leaves.
+    constexpr int side = 400;
+    std::vector<Box> boxes;
+    Groups three;
+    std::vector<std::uint32_t> active;
+    for (int i = 0; i < side * side; ++i) {
+        boxes.push_back(box({1.0 * (i % side), 1.0 * (i / side), 0}, {1.25, 1.25, 1}));
+        three.push_back(static_cast<std::uint32_t>(i % 3));
+        if (i % 2 == 0) active.push_back(static_cast<std::uint32_t>(i));
+    }
+    std::vector<double> shares;
+    const auto is_told = [&] { // of several steps, in order, to the end
+        const bool is_right = std::is_sorted(shares.begin(), shares.end()) && shares.size() >= 6 &&
+                              shares.front() < 0.5 && shares.back() == 1;
+        shares.clear();
+        return is_right;
+    };
+    const auto all_alike = [](const CandidatePair&) { return std::size_t{1}; };
+    for (const unsigned threads : {1U, 2U}) {
+        Run run{.threads = threads};
+        run.progress = [&](std::string_view stage, double share) {
+            CHECK(stage == "search");
+            shares.push_back(share);
+        };
+        INFO(threads << " threads");
+        for (const Groups& groups : {Groups{}, three}) {
+            CHECK(candidate_pairs(boxes, groups, Search::bvh, run) ==
+                  candidate_pairs(boxes, groups, Search::bvh));
+            CHECK(is_told());
+            CHECK(candidate_pairs_of(boxes, active, groups, {}, run) ==
+                  candidate_pairs_of(boxes, active, groups));
+            CHECK(is_told());
+        }
+        CHECK(count_candidate_pairs(boxes, all_alike, run) ==
+              count_candidate_pairs(boxes, all_alike));
+        CHECK(is_told());
+    }
+}
+
 TEST_CASE("names of searches") {
     for (const Search method : all_methods()) CHECK(search_named(name_of(method)) == method);
     CHECK(name_of(Search::automatic) == "auto");

@@ -288,7 +288,7 @@ TEST_CASE("simplify: surfaces far apart stay as they are", "[simplification]") {
 }
 
 TEST_CASE("simplify: a sharp wedge is zipped, not farther than where it is open",
-          "[simplification]") {
+          "[simplification][once]") {
     // At x = 50 they cross, with a slope of 0.15: they are 3 apart 20 from there.
     const auto a =
         in_box({sheet_over_box([](double) { return 30.0; }, "flat"),
@@ -352,7 +352,7 @@ TEST_CASE("simplify: a pocket that was outside opens to it, a block does not", "
     }
 }
 
-TEST_CASE("simplify: a thin layer stays and is listed, or is dissolved", "[simplification]") {
+TEST_CASE("simplify: a thin layer stays and is listed, or is dissolved", "[simplification][once]") {
     const auto a = in_box({sheet_over_box([](double) { return 30.0; }, "low"),
                            sheet_over_box([](double) { return 33.0; }, "high")});
     const auto volumes = find_volumes(*a.rounded.mesh);

@@ -311,7 +311,7 @@ TEST_CASE("tetrahedra: a margin lost in rounding is as wide as it can be told ap
     }
 }
 
-TEST_CASE("tetrahedra: real models, arranged and rounded", "[tetrahedra]") {
+TEST_CASE("tetrahedra: real models, arranged and rounded", "[tetrahedra][once]") {
     struct Model {
         std::vector<std::string> files;
         std::uint32_t regions;

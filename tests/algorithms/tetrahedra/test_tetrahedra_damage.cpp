@@ -60,7 +60,7 @@ TEST_CASE("check_tetrahedra: each kind of damage is refused, on a cube", "[tetra
 }
 
 TEST_CASE("check_tetrahedra: each kind of damage is refused, on a geological model",
-          "[tetrahedra]") {
+          "[tetrahedra][once]") {
     check_model(geological_model());
 }
 

@@ -46,7 +46,7 @@ Seen seen(const Variogram& v, const Point3& from, const Point3& direction, int f
 } // namespace
 
 TEST_CASE("gaussian field: each model has its covariance in the map and in space",
-          "[uncertainty]") {
+          "[uncertainty][once]") {
     const std::vector<Promise> promises{
         {VariogramModel::spherical, 0, 0.3125, 0},
         {VariogramModel::exponential, 0, 0.22313, 0.049787},
@@ -94,7 +94,7 @@ TEST_CASE("gaussian field: the range is shorter across the main direction", "[un
 }
 
 TEST_CASE("gaussian field: with the waves of realisations, one field already has the covariance",
-          "[uncertainty]") {
+          "[uncertainty][once]") {
     // Law (3): the covariance for given frequencies, from the mean over many places of one field's kind,
     // is within five times sqrt(1 / (2 M)) of the stated one. Phases and amplitudes are averaged over.
     Variogram v;

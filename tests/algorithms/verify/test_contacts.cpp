@@ -358,7 +358,7 @@ Corners random_triangle(std::mt19937& random, bool flat, const Corners* near) {
 
 } // namespace
 
-TEST_CASE("verify_conforming agrees with clipping on lattice triangles") {
+TEST_CASE("verify_conforming agrees with clipping on lattice triangles", "[once]") {
     std::mt19937 random(2024);
     std::map<std::pair<std::size_t, bool>, int> seen; // {shared corners, proper}
     for (int i = 0; i < 24'000; ++i) {

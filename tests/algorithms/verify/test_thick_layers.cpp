@@ -270,7 +270,7 @@ TEST_CASE("thick layers: forged thicknesses", "[layers]") {
     CHECK(parsed.error().message().find("twice") != std::string::npos);
 }
 
-TEST_CASE("thick layers: stacks that were made in another way", "[layers]") {
+TEST_CASE("thick layers: stacks that were made in another way", "[layers][once]") {
     const auto claims = [](const Subject& made, const std::string& thickness,
                            const std::vector<Layer>& order) {
         Subject wrong = made;

@@ -142,7 +142,7 @@ TEST_CASE("verifier: each kind of damage to tetrahedra is refused, on a cube", "
 }
 
 TEST_CASE("verifier: each kind of damage to tetrahedra is refused, on a geological model",
-          "[tetrahedra]") {
+          "[tetrahedra][once]") {
     check_model(geological_model());
 }
 

@@ -244,7 +244,7 @@ std::set<std::uint32_t> blocks_inside(const Found& found, double half) {
 } // namespace
 
 TEST_CASE("volumes: random planes through a box make as many blocks as Euler's formula says",
-          "[volumes]") {
+          "[volumes][once]") {
     Random random(50);
     constexpr int planes = 50;
     std::vector<Plane> all;

@@ -89,7 +89,7 @@ bool agree(double a, double b) {
 
 } // namespace
 
-TEST_CASE("kriging: expected errors are calibrated, with noise and without", "[kriging]") {
+TEST_CASE("kriging: expected errors are calibrated, with noise and without", "[kriging][once]") {
     const auto plane = [](double x, double y) { return 0.1 * x - 0.05 * y; };
     const auto dome = [](double x, double y) {
         return 20 * std::exp(-(std::pow(x - 15, 2) + y * y) / 12'000);

@@ -89,7 +89,7 @@ TEST_CASE("fill by kriging: errors on smooth surfaces are far less than the dept
 }
 
 TEST_CASE("fill by kriging: triangles are as small as the precision of the heights warrants",
-          "[kriging]") {
+          "[kriging][once]") {
     const auto missed_by_triangles = [](const Filling& f) {
         double sum = 0;
         for (const Triangle& t : f.surface.triangles) {

@@ -72,7 +72,7 @@ std::function<double(double, double)> plane_through(const Surface& s, const Bord
 
 } // namespace
 
-TEST_CASE("rbf: smooth surfaces are filled many times better than by a plane", "[rbf]") {
+TEST_CASE("rbf: smooth surfaces are filled many times better than by a plane", "[rbf][once]") {
     struct Case {
         const char* name;
         std::function<double(double, double)> height;
@@ -176,7 +176,7 @@ auto from_fold(double lean, double height) {
     };
 }
 
-TEST_CASE("rbf: polynomials in space follow a fold better", "[rbf]") {
+TEST_CASE("rbf: polynomials in space follow a fold better", "[rbf][once]") {
     const Surface s = fold_with_hole(200, 150, 0.53, 0.5, 0.126);
     const auto hole = holes_of(s).at(0);
     const auto filling = fill_by_rbf(s, hole, {.most_centres = 400});
@@ -194,7 +194,7 @@ TEST_CASE("rbf: the level continues over the rim of another limb of the fold", "
     CHECK(rms(s, joined.surface, from_fold(200, 220)) < 5);
 }
 
-TEST_CASE("rbf: a hinge sharper than the border edges gets smaller triangles", "[rbf]") {
+TEST_CASE("rbf: a hinge sharper than the border edges gets smaller triangles", "[rbf][once]") {
     const Surface s = fold_with_hole(220, 150, 0.47, 0.5, 0.126);
     const auto hole = holes_of(s).at(0);
     RbfReport report;
@@ -252,7 +252,7 @@ TEST_CASE("rbf: triangles are as small as the precision of the level warrants", 
     CHECK(other.size > 0.24);
 }
 
-TEST_CASE("rbf: four holes of one horizon are filled (the paper's Figure 22)", "[rbf]") {
+TEST_CASE("rbf: four holes of one horizon are filled (the paper's Figure 22)", "[rbf][once]") {
     const auto wavy = [](double x, double y) { return 0.3 * std::sin(x) * std::cos(0.7 * y); };
     Surface s = sheet(graph(wavy), 0, 0, 20, 20, 60, 60, 0.2);
     for (const auto& hole : {disk(5, 5, 1.4), disk(14, 4, 1.1), disk(6, 14, 1.8)})
@@ -316,7 +316,7 @@ TEST_CASE("rbf: patches interpolate rough data and more data than centres", "[rb
     CHECK(joined.value().report.largest_step < 0.04);
 }
 
-TEST_CASE("rbf: data that were left out are told with what the others predict", "[rbf]") {
+TEST_CASE("rbf: data that were left out are told with what the others predict", "[rbf][once]") {
     const auto of_pairs = [](const FillReport& report) {
         REQUIRE(report.left_out.size() > 20);
         double squares = 0;

@@ -17,7 +17,7 @@
 using namespace terrane;
 using namespace test_support;
 
-TEST_CASE("rbf: a hole across a cliff is joined with points on its edges", "[rbf]") {
+TEST_CASE("rbf: a hole across a cliff is joined with points on its edges", "[rbf][once]") {
     const Surface s = cliff(250); // too steep to be fitted as heights
     const auto hole = hole_of(s);
     const auto alone = fill_by_rbf(s, hole);

@@ -119,7 +119,7 @@ TEST_CASE("rbf: smoothing refuses invalid options", "[rbf]") {
     CHECK(smooth_rbf(points, points, values, {}, 1, run).error().code == ErrorCode::interrupted);
 }
 
-TEST_CASE("rbf: noise of the data stays out of the hole, interpolated or smoothed", "[rbf]") {
+TEST_CASE("rbf: noise of the data stays out of the hole, interpolated or smoothed", "[rbf][once]") {
     std::mt19937_64 random(12);
     std::normal_distribution<double> noise(0, 0.05);
     const auto height = [](double x, double y) { return std::sin(0.6 * x) + 0.2 * y; };
