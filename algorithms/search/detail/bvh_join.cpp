@@ -176,9 +176,14 @@ PairBlocks join_groups(const std::vector<Selection>& parts, const Task& task,
         for_blocks<PackedTree>(parts.size(), 1, task.run, [&](std::size_t k, std::size_t) {
             return PackedTree(parts[k], task.crowds);
         });
-    double leaves = 0, done = 0;
-    for (std::size_t a = 0; a < trees.size(); ++a)
-        leaves += static_cast<double>(trees[a].leaf_count() * (trees.size() - a));
+    const auto has_pairs = [&](std::size_t a) { // within the tree
+        return task.groups[parts[a].indices[0]] == no_group;
+    };
+    double leaves = 0, done = 0; // of all joins
+    for (std::size_t a = 0; a < trees.size(); ++a) {
+        const std::size_t joins = trees.size() - a - (has_pairs(a) ? 0 : 1);
+        leaves += static_cast<double>(trees[a].leaf_count() * joins);
+    }
     const auto next = [&](const PackedTree& tree) { // the run of the next join of its leaves
         const double from = done / leaves;
         done += static_cast<double>(tree.leaf_count());
@@ -187,9 +192,10 @@ PairBlocks join_groups(const std::vector<Selection>& parts, const Task& task,
     PairBlocks blocks;
     const auto all = [](std::uint32_t, std::uint32_t) { return true; };
     for (std::size_t a = 0; a < trees.size(); ++a) {
-        const Run inside = next(trees[a]);
-        if (task.groups[parts[a].indices[0]] == no_group)
+        if (has_pairs(a)) {
+            const Run inside = next(trees[a]);
             join_itself(parts[a], trees[a], task.with(inside), find_crowds, blocks);
+        }
         for (std::size_t b = a + 1; b < trees.size(); ++b) {
             const Run between = next(trees[a]);
             join(trees[a], trees[b], task.with(between), blocks, all);
