@@ -67,13 +67,14 @@ std::vector<Block> for_blocks(std::size_t count, std::size_t block_size, const R
     return blocks;
 }
 
-/// Does what for_blocks does, in waves of blocks, and calls report(done) after each, in the calling
-/// thread, where anybody wants to know the progress. `done` of the `count` elements are done.
+/// Returns what for_blocks returns. If the run has a callback for the progress, the blocks are
+/// computed in waves, and the calling thread calls report(done) after each wave: `done` of the `count`
+/// elements have been computed.
 template <class Block, class Work, class Report>
 std::vector<Block> for_reported_blocks(std::size_t count, std::size_t block_size, const Run& run,
                                        const Work& work, const Report& report) {
     if (!run.progress) return for_blocks<Block>(count, block_size, run, work);
-    constexpr std::size_t waves = 64; // as many at most; each ends when its last block does
+    constexpr std::size_t waves = 64; // at most; threads wait for each other at the end of each
     const std::size_t blocks = std::max(count / waves / block_size, std::size_t{run.threads} * 2);
     const std::size_t wave = blocks * block_size;
     std::vector<Block> all;

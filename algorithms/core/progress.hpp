@@ -19,7 +19,7 @@ inline Run part_of_stage(const Run& run, std::string_view stage, double from, do
     return part;
 }
 
-/// Returns the run for a part whose share says nothing about the stage's.
+/// Returns the same run without the callback for the progress, for parts of unknown share.
 inline Run without_progress(const Run& run) {
     Run part = run;
     part.progress = nullptr;

@@ -333,6 +333,7 @@ Pencils find_pencils(const TriangleSoup& soup, std::span<const std::uint32_t> bu
 
 std::vector<CandidatePair> coplanar_pairs(const TriangleSoup& soup, const Pencils& pencils,
                                           std::span<const std::uint32_t> groups, const Run& run) {
+    const Run quiet = without_progress(run);
     std::vector<CandidatePair> all;
     for (const Pencil& pencil : pencils.list) {
         std::vector<std::size_t> order(pencil.triangles.size());
@@ -351,7 +352,7 @@ std::vector<CandidatePair> coplanar_pairs(const TriangleSoup& soup, const Pencil
                 if (!groups.empty()) groups_here.push_back(groups[triangles.back()]);
             }
             for (const CandidatePair& p :
-                 candidate_pairs(boxes, groups_here, Search::automatic, without_progress(run)))
+                 candidate_pairs(boxes, groups_here, Search::automatic, quiet))
                 all.push_back({triangles[p.first], triangles[p.second]});
         }
     }

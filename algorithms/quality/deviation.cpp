@@ -157,20 +157,20 @@ double distance_bound(const Surface& from, const Surface& to, double tolerance, 
 std::vector<Deviation> deviations_of(const Mesh& before, const Mesh& after, const Run& run) {
     const StandardArithmetic guard;
     std::vector<Deviation> all;
-    const std::size_t count = before.triangles.size() + after.triangles.size();
+    const std::size_t count =
+        std::max(before.triangles.size() + after.triangles.size(), std::size_t{1});
     std::size_t done = 0; // triangles; of those in several surfaces, as often
+    const auto measured = [&](const Surface& from, const Surface& to) {
+        const auto share = [&] { return double(std::min(done, count)) / double(count); };
+        const double start = share();
+        done += from.triangles.size();
+        return measured_distance(from, to, part_of_stage(run, "measure", start, share()));
+    };
     for (std::uint32_t s = 0; s < before.surfaces.size(); ++s) {
         if (run.stop.stop_requested()) break;
         const Surface old = surface_of_mesh(before, s), now = surface_of_mesh(after, s);
-        const auto next = [&](const Surface& from) { // the run that measures from it
-            const auto share = [&] { return double(std::min(done, count)) / double(count); };
-            const double start = share();
-            done += from.triangles.size();
-            return part_of_stage(run, "measure", start, share());
-        };
-        const double out = measured_distance(now, old, next(now)),
-                     back = measured_distance(old, now, next(old));
-        all.push_back({out, back});
+        const double out = measured(now, old);
+        all.push_back({out, measured(old, now)});
     }
     return all;
 }

@@ -20,7 +20,8 @@ double sampled_distance(const Surface& from, const Surface& to, const Run& run =
 /// Returns the distance of a point of `from` to `to` that is within 5 % of the largest one (the
 /// one-sided Hausdorff distance), up to rounding errors. Triangles are divided until the bound of
 /// each part shows it. Floating point, in the unit of the points; infinite where `to` has no
-/// triangles. Ends soon after a request to stop, with a distance that is too small. Cost: some
+/// triangles. Ends soon after a request to stop, with a distance that is too small. Reports its
+/// progress as stage "measure". Cost: some
 /// nearest-triangle queries per triangle, and more where the distance is near the largest.
 double measured_distance(const Surface& from, const Surface& to, const Run& run = {});
 
@@ -44,7 +45,8 @@ struct Deviation {
     double back = 0; ///< from the first mesh to the second, unit of the points
 };
 
-/// Computes one Deviation per surface. Both meshes must have the same surfaces.
+/// Computes one Deviation per surface. Both meshes must have the same surfaces. Reports its progress
+/// as stage "measure".
 std::vector<Deviation> deviations_of(const Mesh& before, const Mesh& after, const Run& run = {});
 
 } // namespace terrane

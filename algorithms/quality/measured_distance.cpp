@@ -213,7 +213,7 @@ private:
     std::vector<double> heights_;
 };
 
-constexpr double samples = 0.5; ///< the share of the time that they take, an estimate
+constexpr double sampling_share = 0.5; ///< of the time, an estimate
 
 /// Measures, per triangle, the largest distance of its corners and its centroid.
 std::vector<double> sampled(const Surface& from, const TriangleTree& tree, const Run& run) {
@@ -228,7 +228,7 @@ std::vector<double> sampled(const Surface& from, const TriangleTree& tree, const
         for (std::size_t v = first; v < last && !is_stopped(v); ++v)
             if (is_used[v] != 0) of_vertices[v] = tree.distance(from.vertices[v], anywhere);
     });
-    report_part(run, "measure", 0, samples, from.vertices.size(),
+    report_part(run, "measure", 0, sampling_share, from.vertices.size(),
                 from.vertices.size() + from.triangles.size());
     for_ranges(from.triangles.size(), run, [&](std::size_t first, std::size_t last) {
         for (std::size_t t = first; t < last && !is_stopped(t); ++t) {
@@ -238,7 +238,7 @@ std::vector<double> sampled(const Surface& from, const TriangleTree& tree, const
                                    tree.distance(centre_of(corners), anywhere)});
         }
     });
-    report_part(run, "measure", samples, 1, 0, 1);
+    report_part(run, "measure", 0, sampling_share, 1, 1);
     return largest;
 }
 
@@ -277,7 +277,7 @@ double measured_distance(const Surface& from, const Surface& to, const Run& run)
         };
         for_ranges(count, run, measure, 4, 64);
         for (std::size_t i = done; i < done + count; ++i) least = std::max(least, found[order[i]]);
-        report_part(run, "measure", samples, 1, done + count, order.size());
+        report_part(run, "measure", sampling_share, 1, done + count, order.size());
     }
     return least;
 }

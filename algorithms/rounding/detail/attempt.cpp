@@ -101,7 +101,6 @@ Error Rounding::too_far() const {
 /// Therefore a part of one gets coarser grids, too, each as long as it removes contacts.
 void Rounding::repair(std::vector<CandidatePair>& pairs) {
     const bool is_whole = arrangement_.state->whole;
-    const Run quiet = without_progress(run_);
     std::vector<int> grids(rounding_tuning.fine_digits.begin(), rounding_tuning.fine_digits.end());
     if (!is_whole)
         grids.insert(grids.end(), rounding_tuning.coarse_digits.begin(),
@@ -116,7 +115,7 @@ void Rounding::repair(std::vector<CandidatePair>& pairs) {
         ++out_.report.rounds;
         const RoundingState before = state_;
         const std::size_t count = pairs.size();
-        auto left = snap_round(pairs, *grid) ? contacts(quiet) : pairs;
+        auto left = snap_round(pairs, *grid) ? contacts(quiet_) : pairs;
         if (left.size() < count && deviation() <= task_.limit)
             pairs = std::move(left);
         else
@@ -133,7 +132,7 @@ void Rounding::search_nearby(std::vector<CandidatePair>& pairs) {
     const RoundingState before = state_;
     if (!search_neighbouring_doubles(state_, pairs, task_.kept, task_.limit - moved_.largest, run_))
         return;
-    auto left = contacts(without_progress(run_));
+    auto left = contacts(quiet_);
     if (left.size() < pairs.size() && deviation() <= task_.limit) {
         ++out_.report.rounds;
         pairs = std::move(left);
@@ -273,12 +272,10 @@ void Rounding::snap_corners(std::span<const CandidatePair> pairs, const SnapGrid
 /// doubles. These are much finer than the grid, so most of the parts stay clear of each other.
 /// Returns false without dividing anything if there are more than most_pairs pairs.
 bool Rounding::divide_again(std::size_t most_pairs) {
-    const Run quiet =
-        without_progress(run_); // the share of one round says nothing about the others
-    const auto pairs = contacts(quiet);
+    const auto pairs = contacts(quiet_);
     if (pairs.size() > most_pairs) return false;
     if (pairs.empty()) return true;
-    Retriangulation division = retriangulate(state_.points, state_.triangles, pairs, {}, quiet);
+    Retriangulation division = retriangulate(state_.points, state_.triangles, pairs, {}, quiet_);
     if (run_.stop.stop_requested()) return true;
     const auto first_new = static_cast<std::uint32_t>(state_.points.size());
     std::vector<std::uint32_t> name_of(division.points.size());

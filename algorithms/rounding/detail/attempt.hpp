@@ -93,6 +93,8 @@ private:
     const Task& task_;
     const RoundingOptions& options_;
     const Run& run_;
+    const Run quiet_ =
+        without_progress(run_); ///< for one round, whose share says nothing of others
     RoundingState state_;
     bool left_crowded_ = false;
     FirstSearch first_search_;       ///< how the first search decided pairs, if they are counted

@@ -17,8 +17,8 @@ using PairBlocks = std::vector<Pairs>;
 constexpr std::size_t most_trees = 8; ///< with more groups than this, one tree holds all boxes
 constexpr std::size_t leaves_per_block = 256;
 
-/// The common inputs of all joins of one search. Each join reports its share of the leaves as
-/// stage "search".
+/// The common inputs of all joins of one search. Each join reports the share of the leaves that
+/// have been joined, as stage "search".
 struct Task {
     const BoxSource& boxes;
     std::span<const std::uint32_t> groups;
@@ -30,7 +30,7 @@ struct Task {
     [[nodiscard]] Task with(const Run& other) const {
         return {boxes, groups, crowds, filter, other};
     }
-    /// Reports that so many of the leaves of a join are done.
+    /// Reports how many of the leaves of a join have been joined.
     void report(std::size_t leaves, std::size_t count) const {
         report_part(run, "search", 0, 1, leaves, count);
     }

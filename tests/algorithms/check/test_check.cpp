@@ -109,7 +109,7 @@ TEST_CASE("check: what no stage may be given") {
     CHECK(stopped.error().code == ErrorCode::interrupted);
 }
 
-TEST_CASE("check: tells how far the search is, and hears a stop in it") {
+TEST_CASE("check: the progress of the search ascends, and a stop request ends the search") {
     const Surface waves = test_support::sheet_of( // 80 000 triangles, each beside a few others
         200, 200, 1.0, [](int, int) { return true; },
         [](double x, double y) {

@@ -264,7 +264,7 @@ TEST_CASE("searches: no method goes on to another box once a stop is requested")
     }
 }
 
-TEST_CASE("searches: the hierarchy tells how far it is, and finds the same pairs") {
+TEST_CASE("searches: the progress of the hierarchy ascends to 1, and the pairs are the same") {
     // A grid in which each box overlaps its neighbours, deep enough for several waves of leaves.
     constexpr int side = 400;
     std::vector<Box> boxes;
@@ -276,7 +276,7 @@ TEST_CASE("searches: the hierarchy tells how far it is, and finds the same pairs
         if (i % 2 == 0) active.push_back(static_cast<std::uint32_t>(i));
     }
     std::vector<double> shares;
-    const auto is_told = [&] { // of several steps, in order, to the end
+    const auto ascends_to_1 = [&] { // in several steps
         const bool is_right = std::is_sorted(shares.begin(), shares.end()) && shares.size() >= 6 &&
                               shares.front() < 0.5 && shares.back() == 1;
         shares.clear();
@@ -293,14 +293,14 @@ TEST_CASE("searches: the hierarchy tells how far it is, and finds the same pairs
         for (const Groups& groups : {Groups{}, three}) {
             CHECK(candidate_pairs(boxes, groups, Search::bvh, run) ==
                   candidate_pairs(boxes, groups, Search::bvh));
-            CHECK(is_told());
+            CHECK(ascends_to_1());
             CHECK(candidate_pairs_of(boxes, active, groups, {}, run) ==
                   candidate_pairs_of(boxes, active, groups));
-            CHECK(is_told());
+            CHECK(ascends_to_1());
         }
         CHECK(count_candidate_pairs(boxes, all_alike, run) ==
               count_candidate_pairs(boxes, all_alike));
-        CHECK(is_told());
+        CHECK(ascends_to_1());
     }
 }
 
