@@ -68,6 +68,10 @@ def judge_packages(packages):
     for page in PAGES if "terrane" in depends else ():
         if owner.get(f"./usr/share/{page}") != "terrane":
             flaws.append(f"terrane has no {page}")
+    if "terrane-mpi" in depends and owner.get("./usr/share/man/man1/terrane-mpi.1.gz") != "terrane-mpi":
+        flaws.append("terrane-mpi has no manual page")
+    if any("openmpi" in needed for name, needed in depends.items() if name != "terrane-mpi"):
+        flaws.append("another package than terrane-mpi depends on MPI")
     shared = [name for name in depends if name.startswith("libterrane-c")]
     for name in shared:
         if f"{name} (= " not in depends["libterrane-dev"]:
@@ -134,6 +138,7 @@ dpkg --verify $installed
 cd /project/docs/data
 terrane arrange top.ts fault.ts -o /made/installed.vtp >/dev/null
 if [ -e /usr/libexec/terrane/terrane-tetgen ]; then terrane tetrahedralize body.ts -o /made/installed.vtu >/dev/null; fi
+if [ -e /usr/bin/terrane-mpi ]; then terrane-mpi manual >/dev/null; fi
 if pkg-config --exists terrane_c; then
     cc -std=c11 ../examples/c/blocks.c $(pkg-config --cflags --libs terrane_c) -o /made/installed
     /made/installed top.ts base.ts fault.ts | grep -q 'is in block 2'

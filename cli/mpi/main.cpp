@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -15,6 +16,8 @@
 #include <terrane/algorithms/core/process_memory.hpp>
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
 #include <terrane/cli/mpi/mpi_supersteps.hpp>
+#include <terrane/cli/options/command_table.hpp>
+#include <terrane/cli/options/manual.hpp>
 #include <terrane/cli/reports/distribution_report.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/session.hpp>
@@ -37,9 +40,11 @@ constexpr auto mpi_footer =
     R"(Space is divided into as many blocks as there are processes. The result is that of terrane arrange, for any
 number of them: terrane convert OUT.pvtp OUT.vtp writes the same bytes. All processes must see the same files.
 
+terrane-mpi manual prints this as a manual page.
+
 Exit status: as that of terrane.
 
-Example:
+Examples:
   mpirun -n 4 terrane-mpi arrange horizons.ts faults.ts -o model.pvtp)";
 
 /// Checks in the first process, before any work, that the output can be written.
@@ -91,17 +96,17 @@ Result<ExitStatus> arrange_files(const MpiCommand& command, MpiSupersteps& block
     return ExitStatus::done;
 }
 
-ExitStatus run_command(int argc, char** argv) {
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    CLI::App program("Terrane: exact conforming meshes of geological surfaces, on many machines.",
-                     "terrane-mpi");
+/// Declares the options, which fill a command.
+void declare(CLI::App& program, MpiCommand& command) {
+    program.name("terrane-mpi");
+    program.description(
+        "Terrane: exact conforming meshes of geological surfaces, on many machines.");
     program.set_version_flag("--version", "terrane " TERRANE_VERSION);
     program.require_subcommand(1);
     program.footer(mpi_footer);
-    MpiCommand command;
     auto* arrange = program.add_subcommand(
         "arrange", "Make one conforming mesh of surfaces that cross, in pieces");
+    arrange->footer(mpi_footer);
     arrange->add_option("IN", command.inputs, "Files with surfaces")->required()->type_name("FILE");
     arrange->add_option("-o,--output", command.output, "File that names the pieces")
         ->required()
@@ -109,6 +114,25 @@ ExitStatus run_command(int argc, char** argv) {
     arrange->add_flag("--digest", command.digest, "Say the digest of the exact result");
     arrange->add_option("--stats", command.stats, "Write counts of work and messages as JSON")
         ->type_name("FILE.json");
+}
+
+/// Prints the manual page, for which no other process is needed.
+ExitStatus print_manual() {
+    CLI::App program;
+    MpiCommand command;
+    declare(program, command);
+    print(stdout, manual_of_command(command_table(program).front(),
+                                    {TERRANE_VERSION, program.get_description(),
+                                     program.get_footer(), program.get_name()}));
+    return ExitStatus::done;
+}
+
+ExitStatus run_command(int argc, char** argv) {
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    CLI::App program;
+    MpiCommand command;
+    declare(program, command);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& stop) {
@@ -134,6 +158,7 @@ int main(int argc, char** argv) {
     using namespace terrane::cli;
     terrane::keep_freed_memory();
     terrane::throw_on_gmp_out_of_memory();
+    if (argc == 2 && std::string_view(argv[1]) == "manual") return static_cast<int>(print_manual());
     int threads = 0;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads);
     try {

@@ -113,8 +113,9 @@ std::string entry(const OptionRow& option) {
     return fmt::format(".TP\n{}{}{}\n{}.\n", position, names, value, escaped(option.description));
 }
 
-std::string synopsis(const CommandRow& command) {
-    std::string text = fmt::format(".B terrane {}\n[\\fIOPTION\\fR]...", escaped(command.name));
+std::string synopsis(const CommandRow& command, const ManualSettings& settings) {
+    std::string text = fmt::format(".B {} {}\n[\\fIOPTION\\fR]...", escaped(settings.program),
+                                   escaped(command.name));
     for (const OptionRow& option : options_of(command))
         if (option.required)
             text += fmt::format(" \\fB{}\\fR \\fI{}\\fR", escaped(option.names.front()),
@@ -160,13 +161,14 @@ std::string manual_of_program(std::span<const CommandRow> commands,
 }
 
 std::string manual_of_command(const CommandRow& command, const ManualSettings& settings) {
-    const std::string name = "terrane-" + command.name;
+    const bool is_part = settings.program == "terrane";
+    const std::string name = is_part ? "terrane-" + command.name : settings.program;
     const auto examples = command.footer.find("Examples:\n");
     const auto text = std::string_view(command.footer).substr(0, examples);
     const auto status = std::min(text.find("Exit status: "), text.size());
     auto page = header(name, settings) +
                 fmt::format(".SH NAME\n{} \\- {}\n.SH SYNOPSIS\n{}.SH DESCRIPTION\n", escaped(name),
-                            as_name(command.description), synopsis(command));
+                            as_name(command.description), synopsis(command, settings));
     page += status == 0 ? escaped(command.description) + ".\n" : prose(text.substr(0, status));
     std::string group;
     page += ".SH OPTIONS\n";

@@ -17,6 +17,7 @@ PYBIND11_MODULE(_core, module) {
     module.attr("version") = TERRANE_VERSION;
     terrane::throw_on_gmp_out_of_memory(); // else lack of memory in GMP ends the interpreter
     translate_errors();
+    module.def("keep_freed_memory", &terrane::keep_freed_memory);
     py::class_<HowToRun>(module, "HowToRun")
         .def(py::init([](unsigned threads, const py::object& progress) {
                  return HowToRun{threads, progress};

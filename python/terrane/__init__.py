@@ -25,6 +25,7 @@ from ._errors import ERROR_CODES, Error, OutOfMemory
 from ._files import read, save
 from ._holes import BorderLoop, Filled, FilledHole, FillReport, fill, holes
 from ._layers import Layered, LayerReport, OutOfOrder, layers
+from ._memory import keep_freed_memory
 from ._mesh import CheckReport, Contact, Mesh, Region, Regions, mesh
 from ._model import Model, model
 from ._parts import Block, Blocks, Interface
@@ -58,7 +59,7 @@ __all__ = [
     "RuleViolation", "SealAdvice", "SealChange", "SealTrial", "Sealed", "Structure", "Surface",
     "SurfaceCut", "SurfaceInfo", "Tetrahedra", "Verdict", "VerifiedFile", "Violation",
     "VolumeOfInterest", "Volumes", "arrange", "as_surface", "as_surfaces", "box", "build", "check",
-    "closed", "distance", "ensemble", "extend", "fill", "holes", "improve", "layers", "mesh", "model", "polygon",
+    "closed", "distance", "ensemble", "extend", "fill", "holes", "improve", "keep_freed_memory", "layers", "mesh", "model", "polygon",
     "read", "regions", "rotated_box", "round", "save", "seal", "structure", "suggest_seal",
     "tetrahedralize", "verify", "volume_of_interest", "volumes",
 ]

@@ -24,6 +24,9 @@ _AHEAD = 4
 #: Dask's workers look at themselves a hundred times per second, which nobody asked for and costs a fifth of the time.
 _QUIET_WORKERS = {"distributed.worker.profile.enabled": False, "distributed.worker.profile.interval": "10s",
                   "distributed.admin.tick.interval": "1s", "distributed.admin.system-monitor.interval": "2s"}
+#: What `keep_freed_memory` sets, for workers from their start. Dask itself makes them give memory back often: half of the time.
+_MEMORY_KEPT: Dict[str, Any] = {f"distributed.nanny.pre-spawn-environ.{name}": value for name, value in
+                (("MALLOC_TRIM_THRESHOLD_", 1 << 30), ("MALLOC_MMAP_THRESHOLD_", 1 << 30), ("MALLOC_ARENA_MAX", 1))}
 
 
 class Engine(NamedTuple):
@@ -128,7 +131,7 @@ def _client(distributed: Any, engine: Engine, task: Task, stack: contextlib.Exit
             return stack.enter_context(distributed.Client(engine.scheduler, timeout=10, set_as_default=False))
         except (OSError, TimeoutError, ValueError) as error:
             raise Error("cannot_open", f"no scheduler answers: {error}", engine.scheduler) from None
-    settings = {} if engine.dashboard else _QUIET_WORKERS  # workers inherit them
+    settings = {**_MEMORY_KEPT, **({} if engine.dashboard else _QUIET_WORKERS)}  # workers inherit them
     with _interrupts_blocked(), _module("dask.config", "python3-dask", "engine").set(settings):
         # Terrane itself reports lack of memory; a limit of Dask's would kill workers before.
         cluster = stack.enter_context(distributed.LocalCluster(

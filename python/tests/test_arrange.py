@@ -2,6 +2,8 @@
 """Arranging, rounding, checking: against the program's files, the verifier, and laws."""
 
 import gc
+import subprocess
+import sys
 from fractions import Fraction
 
 import numpy as np
@@ -307,3 +309,27 @@ def test_any_lists_are_a_surface_or_an_error(vertices, triangles):
         terrane.check([s])
     except terrane.Error as error:
         assert error.code in ("bad_option", "bad_index", "bad_number")
+
+
+FAULTS_OF_CALLS = """
+import resource, sys
+import numpy as np, terrane
+if sys.argv[1] == "kept":
+    terrane.keep_freed_memory()
+x, y = (a.ravel() for a in np.meshgrid(np.linspace(0, 1, 300), np.linspace(0, 1, 300)))
+i = (np.arange(299)[:, None] * 300 + np.arange(299)).ravel()
+sheet = terrane.Surface(np.c_[x, y, 0 * x], np.r_[np.c_[i, i + 1, i + 301], np.c_[i, i + 301, i + 300]])
+wall = terrane.Surface([[.5, -1, -1], [.5, 2, -1], [.5, .5, 2]], [[0, 1, 2]])
+for _ in range(4):
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
+    terrane.arrange([sheet, wall], threads=1)
+print(resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before)
+"""
+
+
+@pytest.mark.skipif(SANITIZED, reason="the sanitizer has an allocator of its own")
+def test_freed_memory_is_kept():
+    """The last of four calls asks the system for hardly any page."""
+    faults = {name: int(subprocess.run([sys.executable, "-c", FAULTS_OF_CALLS, name], check=True, capture_output=True).stdout)
+              for name in ("default", "kept")}
+    assert faults["default"] > 1000 and faults["kept"] < faults["default"] / 10

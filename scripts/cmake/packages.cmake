@@ -102,7 +102,10 @@ terrane_package(dev libterrane-dev libdevel LGPL-3+ "exact meshes of geological 
     DEPENDS "${c_package} (= ${debian_version}), libfmt-dev, libgmp-dev, libmpfr-dev, libpugixml-dev, libshp-dev, libtbb-dev, nettle-dev, zlib1g-dev"
     RECOMMENDS terrane-tetgen)
 terrane_package(program terrane science LGPL-3+ "exact meshes of geological surfaces - program"
-    "${what}\n.\nThis package has the program." RECOMMENDS terrane-tetgen SUGGESTS terrane-gmsh)
+    "${what}\n.\nThis package has the program." RECOMMENDS terrane-tetgen
+    SUGGESTS "terrane-gmsh, terrane-mpi")
+terrane_package(mpi terrane-mpi science LGPL-3+ "exact meshes of geological surfaces - many machines"
+    "${what}\n.\nThis package has the program for one model on many machines, by MPI." RECOMMENDS terrane SUGGESTS openmpi-bin)
 terrane_package(tetgen terrane-tetgen science AGPL-3+ "exact meshes of geological surfaces - tetrahedra by TetGen"
     "${what}\n.\nThis package has the helper program that makes tetrahedra by TetGen." ENHANCES "terrane, ${c_package}")
 terrane_package(gmsh terrane-gmsh science GPL-3+ "exact meshes of geological surfaces - tetrahedra by Gmsh"
@@ -130,7 +133,7 @@ set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/scripts/cmake/compress_pages.c
 
 # Packages of what this build has.
 set(CPACK_COMPONENTS_ALL dev)
-foreach(pair library:terrane_c program:terrane_program tetgen:terrane_tetgen_helper gmsh:terrane_gmsh_helper)
+foreach(pair library:terrane_c program:terrane_program mpi:terrane_mpi tetgen:terrane_tetgen_helper gmsh:terrane_gmsh_helper)
   string(REPLACE ":" ";" pair ${pair})
   list(POP_FRONT pair component target)
   if(TARGET ${target})

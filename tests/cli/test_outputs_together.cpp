@@ -75,6 +75,17 @@ TEST_CASE("cli: an interrupt is heard while nobody reads a pipe", "[cli][outputs
     CHECK(folder.left().empty());
 }
 
+TEST_CASE("cli: an interrupt is heard while nobody writes to a pipe", "[cli][outputs]") {
+    const Folder folder;
+    REQUIRE(folder.shell("mkfifo in/p").status == 0);
+    // The pipe never ends, as the program itself could write to it. What waits for it can't look for stop requests.
+    const auto r =
+        folder.shell("timeout --preserve-status -k 20 -s INT 0.5 $T convert - - --format obj "
+                     "--output-format obj <>in/p");
+    CHECK(r.status == 2);
+    CHECK(contains(r.err, "terrane: interrupted, nothing written"));
+}
+
 TEST_CASE("cli: a hangup is an interrupt, but not under nohup", "[cli][outputs]") {
     const Folder folder;
     const auto in = folder.input(model, crossing);

@@ -95,13 +95,19 @@ TEST_CASE("cli: a folder that cannot become the output is refused before any wor
 TEST_CASE("cli: a file that cannot become an output is refused before any work",
           "[cli][surroundings]") {
     const Folder folder;
-    REQUIRE(folder.shell("ln -s no/x.obj lost.obj && ln -s self.obj self.obj").status == 0);
+    REQUIRE(folder
+                .shell("ln -s no/x.obj lost.obj && ln -s self.obj self.obj && mkdir in/d.obj && "
+                       "touch in/file")
+                .status == 0);
     struct Bad {
         std::string name, message;
     };
     for (const auto& [name, message] : std::vector<Bad>{
              {"lost.obj", "lost.obj: this is a link into a folder that is not there"},
              {"self.obj", "self.obj: cannot be written: Too many levels of symbolic links"},
+             {"in/d.obj", "in/d.obj: this is a folder"},
+             {"in/file/x.obj", "in/file/x.obj: there is no folder in/file"},
+             {"no/x.obj", "no/x.obj: there is no folder no"},
              {std::string(256, 'n') + ".obj", "cannot be written: File name too long"}}) {
         const auto r = folder.run("convert missing.obj " + name);
         INFO(name << ": " << r.err);

@@ -211,6 +211,8 @@ export async function tryPace(page) {
   check(simple.wide === 0 && simple.thin === all.wide, "and thin lines", simple);
   await page.waitForFunction(() => window.terrane.view.pace.level === 0);
   check(JSON.stringify(await drawn()) === JSON.stringify(all), "all is drawn again at rest");
+  const again = await page.evaluate(() => window.terrane.view.viewpoint.turn(2, 0)).then(drawn);
+  check(JSON.stringify(again) === JSON.stringify(simple), "the first picture of the next turn is simple, too", again, simple);
   const back = await page.evaluate(() => {
     const { pace } = window.terrane.view;
     return [1, 2, 3].map(() => (pace.judge(2, pace.learned, 8000), pace.learned));
