@@ -67,8 +67,9 @@ Command manual_command(CLI::App& program) {
                 const ManualSettings settings{TERRANE_VERSION, program.get_description(),
                                               program.get_footer()};
                 const auto found = std::ranges::find(table, *name, &CommandRow::name);
-                print(stdout, found == table.end() ? manual_of_program(table, settings)
-                                                   : manual_of_command(*found, settings));
+                print(stdout, found == table.end()
+                                  ? manual_of_program(table, settings)
+                                  : manual_of_command(*found, "terrane-" + found->name, settings));
                 return ExitStatus::done;
             }};
 }

@@ -40,7 +40,7 @@ constexpr auto mpi_footer =
     R"(Space is divided into as many blocks as there are processes. The result is that of terrane arrange, for any
 number of them: terrane convert OUT.pvtp OUT.vtp writes the same bytes. All processes must see the same files.
 
-terrane-mpi manual prints this as a manual page.
+The command terrane-mpi manual prints the manual page.
 
 Exit status: as that of terrane.
 
@@ -96,7 +96,7 @@ Result<ExitStatus> arrange_files(const MpiCommand& command, MpiSupersteps& block
     return ExitStatus::done;
 }
 
-/// Declares the options, which fill a command.
+/// Declares the command line; parsing it sets `command`.
 void declare(CLI::App& program, MpiCommand& command) {
     program.name("terrane-mpi");
     program.description(
@@ -116,12 +116,12 @@ void declare(CLI::App& program, MpiCommand& command) {
         ->type_name("FILE.json");
 }
 
-/// Prints the manual page, for which no other process is needed.
+/// Prints the manual page. MPI is not started for it.
 ExitStatus print_manual() {
     CLI::App program;
     MpiCommand command;
     declare(program, command);
-    print(stdout, manual_of_command(command_table(program).front(),
+    print(stdout, manual_of_command(command_table(program).front(), program.get_name(),
                                     {TERRANE_VERSION, program.get_description(),
                                      program.get_footer(), program.get_name()}));
     return ExitStatus::done;

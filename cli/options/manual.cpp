@@ -160,9 +160,8 @@ std::string manual_of_program(std::span<const CommandRow> commands,
     return page + environment + prose(settings.footer) + ".SH SEE ALSO\n" + pages;
 }
 
-std::string manual_of_command(const CommandRow& command, const ManualSettings& settings) {
-    const bool is_part = settings.program == "terrane";
-    const std::string name = is_part ? "terrane-" + command.name : settings.program;
+std::string manual_of_command(const CommandRow& command, const std::string& name,
+                              const ManualSettings& settings) {
     const auto examples = command.footer.find("Examples:\n");
     const auto text = std::string_view(command.footer).substr(0, examples);
     const auto status = std::min(text.find("Exit status: "), text.size());

@@ -15,12 +15,13 @@ struct ManualSettings {
     std::string version;             ///< "0.1.0"
     std::string description;         ///< of the program, a sentence
     std::string footer;              ///< of the program's --help
-    std::string program = "terrane"; ///< as it is called
+    std::string program = "terrane"; ///< the command line begins with it
 };
 
 /// Returns terrane(1), which lists the commands.
 std::string manual_of_program(std::span<const CommandRow> commands, const ManualSettings& settings);
-/// Returns terrane-COMMAND(1). The only command of another program has the page of that program.
-std::string manual_of_command(const CommandRow& command, const ManualSettings& settings);
+/// Returns the page of a command, which is called `name`: terrane-arrange(1), terrane-mpi(1).
+std::string manual_of_command(const CommandRow& command, const std::string& name,
+                              const ManualSettings& settings);
 
 } // namespace terrane::cli

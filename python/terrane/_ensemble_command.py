@@ -175,7 +175,7 @@ def _stop(number: int, frame: Any) -> NoReturn:
 def main(given: List[str]) -> int:
     """Run the command; return its exit status."""
     arguments = _parser().parse_args(given)
-    _core.keep_freed_memory()  # this process is the program's own
+    _core.keep_freed_memory()  # as the program terrane does
     for name in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(name, _stop)
     try:

@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What happens to memory that is freed."""
+"""Settings of the process for freed memory."""
 
 from . import _core
 
 
 def keep_freed_memory() -> None:
-    """Keep memory that is freed in this process, where the next call can use it at once.
+    """Keep freed memory in the process, so that later calls reuse it.
 
-    By default glibc gives large arrays back to the system, and each call asks for them anew: where that is slow, as in
-    many virtual machines, it takes more time than the geometry. A script that makes many calls, or works on large models,
-    calls this once, before it starts threads. It changes settings of the whole process (one arena, and no memory is given
-    back before the end), so that the package never does it by itself. Without glibc it does nothing.
+    By default, glibc returns large arrays to the operating system, and the next call requests them again. In many virtual
+    machines these page faults take longer than the geometry. Call this function once, before threads are started, in
+    scripts that make many calls or work on large models. It changes settings of the whole process: all threads share one
+    malloc arena, and the process never shrinks. Therefore the package does not call it by itself. It has no effect
+    without glibc.
 
     Examples
     --------

@@ -6,12 +6,12 @@
 
 For each input, a pair of the paper's surfaces or a file, it prints
 (1) `arrange` of NumPy arrays, beside the call of the library itself, terrane_arrange of libterrane_c with surfaces that it has
-    already: CPU seconds of the process, one thread, medians of runs in turn, and the median of the ratios of neighbouring runs.
-    Python's package runs each stage in a thread of its own, for whose memory glibc has another arena than for the main
-    thread's, which gives every page back between two calls. So the library is called in both, and the ratio is to the quicker;
+    already: CPU seconds of the process, one thread, medians of runs in turn, and the medians of the ratios of neighbouring runs.
+    The package runs each stage in a thread of its own, and glibc gives that thread another malloc arena than the main
+    thread. Therefore the library is called in the main thread and in a new one;
 (2) the memory that 1 000 calls of a small input leave behind;
 (3) CPU seconds, and with --wall wall seconds, of two calls one after the other and in two Python threads at once.
-With --kept the process keeps freed memory, as the program terrane does: then no call waits for the system's pages.
+With --kept the process keeps freed memory, as the program terrane does, so that page faults do not count.
 CPU seconds count the same on a machine that others use, wall seconds do not: there (3) needs an idle machine.
 """
 import argparse
@@ -103,9 +103,10 @@ def measure(terrane, name, surfaces, library, options):
         own.append(timed(library.arrange)[0])
         threaded.append(timed(lambda: in_threads(library.arrange, 1))[0])
         python.append(timed(call)[0])
-    ratio = statistics.median(p / min(a, b) for a, b, p in zip(own, threaded, python))
-    print(f"{name}: arrange {statistics.median(own):.3f} CPU s by the library in the main thread, {statistics.median(threaded):.3f} "
-          f"in another, {statistics.median(python):.3f} of NumPy arrays ({size:.1f} MB), ratio {ratio:.3f}", flush=True)
+    print(f"{name}: arrange of NumPy arrays ({size:.1f} MB) {statistics.median(python):.3f} CPU s", flush=True)
+    for where, times in (("the main thread", own), ("a new thread", threaded)):
+        ratio = statistics.median(p / c for c, p in zip(times, python))
+        print(f"{name}: arrange by the library in {where} {statistics.median(times):.3f} CPU s, ratio {ratio:.3f}", flush=True)
     if not options.threads:
         return
     for _ in range(options.repeats):

@@ -75,10 +75,10 @@ TEST_CASE("cli: an interrupt is heard while nobody reads a pipe", "[cli][outputs
     CHECK(folder.left().empty());
 }
 
-TEST_CASE("cli: an interrupt is heard while nobody writes to a pipe", "[cli][outputs]") {
+TEST_CASE("cli: an interrupt ends a command that waits for its input", "[cli][outputs]") {
     const Folder folder;
     REQUIRE(folder.shell("mkfifo in/p").status == 0);
-    // The pipe never ends, as the program itself could write to it. What waits for it can't look for stop requests.
+    // The shell opens the pipe for reading and writing, so it never ends.
     const auto r =
         folder.shell("timeout --preserve-status -k 20 -s INT 0.5 $T convert - - --format obj "
                      "--output-format obj <>in/p");
