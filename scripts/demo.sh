@@ -51,7 +51,9 @@ expect "$out/modelA2.json" regions 13
 
 say "the same model for a simulator: in a box, its triangles improved; the share of bad tetrahedra"
 rm -rf "$out/simulator"
-run "$terrane" build tests/data/projects/simulator.json -o "$out/simulator" |
+page=() # a build without npm has no pages
+[[ ! -e build/demo/page_bundle.cpp ]] || page=(--report "$out/model.html")
+run "$terrane" build tests/data/projects/simulator.json -o "$out/simulator" "${page[@]}" |
     grep -E '^\$ |^[0-9]+ tetrahedra, |^dihedral angles|have an angle below|^SICN'
 
 say "written"
@@ -59,6 +61,7 @@ find "$out" -type f -printf '  %9s bytes  %p\n' | sort -k3
 cat <<END
 
 To look at it:
+  browser   open ${page[1]:-(this build has no pages)}: blocks, tetrahedra, sections
   ParaView  open $out/simulator/tetrahedra.vtu or $out/modelA2.vtu, Threshold on region from 1, Explode Data, colour by region
             open $out/faults-topography.vtp, colour by surface, "Surface With Edges"
   gmsh      gmsh $out/modelA2.msh
