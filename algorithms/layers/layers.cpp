@@ -147,30 +147,53 @@ void remove_folds(Surface& s, const std::vector<Triangle>& upward) {
     s.triangles.resize(kept);
 }
 
-/// Builds the surface of a layer; points are rounded to the nearest doubles.
-Surface surface_of(const Arrangement& a, const Set& triangles, const LayerResolver& resolver,
-                   const WholeTriangles& whole, const Surface& original) {
+/// Moves a point to the nearest one whose coordinates are multiples of `spacing`.
+Point3 on_grid(const Point3& p, double spacing) {
+    const auto rounded = [&](double c) { return std::nearbyint(c / spacing) * spacing; };
+    return {rounded(p.x), rounded(p.y), rounded(p.z)};
+}
+
+/// The layers before they are in doubles.
+struct ExactStack {
+    std::span<const Surface> surfaces;
+    std::span<const Layer> order;
+    const Arrangement& arrangement; ///< of all copies of the layers
+    const LayerResolver& resolver;  ///< has resolved all layers
+    const std::vector<Set>& sets;   ///< the triangles of each layer
+};
+
+/// Builds the surface of a layer. Its new points are rounded to the nearest doubles, and then to
+/// multiples of `grid` unless that is 0.
+Surface surface_of(const ExactStack& exact, std::size_t layer, const WholeTriangles& whole,
+                   double grid) {
+    const Arrangement& a = exact.arrangement;
+    const Surface& original = exact.surfaces[exact.order[layer].surface];
     Surface s{original.name, original.role, {}, {}};
     std::map<PointIndex, std::uint32_t> name;
     const auto named = [&](const std::array<PointIndex, 3>& corners) {
+        const PointStore& points = a.state->points;
         Triangle t{};
         for (unsigned k = 0; k < 3; ++k) {
+            const PointIndex p = corners[k];
             const auto [at, added] =
-                name.try_emplace(corners[k], static_cast<std::uint32_t>(s.vertices.size()));
-            if (added) s.vertices.push_back(a.state->points.nearest(corners[k]));
+                name.try_emplace(p, static_cast<std::uint32_t>(s.vertices.size()));
+            if (added)
+                s.vertices.push_back(grid > 0 && !points.is_input(p)
+                                         ? on_grid(points.nearest(p), grid)
+                                         : points.nearest(p));
             t[k] = at->second;
         }
         return t;
     };
     std::vector<Triangle> upward;
     Set wholes;
-    for (const std::uint32_t t : triangles) {
+    for (const std::uint32_t t : exact.sets[layer]) {
         const Triangle& c = a.triangles[t];
         if (const auto as = whole(t)) {
             wholes.push_back(*as);
         } else {
             s.triangles.push_back(named({a.vertices[c[0]], a.vertices[c[1]], a.vertices[c[2]]}));
-            upward.push_back(named(resolver.upward(t)));
+            upward.push_back(named(exact.resolver.upward(t)));
         }
     }
     remove_folds(s, upward);
@@ -196,14 +219,65 @@ Status validate_order(std::span<const Surface> surfaces, std::span<const Layer> 
     return Done{};
 }
 
+/// Returns the spacing of the doubles at the largest coordinate in the plane.
+double spacing_in_plane(const std::vector<Point3>& points) {
+    double largest = 0;
+    for (const Point3& p : points) largest = std::max({largest, std::fabs(p.x), std::fabs(p.y)});
+    return std::nextafter(largest, HUGE_VAL) - largest;
+}
+
 /// Computes how wide the strips along steps are in which rounding may have moved the two sides of a
 /// step across each other: both sides move, first to the nearest doubles, then as reported.
 double width_of_steps(const RoundedMesh& rounded) {
-    double largest = 0;
-    for (const Point3& p : rounded.mesh->vertices)
-        largest = std::max({largest, std::fabs(p.x), std::fabs(p.y)});
-    const double spacing = std::nextafter(largest, HUGE_VAL) - largest;
-    return 2 * (rounded.report.max_move + spacing);
+    return 2 * (rounded.report.max_move + spacing_in_plane(rounded.mesh->vertices));
+}
+
+/// Turns a stack into doubles, whose order is checked. New points of the layers become multiples
+/// of `grid` first, unless that is 0. The report of rounding allows for these moves.
+Result<Layered> in_doubles(const ExactStack& stack, const LayerOptions& options, double grid,
+                           const Run& run) {
+    const WholeTriangles whole(stack.arrangement, stack.sets);
+    std::vector<Surface> stacked;
+    for (std::size_t i = 0; i < stack.order.size(); ++i)
+        stacked.push_back(surface_of(stack, i, whole, grid));
+    const auto exact = arrange(stacked, {}, run);
+    if (!exact) return exact.error();
+    const double limit = options.max_move.value_or(default_max_move(*exact));
+    const RoundingOptions rounding{options.max_rounds, options.check, limit - grid};
+    auto rounded = round_to_doubles(*exact, rounding, run);
+    if (!rounded) return rounded.error();
+    // To a multiple of the grid a point moves by at most .87 of it.
+    for (double* const moved : {&rounded->report.max_move, &rounded->report.surface_deviation,
+                                &rounded->report.deviation})
+        *moved += grid;
+    rounded->report.max_allowed = limit;
+    const double width = width_of_steps(*rounded);
+    auto flaws = find_out_of_order(*rounded->mesh, width, run);
+    if (!flaws) return flaws.error();
+    return Layered{std::move(*rounded), stack.resolver.reports(), width, std::move(*flaws),
+                   options.min_thickness};
+}
+
+/// Turns a stack into doubles that in_doubles() put out of order. Where several curves cross within
+/// a few doubles of each other, their crossings become the corners of triangles that small, of which
+/// some are turned. Points that become one have none. Returns nothing if that does not help.
+Result<std::optional<Layered>> on_grids(const ExactStack& stack, const LayerOptions& options,
+                                        const Run& run) {
+    double unit = 0;
+    for (const Layer& l : stack.order) {
+        const Surface& s = stack.surfaces[l.surface];
+        unit = std::max(unit, spacing_in_plane(s.vertices));
+        for (const Point3& p : s.vertices)
+            unit = std::max(unit, std::nextafter(std::fabs(p.z), HUGE_VAL) - std::fabs(p.z));
+    }
+    for (const double spacings : {4.0, 32.0}) {
+        const double grid = spacings * unit;
+        if (options.max_move && grid >= *options.max_move) break;
+        auto layered = in_doubles(stack, options, grid, run);
+        if (!layered && is_external(layered.error().code)) return layered.error();
+        if (layered && layered->is_stack()) return {std::move(*layered)};
+    }
+    return {std::nullopt};
 }
 
 Result<Layered> stack_valid(std::span<const Surface> surfaces, std::span<const Layer> order,
@@ -236,9 +310,7 @@ Result<std::optional<Layered>> stack_again(std::span<const Surface> surfaces,
         }
     if (!(same.min_thickness > 0) || (!is_changed && same.min_thickness == options.min_thickness))
         return {std::nullopt};
-    Run quiet = run;
-    quiet.progress = nullptr;
-    auto again = stack_valid(exact, order, same, quiet);
+    auto again = stack_valid(exact, order, same, run);
     if (!again && is_external(again.error().code)) return again.error();
     if (!again || !again->is_stack()) return {std::nullopt};
     again->height_error += unit; // more than heights were rounded by
@@ -270,28 +342,28 @@ Result<Layered> stack_valid(std::span<const Surface> surfaces, std::span<const L
         sets.push_back(std::move(set).value());
         progress(0.4 + 0.3 * static_cast<double>(i + 1) / static_cast<double>(order.size()));
     }
-    const WholeTriangles whole(arrangement.value(), sets);
-    std::vector<Surface> stacked;
-    for (std::size_t i = 0; i < order.size(); ++i)
-        stacked.push_back(
-            surface_of(arrangement.value(), sets[i], resolver, whole, surfaces[order[i].surface]));
-    const auto exact = arrange(stacked, {}, run);
-    if (!exact) return exact.error();
-    auto rounded =
-        round_to_doubles(exact.value(), {options.max_rounds, options.check, options.max_move}, run);
-    if (!rounded) return rounded.error();
+    const ExactStack exact{surfaces, order, *arrangement, resolver, sets};
+    auto layered = in_doubles(exact, options, 0, run);
+    if (!layered) return layered.error();
     progress(0.9);
-    const double width = width_of_steps(*rounded);
-    auto flaws = find_out_of_order(*rounded->mesh, width, run);
-    if (!flaws) return flaws.error();
-    if (thick && !flaws->empty()) {
-        auto again = stack_again(surfaces, order, options, run);
-        if (!again) return again.error();
-        if (*again) return std::move(**again);
+    const auto use = [&](std::optional<Layered>&& other) {
+        if (other) layered = std::move(*other);
+    };
+    Run quiet = run;
+    quiet.progress = nullptr;
+    if (!layered->is_stack()) {
+        auto other = on_grids(exact, options, quiet);
+        if (!other) return other.error();
+        use(std::move(*other));
+    }
+    layered->height_error += height_error;
+    if (thick && !layered->is_stack()) {
+        auto other = stack_again(surfaces, order, options, quiet);
+        if (!other) return other.error();
+        use(std::move(*other));
     }
     progress(1);
-    return Layered{std::move(*rounded), resolver.reports(),    width,
-                   std::move(*flaws),   options.min_thickness, height_error};
+    return layered;
 }
 
 } // namespace

@@ -14,8 +14,10 @@
 #include <gmpxx.h>
 
 #include "support/effort.hpp"
+#include "support/paths.hpp"
 #include "support/shapes.hpp"
 #include <terrane/algorithms/check/check.hpp>
+#include <terrane/io/files.hpp>
 
 using namespace terrane;
 using namespace test_support;
@@ -274,6 +276,39 @@ TEST_CASE("stacks: layers that do not cross do not change, and stacking twice ch
     REQUIRE(twice);
     CHECK(twice.value().reports[0].dropped == 0);
     CHECK(twice.value().rounded.mesh->triangles.size() == mesh.triangles.size());
+}
+
+TEST_CASE(
+    "stacks: crossings within a double of each other cost a few spacings, where that is allowed",
+    "[layers]") {
+    // Curves of three layers cross at one place. In the nearest doubles a triangle there is turned.
+    const auto surfaces = read_surfaces(test_data() + "/layers/stack436_crossings.obj");
+    REQUIRE(surfaces);
+    const std::array order{Layer{SurfaceId(0), 1}, Layer{SurfaceId(1), 5}, Layer{SurfaceId(2), 3}};
+    const double spacing = std::nextafter(10.0, HUGE_VAL) - 10; // coordinates reach up to 10
+    const auto stacked = stack_layers(*surfaces, order);
+    REQUIRE(stacked);
+    CHECK(stacked->is_stack());
+    const RoundingReport& report = stacked->rounded.report;
+    CHECK(report.max_move >= 4 * spacing);
+    CHECK(report.surface_deviation >= 4 * spacing);
+    CHECK(report.surface_deviation <= 40 * spacing);
+    CHECK(report.max_allowed == 1024 * spacing);
+    CHECK(stacked->step_width >= 2 * report.max_move);
+    // Corners of the input stay where they are.
+    const Mesh& mesh = stacked->rounded.mesh;
+    const auto is_kept = [&](const Point3& p) {
+        return std::find(mesh.vertices.begin(), mesh.vertices.end(), p) != mesh.vertices.end();
+    };
+    const auto& hardest = surfaces->at(1).vertices;
+    CHECK(std::all_of(hardest.begin(), hardest.end(), is_kept));
+
+    // With less room than that, the nearest doubles are what there is, and said to be wrong.
+    const auto held = stack_layers(*surfaces, order, {.max_move = 3 * spacing});
+    REQUIRE(held);
+    CHECK_FALSE(held->is_stack());
+    CHECK(held->rounded.report.surface_deviation <= 3 * spacing);
+    CHECK(held->rounded.report.max_allowed == 3 * spacing);
 }
 
 TEST_CASE("stacks: where the nearest harder layer has ended, the next one counts", "[layers]") {
