@@ -65,9 +65,10 @@ std::optional<Axis> static_projection_axis(const Point3& a, const Point3& b, con
     return std::nullopt;
 }
 
-// Evaluates stages two and three. `polynomial` is generic over the number type.
+// Evaluates stages two and three. `polynomial` is generic over the number type. It is seldom called,
+// and inlined it would make stage one slower, which takes some 50 instructions.
 template <class Polynomial>
-Sign filtered(const Polynomial& polynomial) {
+[[gnu::noinline, gnu::cold]] Sign filtered(const Polynomial& polynomial) {
     {
         const UpwardRounding guard;
         if (const auto sign = certain_sign(guard, polynomial(Interval{}))) {
@@ -100,7 +101,9 @@ std::optional<Sign> filtered_orient2d(Axis axis, const Point3& a, const Point3& 
     return static_turn2d(p, project(axis, b), p, project(axis, c));
 }
 
-Sign orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+// Stage one has no arrays whose stack would need protection; stages two and three protect theirs.
+__attribute__((no_stack_protector)) Sign orient3d(const Point3& a, const Point3& b, const Point3& c,
+                                                  const Point3& d) {
     if (const auto sign = static_orient3d(a, b, c, d)) {
         ++predicate_counts().static_filter;
         return *sign;
@@ -111,7 +114,8 @@ Sign orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d
     });
 }
 
-Sign turn2d(Axis axis, const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+__attribute__((no_stack_protector)) Sign turn2d(Axis axis, const Point3& a, const Point3& b,
+                                                const Point3& c, const Point3& d) {
     if (const auto sign =
             static_turn2d(project(axis, a), project(axis, b), project(axis, c), project(axis, d))) {
         ++predicate_counts().static_filter;
@@ -127,7 +131,8 @@ Sign orient2d(Axis axis, const Point3& a, const Point3& b, const Point3& c) {
     return turn2d(axis, a, b, a, c);
 }
 
-Sign in_circle(Axis axis, const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+__attribute__((no_stack_protector)) Sign in_circle(Axis axis, const Point3& a, const Point3& b,
+                                                   const Point3& c, const Point3& d) {
     if (const auto sign = static_in_circle(project(axis, a), project(axis, b), project(axis, c),
                                            project(axis, d))) {
         ++predicate_counts().static_filter;

@@ -33,21 +33,44 @@ struct Part {
 /// Starts each part that is not the whole face with its lowest corner, and sorts the parts of a face by
 /// their corners. The triangles of a face depend on its points alone; so does their order then, and not
 /// on the order of work.
-void put_in_order(const TriangleSoup& soup, const PointOrder& order, std::span<Part> parts) {
-    const auto rank = [&](PointIndex p) { return order.rank[p]; };
-    for (Part& p : parts) {
-        const Triangle& whole = soup.triangles[p.face];
-        if (std::is_permutation(whole.begin(), whole.end(), p.corners.begin())) continue;
-        const auto lowest =
-            std::min_element(p.corners.begin(), p.corners.end(),
-                             [&](PointIndex a, PointIndex b) { return rank(a) < rank(b); });
-        std::rotate(p.corners.begin(), lowest, p.corners.end());
+class PartOrder {
+public:
+    PartOrder(const TriangleSoup& soup, const PointOrder& order) : soup_(soup), order_(order) {}
+
+    void operator()(std::span<Part> parts);
+
+private:
+    struct Ranked {
+        std::uint64_t first_two; ///< ranks of two corners, the first one above
+        std::uint32_t third;
+        Part part;
+    };
+
+    const TriangleSoup& soup_;
+    const PointOrder& order_;
+    std::vector<Ranked> ranked_;
+};
+
+void PartOrder::operator()(std::span<Part> parts) {
+    const auto rank = [&](PointIndex p) { return order_.rank[p]; };
+    if (parts.size() == 1) { // the whole face, or what a pool has left of it
+        const Triangle& whole = soup_.triangles[parts[0].face];
+        if (std::is_permutation(whole.begin(), whole.end(), parts[0].corners.begin())) return;
     }
-    std::sort(parts.begin(), parts.end(), [&](const Part& a, const Part& b) {
-        return std::lexicographical_compare(
-            a.corners.begin(), a.corners.end(), b.corners.begin(), b.corners.end(),
-            [&](PointIndex x, PointIndex y) { return rank(x) < rank(y); });
+    ranked_.clear();
+    for (Part& p : parts) {
+        auto& [a, b, c] = p.corners;
+        if (rank(b) < rank(a) && rank(b) < rank(c))
+            p.corners = {b, c, a};
+        else if (rank(c) < rank(a))
+            p.corners = {c, a, b};
+        ranked_.push_back({(std::uint64_t{rank(a)} << 32) | rank(b), rank(c), p});
+    }
+    if (parts.size() == 1) return;
+    std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& a, const Ranked& b) {
+        return a.first_two != b.first_two ? a.first_two < b.first_two : a.third < b.third;
     });
+    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] = ranked_[k].part;
 }
 
 /// Parts by face.
@@ -63,7 +86,8 @@ public:
     Divider(UpwardWitness upward, const TriangleSoup& soup, const Contacts& contacts,
             const PointOrder& order, const Run& run) :
         upward_(upward),
-        soup_(soup), contacts_(contacts), order_(order), run_(run), triangulate_(upward) {}
+        soup_(soup), contacts_(contacts), order_(order), run_(run), triangulate_(upward),
+        put_in_order_(soup, order) {}
 
     /// Divides one face or pool, given its pieces and crossings.
     void operator()(std::span<const FaceConstraint> pieces, std::uint32_t first_piece,
@@ -90,7 +114,7 @@ public:
         const std::size_t first = out.parts.size();
         for (const auto& part : triangulate_(contacts_.points, order_.rank, face_))
             out.parts.push_back({f, part});
-        put_in_order(soup_, order_, std::span(out.parts).subspan(first));
+        put_in_order_(std::span(out.parts).subspan(first));
     }
 
 private:
@@ -153,6 +177,7 @@ private:
     FaceInput face_;
     std::vector<std::vector<PointIndex>> chains_;
     FaceTriangulation triangulate_;
+    PartOrder put_in_order_;
 };
 
 /// The pieces and crossings of one face.
@@ -178,14 +203,15 @@ std::vector<FaceRange> faces_with_contacts(const Contacts& contacts) {
     return faces;
 }
 
-/// Sorts parts by face, and those of one face as put_in_order() does.
+/// Sorts parts by face, and those of one face as PartOrder does.
 void put_pooled_in_order(const TriangleSoup& soup, const PointOrder& order,
                          std::vector<Part>& parts) {
     std::stable_sort(parts.begin(), parts.end(),
                      [](const Part& a, const Part& b) { return a.face < b.face; });
+    PartOrder put_in_order(soup, order);
     for (std::size_t first = 0, end = 0; first < parts.size(); first = end) {
         while (end < parts.size() && parts[end].face == parts[first].face) ++end;
-        put_in_order(soup, order, std::span(parts).subspan(first, end - first));
+        put_in_order(std::span(parts).subspan(first, end - first));
     }
 }
 

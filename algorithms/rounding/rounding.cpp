@@ -26,14 +26,29 @@ using namespace rounding::detail;
 
 namespace {
 
+double largest_coordinate(const Point3& p) {
+    return std::max(std::max(std::fabs(p.x), std::fabs(p.y)), std::fabs(p.z));
+}
+
 /// Returns the largest absolute coordinate of the input triangles.
 double largest_coordinate(const Arrangement& a) {
+    const auto points = a.state->points.inputs();
+    const auto& triangles = a.state->corners;
+    if (triangles.empty()) return 0;
+    std::uint32_t farthest = 0;
     double largest = 0;
-    for (const Triangle& t : a.state->corners)
-        for (const std::uint32_t v : t) {
-            const Point3& p = a.state->points.input(v);
-            largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    for (std::uint32_t v = 0; v < points.size(); ++v)
+        if (const double c = largest_coordinate(points[v]); c > largest) {
+            largest = c;
+            farthest = v;
         }
+    const auto is_of = [&](const Triangle& t) {
+        return t[0] == farthest || t[1] == farthest || t[2] == farthest;
+    };
+    if (std::any_of(triangles.begin(), triangles.end(), is_of)) return largest;
+    largest = 0; // the farthest point is one of no triangle
+    for (const Triangle& t : triangles)
+        for (const std::uint32_t v : t) largest = std::max(largest, largest_coordinate(points[v]));
     return largest;
 }
 

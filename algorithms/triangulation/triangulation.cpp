@@ -249,6 +249,10 @@ Sign FaceTriangulation::turn(Local a, Local b, Local c) const {
         ++predicate_counts().static_filter;
         return *sign;
     }
+    return certain_turn(a, b, c);
+}
+
+Sign FaceTriangulation::certain_turn(Local a, Local b, Local c) const {
     if (on_one_line(a, b, c)) return Sign::Zero;
     if (frame_ != nullptr && std::min({a, b, c}) < 3)
         return exact_sign(
@@ -262,6 +266,10 @@ Sign FaceTriangulation::in_circle(const Cell& c, Local d) const {
         ++predicate_counts().static_filter;
         return *sign;
     }
+    return certain_in_circle(c, d);
+}
+
+Sign FaceTriangulation::certain_in_circle(const Cell& c, Local d) const {
     if (frame_ != nullptr && std::min({c.v[0], c.v[1], c.v[2], d}) < 3)
         return exact_sign(polynomial::in_circle(axis_, exact(points_[c.v[0]]),
                                                 exact(points_[c.v[1]]), exact(points_[c.v[2]]),
@@ -395,7 +403,10 @@ bool FaceTriangulation::must_flip(Side s) const {
 // by an infinitely smaller amount, and so on. The first lift that changes the sign decides.
 bool FaceTriangulation::in_perturbed_circle(const Cell& c, Local d) const {
     const Sign s = in_circle(c, d);
-    if (s != Sign::Zero) return s == Sign::Positive;
+    return s == Sign::Zero ? in_perturbed_circle_through(c, d) : s == Sign::Positive;
+}
+
+bool FaceTriangulation::in_perturbed_circle_through(const Cell& c, Local d) const {
     std::array<Local, 4> order{c.v[0], c.v[1], c.v[2], d};
     std::sort(order.begin(), order.end(),
               [&](Local a, Local b) { return rank_of(a) > rank_of(b); });

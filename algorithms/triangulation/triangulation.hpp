@@ -127,6 +127,10 @@ private:
     [[nodiscard]] unsigned index_in(Local cell, Local neighbour) const;
     [[nodiscard]] Sign turn(Local a, Local b, Local c) const;
     [[nodiscard]] Sign in_circle(const Cell& c, Local d) const;
+    // What filters leave open is seldom; inlined it would make the filters slower.
+    [[nodiscard, gnu::noinline]] Sign certain_turn(Local a, Local b, Local c) const;
+    [[nodiscard, gnu::noinline]] Sign certain_in_circle(const Cell& c, Local d) const;
+    [[nodiscard, gnu::noinline]] bool in_perturbed_circle_through(const Cell& c, Local d) const;
     [[nodiscard]] bool must_flip(Side s) const;
     [[nodiscard]] ApproximatePoint approximate(PointIndex p) const;
     [[nodiscard]] ExactPoint exact(PointIndex p) const;

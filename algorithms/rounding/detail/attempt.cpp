@@ -47,8 +47,11 @@ void Rounding::to_nearest() {
         },
         [&] {
             state_.points.reserve(a.vertices.size());
+            const auto inputs = a.state->points.inputs();
             for (std::size_t v = 0; v < first_constructed; ++v)
-                state_.points.push_back(given(a.state->points.input(a.vertices[v])));
+                state_.points.push_back(inputs[a.vertices[v]]);
+            if (moved_.frame != nullptr)
+                for (Point3& p : state_.points) p = given(p);
             state_.points.resize(a.vertices.size());
             state_.move.assign(a.vertices.size(), 0);
             state_.is_dirty.assign(a.vertices.size(), false);
@@ -300,10 +303,12 @@ void Rounding::report_moves() {
     r.deviation = r.lost_length == 0 ? r.surface_deviation
                                      : (r.surface_deviation + r.lost_length) * (1 + 0x1p-51);
     std::vector<double> moves = state_.move;
+    const auto inputs = arrangement_.state->points.inputs();
     for (std::size_t v = 0; v < state_.points.size(); ++v) {
+        if (moves[v] == 0 && moved_.largest == 0 && moved_.frame == nullptr) continue;
         double before = moved_.largest;
         if (v < state_.input_vertices) {
-            const Point3& place = arrangement_.state->points.input(arrangement_.vertices[v]);
+            const Point3& place = inputs[arrangement_.vertices[v]];
             before = moved_.move_of(place);
             r.moved_input_vertices += state_.points[v] != given(place);
         }

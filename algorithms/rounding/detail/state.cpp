@@ -45,12 +45,13 @@ double distance_bound(const Enclosure& e, const Point3& p) {
 }
 
 std::vector<std::uint32_t> RoundingState::dirty_triangles(const Run& run) const {
+    const std::vector<unsigned char> flags(is_dirty.begin(), is_dirty.end()); // faster than bits
     return concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
         triangles.size(), run, [&](std::size_t first, std::size_t last) {
             std::vector<std::uint32_t> dirty;
             for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
                 const Triangle& c = triangles[t];
-                if (is_dirty[c[0]] || is_dirty[c[1]] || is_dirty[c[2]]) dirty.push_back(t);
+                if ((flags[c[0]] | flags[c[1]] | flags[c[2]]) != 0) dirty.push_back(t);
             }
             return dirty;
         }));

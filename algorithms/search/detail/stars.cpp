@@ -13,20 +13,20 @@ namespace terrane {
 namespace {
 
 /// A vertex with so many triangles is crowded. Fewer cost at most half as many tests each.
-constexpr std::uint8_t crowd = 128;
+constexpr std::uint32_t crowd = 128;
 
 } // namespace
 
 std::vector<bool> crowded_vertices(std::size_t vertex_count, std::span<const Triangle> triangles) {
-    std::vector<std::uint8_t> counts(vertex_count, 0);
-    bool any = false;
+    std::vector<std::uint32_t> counts(vertex_count, 0);
     for (const Triangle& t : triangles)
-        for (const std::uint32_t v : t)
-            if (counts[v] < crowd) any |= ++counts[v] == crowd;
+        for (const std::uint32_t v : t) ++counts[v];
+    std::uint32_t most = 0;
+    for (const std::uint32_t c : counts) most = std::max(most, c);
     std::vector<bool> crowded;
-    if (!any) return crowded;
+    if (most < crowd) return crowded;
     crowded.resize(vertex_count);
-    for (std::size_t v = 0; v < vertex_count; ++v) crowded[v] = counts[v] == crowd;
+    for (std::size_t v = 0; v < vertex_count; ++v) crowded[v] = counts[v] >= crowd;
     return crowded;
 }
 

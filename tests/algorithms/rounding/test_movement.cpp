@@ -167,6 +167,17 @@ TEST_CASE("movement: the limit is kept, and what it leaves is named") {
     CHECK(none.error().place == "max_move");
 }
 
+TEST_CASE("movement: the default limit is 1024 spacings at the largest coordinate of a triangle") {
+    Surface s = surface({{-5, 0, 0}, {1, 0, 0}, {0, 3, 0}}, {{0, 1, 2}});
+    const auto limit = [&] { return default_max_move(arrange(std::span(&s, 1)).value()); };
+    CHECK(limit() == 1024 * 0x1p-50); // doubles from 4 to 8
+    // The farthest point is one of no triangle.
+    s.vertices.push_back({0, 1e6, 0});
+    CHECK(limit() == 1024 * 0x1p-50);
+    s.vertices[1].z = -9;
+    CHECK(limit() == 1024 * 0x1p-49);
+}
+
 TEST_CASE("movement: no point leaves a box by one unit, and its sides stay planes") {
     const Point3 low{500000.03, 4000000.03, -999.97}, high{500000.17, 4000000.17, -999.83};
     for (std::uint32_t seed = 0; seed < 6; ++seed) {
