@@ -22,6 +22,7 @@ import lzma
 import pathlib
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tarfile
@@ -75,7 +76,7 @@ def run(words, folder, seconds):
                           preexec_fn=limit)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     used = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    if used >= seconds - 1 and done.returncode != 0:
+    if done.returncode == -signal.SIGXCPU or (used >= seconds - 1 and done.returncode != 0):
         raise Failed(f"no mesh in {seconds:g} s")
     if done.returncode != 0:
         said = (done.stderr or done.stdout).strip().splitlines()
@@ -222,7 +223,7 @@ def run_gmsh(folder):
     corners, regions = [], []
     for _, volume in gmsh.model.getEntities(3):
         _, nodes = gmsh.model.mesh.getElementsByType(4, volume)
-        corners.append(index[nodes.astype(int)].reshape(-1, 4))
+        corners.append(index[nodes.astype(int)].reshape(-1, 4).astype(int)) # an empty list is one of floats
         regions += [volume] * len(corners[-1])
     if not regions:
         sys.exit("Gmsh made no tetrahedra")

@@ -75,25 +75,31 @@ InjectivePatches patches_of_faces(InjectivePatches of_soup,
 }
 
 /// Tells for each triangle of the soup whether one of its parts has a constructed point.
-std::vector<char> divided_faces(const Soup& soup, const Retriangulation& division, const Run& run) {
+std::vector<char> divided_faces(const Soup& soup, const Retriangulation& division) {
     std::vector<char> has_constructed(soup.triangles.size(), 0);
     const auto inputs = static_cast<PointIndex>(division.points.input_count());
-    for_ranges(division.triangles.size(), run, [&](std::size_t first, std::size_t last) {
-        for (std::size_t t = first; t < last; ++t) {
-            const Triangle& c = division.triangles[t];
-            if (c[0] < inputs && c[1] < inputs && c[2] < inputs) continue;
-            for (const std::uint32_t f : division.faces_of[t])
-                std::atomic_ref(has_constructed[f]).store(1, std::memory_order_relaxed);
-        }
-    });
+    const auto look_at = [&](std::size_t t) {
+        const Triangle& c = division.triangles[t];
+        if (c[0] < inputs && c[1] < inputs && c[2] < inputs) return;
+        for (const std::uint32_t f : division.faces_of[t]) has_constructed[f] = 1;
+    };
+    // Triangles are in the order of the soup: parts of divided ones lie between those that are whole.
+    std::size_t next = 0;
+    for (const std::uint32_t whole : division.unchanged_as) {
+        if (whole == UINT32_MAX) continue;
+        TERRANE_ASSERT_DEBUG(next <= whole);
+        while (next < whole) look_at(next++);
+        ++next;
+    }
+    while (next < division.triangles.size()) look_at(next++);
     return has_constructed;
 }
 
 /// Finds the near pairs of which at least one triangle has a constructed point, as input triangles,
 /// and the triangles of which the search for candidates leaves pairs out.
 void find_neighbours_of_divided(const Soup& soup, const Retriangulation& division,
-                                const Pencils& pencils, ExactState& state, const Run& run) {
-    const auto has_constructed = divided_faces(soup, division, run);
+                                const Pencils& pencils, ExactState& state) {
+    const auto has_constructed = divided_faces(soup, division);
     for (const CandidatePair& p : division.near)
         if (has_constructed[p.first] != 0 || has_constructed[p.second] != 0)
             state.neighbours.push_back({soup.input_of[p.first], soup.input_of[p.second]});
@@ -204,7 +210,7 @@ void assemble(Arrangement& a, Soup soup, InjectivePatches patches, Retriangulati
     const auto state = std::make_shared<ExactState>();
     a.state = state;
     state->corners = std::move(soup.input_corners);
-    find_neighbours_of_divided(soup, division, pencils, *state, run);
+    find_neighbours_of_divided(soup, division, pencils, *state);
     state->has_pools = division.has_pools;
     const Labels labels = labels_of(soup, patches, run);
     std::vector<std::uint32_t> vertex_of;

@@ -24,7 +24,7 @@ public:
     PoolFinder(const TriangleSoup& soup, std::span<const CandidatePair> candidates,
                const Run& run) :
         soup_(soup),
-        candidates_(candidates), run_(run), sets_(soup.triangles.size()) {}
+        candidates_(candidates), run_(run) {}
 
     PlanePools operator()() {
         if (!has_seeds()) return {};
@@ -74,6 +74,7 @@ private:
         for (const CandidatePair& p : candidates_)
             for (const std::uint32_t f : {p.first, p.second}) most = std::max(most, ++degrees[f]);
         if (most < least_partners) return false;
+        sets_ = DisjointSets(soup_.triangles.size());
         const auto is_busy = [&](std::uint32_t f) { return degrees[f] >= least_partners / 2; };
         if (!join([&](const CandidatePair& p) { return is_busy(p.first) && is_busy(p.second); }))
             return false;
@@ -125,7 +126,7 @@ private:
     const TriangleSoup& soup_;
     std::span<const CandidatePair> candidates_;
     const Run& run_;
-    DisjointSets sets_;
+    DisjointSets sets_{0};
 };
 
 } // namespace

@@ -2,6 +2,7 @@
 #include <terrane/algorithms/rounding/detail/state.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -182,8 +183,15 @@ double RoundingState::total_gaps() const {
 /// Merges equal points into the one with the lowest index. Only a dirty point can have become equal
 /// to another.
 bool RoundingState::merge_points(const Run& run) {
-    std::vector<bool> maybe(std::size_t{1} << 20, false); // by hash; saves most look-ups
-    const auto slot = [&](const Point3& p) { return hash_of(p) & (maybe.size() - 1); };
+    // Saves most look-ups. The hash is a quick one; + 0.0, as -0 equals 0.
+    constexpr unsigned bits = 20;
+    std::vector<bool> maybe(std::size_t{1} << bits, false);
+    const auto slot = [](const Point3& p) {
+        const auto word = [](double d) { return std::bit_cast<std::uint64_t>(d + 0.0); };
+        return (word(p.x) * 0x9e3779b97f4a7c15u + word(p.y) * 0xc2b2ae3d27d4eb4fu +
+                word(p.z) * 0x165667b19e3779f9u) >>
+               (64 - bits);
+    };
     for (std::uint32_t v = 0; v < points.size(); ++v)
         if (is_dirty[v]) maybe[slot(points[v])] = true;
     const auto candidates = concatenated(parts_of_ranges<std::vector<std::uint32_t>>(
