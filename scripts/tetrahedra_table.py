@@ -249,6 +249,8 @@ def row(model, mesher, make, volume=None):
     """Prints a row. Returns its figures; none if there is no mesh."""
     try:
         made = make()
+        if made is not None and len(made[1].corners) == 0:
+            raise Failed("a file without tetrahedra")
     except Failed as failure:
         print(f"| {model} | {mesher} | none: {failure} | | | | | | | |", flush=True)
         return None
