@@ -65,8 +65,8 @@ std::optional<Axis> static_projection_axis(const Point3& a, const Point3& b, con
     return std::nullopt;
 }
 
-// Evaluates stages two and three. `polynomial` is generic over the number type. It is seldom called,
-// and inlined it would make stage one slower, which takes some 50 instructions.
+// Evaluates stages two and three. `polynomial` is generic over the number type. Stage one decides
+// most calls in some 50 instructions; it stays that short if this function is not inlined.
 template <class Polynomial>
 [[gnu::noinline, gnu::cold]] Sign filtered(const Polynomial& polynomial) {
     {
@@ -101,7 +101,7 @@ std::optional<Sign> filtered_orient2d(Axis axis, const Point3& a, const Point3& 
     return static_turn2d(p, project(axis, b), p, project(axis, c));
 }
 
-// Stage one has no arrays whose stack would need protection; stages two and three protect theirs.
+// Stage one has no arrays, so its stack needs no protection. Stages two and three protect theirs.
 __attribute__((no_stack_protector)) Sign orient3d(const Point3& a, const Point3& b, const Point3& c,
                                                   const Point3& d) {
     if (const auto sign = static_orient3d(a, b, c, d)) {

@@ -147,7 +147,7 @@ void remove_folds(Surface& s, const std::vector<Triangle>& upward) {
     s.triangles.resize(kept);
 }
 
-/// Moves a point to the nearest one whose coordinates are multiples of `spacing`.
+/// Returns the point whose coordinates are the multiples of `spacing` nearest to those of p.
 Point3 on_grid(const Point3& p, double spacing) {
     const auto rounded = [&](double c) { return std::nearbyint(c / spacing) * spacing; };
     return {rounded(p.x), rounded(p.y), rounded(p.z)};
@@ -219,21 +219,22 @@ Status validate_order(std::span<const Surface> surfaces, std::span<const Layer> 
     return Done{};
 }
 
-/// Returns the spacing of the doubles at the largest coordinate in the plane.
-double spacing_in_plane(const std::vector<Point3>& points) {
-    double largest = 0;
-    for (const Point3& p : points) largest = std::max({largest, std::fabs(p.x), std::fabs(p.y)});
-    return std::nextafter(largest, HUGE_VAL) - largest;
+/// Returns the distance from x to the next double above it; x >= 0.
+double spacing_at(double x) {
+    return std::nextafter(x, HUGE_VAL) - x;
 }
 
 /// Computes how wide the strips along steps are in which rounding may have moved the two sides of a
 /// step across each other: both sides move, first to the nearest doubles, then as reported.
 double width_of_steps(const RoundedMesh& rounded) {
-    return 2 * (rounded.report.max_move + spacing_in_plane(rounded.mesh->vertices));
+    double largest = 0;
+    for (const Point3& p : rounded.mesh->vertices)
+        largest = std::max({largest, std::fabs(p.x), std::fabs(p.y)});
+    return 2 * (rounded.report.max_move + spacing_at(largest));
 }
 
-/// Turns a stack into doubles, whose order is checked. New points of the layers become multiples
-/// of `grid` first, unless that is 0. The report of rounding allows for these moves.
+/// Rounds a stack to doubles and checks their order. The new points of the layers are first moved to
+/// multiples of `grid`, unless that is 0. The report of rounding includes these moves.
 Result<Layered> in_doubles(const ExactStack& stack, const LayerOptions& options, double grid,
                            const Run& run) {
     const WholeTriangles whole(stack.arrangement, stack.sets);
@@ -258,20 +259,17 @@ Result<Layered> in_doubles(const ExactStack& stack, const LayerOptions& options,
                    options.min_thickness};
 }
 
-/// Turns a stack into doubles that in_doubles() put out of order. Where several curves cross within
-/// a few doubles of each other, their crossings become the corners of triangles that small, of which
-/// some are turned. Points that become one have none. Returns nothing if that does not help.
+/// Repairs a stack whose doubles in_doubles() found out of order. Where intersection curves of
+/// several layers cross less than a spacing of the doubles apart, their triangles are as small, and
+/// rounding inverts some of them. A grid merges the corners of such triangles. Returns nothing if no grid helps.
 Result<std::optional<Layered>> on_grids(const ExactStack& stack, const LayerOptions& options,
                                         const Run& run) {
-    double unit = 0;
-    for (const Layer& l : stack.order) {
-        const Surface& s = stack.surfaces[l.surface];
-        unit = std::max(unit, spacing_in_plane(s.vertices));
-        for (const Point3& p : s.vertices)
-            unit = std::max(unit, std::nextafter(std::fabs(p.z), HUGE_VAL) - std::fabs(p.z));
-    }
+    double largest = 0;
+    for (const Layer& l : stack.order)
+        for (const Point3& p : stack.surfaces[l.surface].vertices)
+            largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     for (const double spacings : {4.0, 32.0}) {
-        const double grid = spacings * unit;
+        const double grid = spacings * spacing_at(largest);
         if (options.max_move && grid >= *options.max_move) break;
         auto layered = in_doubles(stack, options, grid, run);
         if (!layered && is_external(layered.error().code)) return layered.error();
@@ -346,21 +344,18 @@ Result<Layered> stack_valid(std::span<const Surface> surfaces, std::span<const L
     auto layered = in_doubles(exact, options, 0, run);
     if (!layered) return layered.error();
     progress(0.9);
-    const auto use = [&](std::optional<Layered>&& other) {
-        if (other) layered = std::move(*other);
-    };
     Run quiet = run;
     quiet.progress = nullptr;
     if (!layered->is_stack()) {
         auto other = on_grids(exact, options, quiet);
         if (!other) return other.error();
-        use(std::move(*other));
+        if (*other) layered = std::move(**other);
     }
     layered->height_error += height_error;
     if (thick && !layered->is_stack()) {
         auto other = stack_again(surfaces, order, options, quiet);
         if (!other) return other.error();
-        use(std::move(*other));
+        if (*other) layered = std::move(**other);
     }
     progress(1);
     return layered;

@@ -46,7 +46,7 @@ double largest_coordinate(const Arrangement& a) {
         return t[0] == farthest || t[1] == farthest || t[2] == farthest;
     };
     if (std::any_of(triangles.begin(), triangles.end(), is_of)) return largest;
-    largest = 0; // the farthest point is one of no triangle
+    largest = 0; // no triangle has the farthest point
     for (const Triangle& t : triangles)
         for (const std::uint32_t v : t) largest = std::max(largest, largest_coordinate(points[v]));
     return largest;

@@ -127,7 +127,7 @@ private:
     [[nodiscard]] unsigned index_in(Local cell, Local neighbour) const;
     [[nodiscard]] Sign turn(Local a, Local b, Local c) const;
     [[nodiscard]] Sign in_circle(const Cell& c, Local d) const;
-    // What filters leave open is seldom; inlined it would make the filters slower.
+    // These decide the few signs that the filters leave open. Inlined they would slow the filters down.
     [[nodiscard, gnu::noinline]] Sign certain_turn(Local a, Local b, Local c) const;
     [[nodiscard, gnu::noinline]] Sign certain_in_circle(const Cell& c, Local d) const;
     [[nodiscard, gnu::noinline]] bool in_perturbed_circle_through(const Cell& c, Local d) const;

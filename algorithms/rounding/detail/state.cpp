@@ -183,7 +183,7 @@ double RoundingState::total_gaps() const {
 /// Merges equal points into the one with the lowest index. Only a dirty point can have become equal
 /// to another.
 bool RoundingState::merge_points(const Run& run) {
-    // Saves most look-ups. The hash is a quick one; + 0.0, as -0 equals 0.
+    // This filter saves most look-ups. Its hash is quicker than hash_of(). + 0.0 turns -0 into 0.
     constexpr unsigned bits = 20;
     std::vector<bool> maybe(std::size_t{1} << bits, false);
     const auto slot = [](const Point3& p) {

@@ -278,10 +278,9 @@ TEST_CASE("stacks: layers that do not cross do not change, and stacking twice ch
     CHECK(twice.value().rounded.mesh->triangles.size() == mesh.triangles.size());
 }
 
-TEST_CASE(
-    "stacks: crossings within a double of each other cost a few spacings, where that is allowed",
-    "[layers]") {
-    // Curves of three layers cross at one place. In the nearest doubles a triangle there is turned.
+TEST_CASE("stacks: intersection points less than a spacing apart are merged, within the limit",
+          "[layers]") {
+    // The intersection curves of three layers cross at one point. Rounding inverts a triangle there.
     const auto surfaces = read_surfaces(test_data() + "/layers/stack436_crossings.obj");
     REQUIRE(surfaces);
     const std::array order{Layer{SurfaceId(0), 1}, Layer{SurfaceId(1), 5}, Layer{SurfaceId(2), 3}};
@@ -295,7 +294,7 @@ TEST_CASE(
     CHECK(report.surface_deviation <= 40 * spacing);
     CHECK(report.max_allowed == 1024 * spacing);
     CHECK(stacked->step_width >= 2 * report.max_move);
-    // Corners of the input stay where they are.
+    // The vertices of the input do not move.
     const Mesh& mesh = stacked->rounded.mesh;
     const auto is_kept = [&](const Point3& p) {
         return std::find(mesh.vertices.begin(), mesh.vertices.end(), p) != mesh.vertices.end();
@@ -303,7 +302,7 @@ TEST_CASE(
     const auto& hardest = surfaces->at(1).vertices;
     CHECK(std::all_of(hardest.begin(), hardest.end(), is_kept));
 
-    // With less room than that, the nearest doubles are what there is, and said to be wrong.
+    // A smaller limit forbids the grid. The result then reports that layers are out of order.
     const auto held = stack_layers(*surfaces, order, {.max_move = 3 * spacing});
     REQUIRE(held);
     CHECK_FALSE(held->is_stack());

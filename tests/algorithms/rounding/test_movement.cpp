@@ -170,8 +170,8 @@ TEST_CASE("movement: the limit is kept, and what it leaves is named") {
 TEST_CASE("movement: the default limit is 1024 spacings at the largest coordinate of a triangle") {
     Surface s = surface({{-5, 0, 0}, {1, 0, 0}, {0, 3, 0}}, {{0, 1, 2}});
     const auto limit = [&] { return default_max_move(arrange(std::span(&s, 1)).value()); };
-    CHECK(limit() == 1024 * 0x1p-50); // doubles from 4 to 8
-    // The farthest point is one of no triangle.
+    CHECK(limit() == 1024 * 0x1p-50); // doubles between 4 and 8 are 2^-50 apart
+    // A vertex without a triangle does not count.
     s.vertices.push_back({0, 1e6, 0});
     CHECK(limit() == 1024 * 0x1p-50);
     s.vertices[1].z = -9;
