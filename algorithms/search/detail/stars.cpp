@@ -14,21 +14,17 @@ namespace {
 
 /// A vertex with so many triangles is crowded. Fewer cost at most half as many tests each.
 constexpr std::uint32_t crowd = 128;
-static_assert(crowd <= UINT8_MAX); // crowded_vertices counts so far
 
 } // namespace
 
 std::vector<bool> crowded_vertices(std::size_t vertex_count, std::span<const Triangle> triangles) {
-    // Mostly there is none, which small counters tell in less time. They may overflow, later.
-    std::vector<std::uint8_t> passes(vertex_count, 0);
-    bool any = false;
-    for (const Triangle& t : triangles)
-        for (const std::uint32_t v : t) any |= ++passes[v] == crowd;
-    std::vector<bool> crowded;
-    if (!any) return crowded;
     std::vector<std::uint32_t> counts(vertex_count, 0);
     for (const Triangle& t : triangles)
         for (const std::uint32_t v : t) ++counts[v];
+    std::uint32_t most = 0;
+    for (const std::uint32_t c : counts) most = std::max(most, c);
+    std::vector<bool> crowded;
+    if (most < crowd) return crowded;
     crowded.resize(vertex_count);
     for (std::size_t v = 0; v < vertex_count; ++v) crowded[v] = counts[v] >= crowd;
     return crowded;
