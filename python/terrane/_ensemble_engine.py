@@ -115,9 +115,9 @@ def _by_dask(engine: Engine, task: Task, numbers: List[int]) -> Iterator[Outcome
         done = distributed.as_completed(sent(_AHEAD * workers), loop=client.loop)
         for future in done:
             number = numbered.pop(future.key)
+            if future.status in ("cancelled", "lost"):
+                raise Error("cannot_open", "the scheduler is gone, or has cancelled realisations", engine.scheduler or "")
             error = future.exception() if future.status == "error" else None
-            if future.status == "cancelled":
-                error = RuntimeError("the scheduler has cancelled it")
             data, seconds = future.result() if error is None else (None, 0.0)
             future.release()
             for other in sent(1):

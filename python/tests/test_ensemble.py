@@ -9,6 +9,7 @@ import pickle
 import signal
 import statistics
 import subprocess
+import sys
 import time
 
 import numpy as np
@@ -85,6 +86,74 @@ def test_one_and_two_workers_and_a_killed_one_give_the_same():
 
     assert files_of(terrane.ensemble("p.json", realisations=24, workers=2, progress=kill_one)) == wanted
     assert killed and not killed[0].is_running()
+
+
+def start_scheduler(workers):
+    """Start a scheduler and workers as a cluster has them; return the processes, the scheduler first."""
+    def start(command, *options):
+        return subprocess.Popen([sys.executable, "-m", f"distributed.cli.{command}", *options, "--no-dashboard",
+                                 "--scheduler-file", "scheduler.json"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    return [start("dask_scheduler", "--host", "127.0.0.1", "--port", "0")] + [
+        start("dask_worker", "--nthreads", "1", "--no-nanny") for _ in range(workers)]
+
+
+def scheduler_s_address():
+    end = time.monotonic() + 60
+    while time.monotonic() < end:
+        try:
+            return json.loads(pathlib.Path("scheduler.json").read_text())["address"]
+        except (OSError, ValueError):
+            time.sleep(0.05)
+    raise AssertionError("the scheduler has written no address")
+
+
+@needs_dask
+def test_workers_of_another_s_scheduler_give_the_same_and_are_not_ended():
+    write_stack()
+    wanted = files_of(terrane.ensemble("p.json", realisations=12, engine="serial"))
+    processes = start_scheduler(2)
+    try:
+        address = scheduler_s_address()
+        assert files_of(terrane.ensemble("p.json", realisations=12, scheduler=address)) == wanted
+        status, out, err = run_program("ensemble", "p.json", "-o", "run", "--realisations", "12", "--scheduler", address)
+        assert (status, err) == (0, "") and out.startswith("12 realisations, seed 1: all built\n")
+        killed = []
+
+        def kill_one(stage, share):
+            if share > 0.2 and not killed:
+                killed.append(processes[1])
+                processes[1].kill()
+
+        assert files_of(terrane.ensemble("p.json", realisations=12, scheduler=address, progress=kill_one)) == wanted
+        assert killed
+        time.sleep(0.5)
+        assert [p.poll() for p in (processes[0], processes[2])] == [None, None]
+    finally:
+        for p in processes:
+            p.kill()
+
+
+@needs_dask
+def test_a_scheduler_that_does_not_answer_or_ends_is_an_error():
+    write_stack()
+    with pytest.raises(terrane.Error, match="no scheduler answers"):
+        terrane.ensemble("p.json", realisations=2, scheduler="tcp://127.0.0.1:1")
+    processes = start_scheduler(1)
+    try:
+        address = scheduler_s_address()
+
+        def kill_it(stage, share):
+            if share > 0.2:
+                processes[0].kill()
+
+        with pytest.raises(terrane.Error, match="scheduler"):
+            terrane.ensemble("p.json", realisations=60, scheduler=address, keep="kept", progress=kill_it)
+        kept = list(pathlib.Path("kept").glob("*/*.npz"))
+        assert 12 < len(kept) < 60
+    finally:
+        for p in processes:
+            p.kill()
 
 
 def test_a_stopped_call_goes_on_from_what_is_kept(monkeypatch):
