@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import logging
 import os
 import re
 import signal
@@ -176,6 +177,7 @@ def main(given: List[str]) -> int:
     """Run the command; return its exit status."""
     arguments = _parser().parse_args(given)
     _core.keep_freed_memory()  # as the program terrane does
+    logging.disable(logging.CRITICAL)  # Dask logs tracebacks of errors that are also raised
     for name in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(name, _stop)
     try:

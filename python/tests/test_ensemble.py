@@ -108,6 +108,13 @@ def scheduler_s_address():
     raise AssertionError("the scheduler has written no address")
 
 
+def wait_for_realisations(folder, count):
+    """Wait until a command that writes the folder has finished so many realisations."""
+    end = time.monotonic() + 120
+    while len(list(pathlib.Path(".").glob(f"{folder}.realisations/*/*.npz"))) < count and time.monotonic() < end:
+        time.sleep(0.01)
+
+
 @needs_dask
 def test_workers_of_another_s_scheduler_give_the_same_and_are_not_ended():
     write_stack()
@@ -142,18 +149,19 @@ def test_a_scheduler_that_does_not_answer_or_ends_is_an_error():
     processes = start_scheduler(1)
     try:
         address = scheduler_s_address()
-
-        def kill_it(stage, share):
-            if share > 0.2:
-                processes[0].kill()
-
-        with pytest.raises(terrane.Error, match="scheduler"):
-            terrane.ensemble("p.json", realisations=60, scheduler=address, keep="kept", progress=kill_it)
-        kept = list(pathlib.Path("kept").glob("*/*.npz"))
-        assert 12 < len(kept) < 60
+        options = ["--realisations", "60", "--scheduler", address]
+        running = subprocess.Popen([PROGRAM, "ensemble", "p.json", "-o", "run", *options], stderr=subprocess.PIPE, text=True)
+        wait_for_realisations("run", 5)
+        processes[0].kill()
+        err = running.communicate(timeout=120)[1]
     finally:
         for p in processes:
             p.kill()
+    assert err == f"terrane: {address}: the scheduler is gone, or has cancelled realisations\n"
+    assert running.returncode == 2 and not os.path.exists("run")
+    kept = len(list(pathlib.Path(".").glob("run.realisations/*/*.npz")))
+    status, out, err = run_program("ensemble", "p.json", "-o", "run", "--realisations", "60", "--engine", "serial")
+    assert (status, err) == (0, "") and f"computed {60 - kept} of" in out
 
 
 def test_a_stopped_call_goes_on_from_what_is_kept(monkeypatch):
@@ -197,9 +205,7 @@ def test_the_program_is_interrupted_and_goes_on():
     assert (status, err) == (0, ""), err
     assert out.startswith("60 realisations, seed 1: all built\n")
     running = subprocess.Popen([PROGRAM, "ensemble", "p.json", "-o", "run", *options], stderr=subprocess.PIPE, text=True)
-    end = time.monotonic() + 120
-    while len(list(pathlib.Path(".").glob("run.realisations/*/*.npz"))) < 5 and time.monotonic() < end:
-        time.sleep(0.01)
+    wait_for_realisations("run", 5)
     running.send_signal(signal.SIGINT)
     assert running.communicate(timeout=60)[1] == (
         "terrane: interrupted, finished realisations are kept in run.realisations; the same command goes on from "
