@@ -115,13 +115,13 @@ Result<std::optional<PairCounts>> conforming(std::span<const Point3> points,
                                " improperly: " + std::string(name_of(kind_of(*how))),
                            pair->first);
         }
-        if (!check.counts(triangles.size())) return std::optional<PairCounts>();
         const auto decided_by = [&](const CandidatePair& p) {
             const bool in_one = !patches.empty() && patches[p.first] != no_group &&
                                 patches[p.first] == patches[p.second];
             return in_one ? DecidedBy::patch : DecidedBy::test;
         };
-        return std::optional(count_pairs(points, triangles, decided_by, run));
+        return count_pairs(points, triangles, decided_by, check.most_counted(triangles.size()),
+                           run);
     });
 }
 

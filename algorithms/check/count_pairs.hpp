@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 
 #include <terrane/algorithms/check/pair_check.hpp>
@@ -23,9 +24,11 @@ enum class DecidedBy : std::uint8_t {
 };
 
 /// Counts all pairs of triangles of a mesh; decided_by is asked for those whose boxes overlap, from
-/// several threads. Cost: one box search, and no memory for the pairs.
-PairCounts count_pairs(std::span<const Point3> points, std::span<const Triangle> triangles,
-                       const std::function<DecidedBy(const CandidatePair&)>& decided_by,
-                       const Run& run = {});
+/// several threads. None if more than `most` boxes overlap. Cost: one box search, which ends there,
+/// and no memory for the pairs.
+std::optional<PairCounts>
+count_pairs(std::span<const Point3> points, std::span<const Triangle> triangles,
+            const std::function<DecidedBy(const CandidatePair&)>& decided_by, std::uint64_t most,
+            const Run& run = {});
 
 } // namespace terrane

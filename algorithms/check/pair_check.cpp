@@ -8,15 +8,19 @@ std::string_view name_of(PairCheck method) {
     return method == PairCheck::full ? "full" : "bounds";
 }
 
-PairCounts count_pairs(std::span<const Point3> points, std::span<const Triangle> triangles,
-                       const std::function<DecidedBy(const CandidatePair&)>& decided_by,
-                       const Run& run) {
+std::optional<PairCounts>
+count_pairs(std::span<const Point3> points, std::span<const Triangle> triangles,
+            const std::function<DecidedBy(const CandidatePair&)>& decided_by, std::uint64_t most,
+            const Run& run) {
+    if (most == 0) return std::nullopt;
     const auto class_of = [&](const CandidatePair& pair) {
         return static_cast<std::size_t>(decided_by(pair));
     };
-    const auto counts = count_candidate_pairs({points, triangles}, class_of, without_progress(run));
+    const auto counts =
+        count_candidate_pairs({points, triangles}, class_of, most, without_progress(run));
+    if (!counts) return std::nullopt;
     const auto count = [&](DecidedBy reason) {
-        return counts.at(static_cast<std::size_t>(reason));
+        return counts->at(static_cast<std::size_t>(reason));
     };
     PairCounts sum{.tested = count(DecidedBy::test),
                    .in_patches = count(DecidedBy::patch),

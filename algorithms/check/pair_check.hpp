@@ -30,10 +30,15 @@ struct PairCheckOptions {
     /// more box search, which proven bounds spare otherwise: for many narrow triangles as long as
     /// all else.
     std::size_t count_up_to = 0;
+    /// Pairs with overlapping boxes are not counted if there are more than this for each triangle: of
+    /// long triangles side by side nearly all boxes overlap.
+    std::uint64_t most_per_triangle = UINT64_MAX;
 
-    /// Tells whether the pairs of so many triangles are counted.
-    [[nodiscard]] constexpr bool counts(std::size_t triangles) const {
-        return count_up_to > 0 && triangles <= count_up_to;
+    /// Returns how many pairs of so many triangles are counted at most; 0: none.
+    [[nodiscard]] constexpr std::uint64_t most_counted(std::size_t triangles) const {
+        if (triangles > count_up_to || triangles == 0) return 0;
+        return most_per_triangle > UINT64_MAX / triangles ? UINT64_MAX
+                                                          : most_per_triangle * triangles;
     }
 };
 

@@ -170,9 +170,10 @@ std::vector<CandidatePair> candidate_pairs_of(const BoxSource& boxes,
     return search::active_pairs(boxes, active, groups, filter, run);
 }
 
-std::array<std::uint64_t, pair_classes>
-count_candidate_pairs(const BoxSource& boxes, const PairClassifier& class_of, const Run& run) {
-    return search::bvh_counts(boxes, class_of, run);
+std::optional<std::array<std::uint64_t, pair_classes>>
+count_candidate_pairs(const BoxSource& boxes, const PairClassifier& class_of, std::uint64_t most,
+                      const Run& run) {
+    return search::bvh_counts(boxes, class_of, most, run);
 }
 
 } // namespace terrane

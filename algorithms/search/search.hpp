@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -113,10 +114,11 @@ constexpr std::size_t pair_classes = 4;
 /// Returns the class of a pair. Called from several threads, each under an UpwardRounding.
 using PairClassifier = std::function<std::size_t(const CandidatePair&)>;
 
-/// Counts all pairs of overlapping boxes by class. Pairs take no memory. Reports its progress as stage
-/// "search".
-std::array<std::uint64_t, pair_classes>
-count_candidate_pairs(const BoxSource& boxes, const PairClassifier& class_of, const Run& run = {});
+/// Counts all pairs of overlapping boxes by class; none if there are more than `most`, after about so
+/// many. Pairs take no memory. Reports its progress as stage "search".
+std::optional<std::array<std::uint64_t, pair_classes>>
+count_candidate_pairs(const BoxSource& boxes, const PairClassifier& class_of,
+                      std::uint64_t most = UINT64_MAX, const Run& run = {});
 
 /// Returns the method that `automatic` stands for: brute for very few boxes, bvh for others.
 /// `terrane bench paper` compares the methods on the paper's models. The grid is faster than bvh by

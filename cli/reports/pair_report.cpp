@@ -24,7 +24,10 @@ void add_check(CLI::App& command, PairCheckOptions& check) {
         ->transform(CLI::Transformer(methods, CLI::ignore_case).description(""))
         ->check(listing({"bounds", "full"}))
         ->type_name("bounds|full")
-        ->each([&check](const std::string&) { check.count_up_to = SIZE_MAX; });
+        ->each([&check](const std::string&) {
+            check.count_up_to = SIZE_MAX;
+            check.most_per_triangle = UINT64_MAX;
+        });
 }
 
 PairCheckOptions check_of(PairCheckOptions check, const Inputs& inputs) {

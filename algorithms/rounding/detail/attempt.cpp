@@ -235,7 +235,7 @@ std::vector<CandidatePair> Rounding::first_contacts(const Run& run) {
     for (const std::uint32_t t : unproven.ill_conditioned) // parts of one patch meet properly
         if (patch_of(t) == no_group) unproven.parts.push_back(t);
     add_crowded_parts(a, dirty, unproven.parts);
-    const bool counts = options_.check.counts(arrangement_.triangles.size());
+    const bool counts = options_.check.most_counted(arrangement_.triangles.size()) > 0;
     if (unproven.parts.empty() && !counts) return pairs;
     sort_unique(unproven.parts);
     std::vector<std::uint32_t> patches(state_.triangles.size());
@@ -343,9 +343,8 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
             if (!changed_) mesh.surfaces_of = arrangement_.surfaces_of;
         });
     report_vanished();
-    if (options_.check.counts(arrangement_.triangles.size()))
-        out_.report.pairs = count_decisions(state_, arrangement_.triangles, first_search_,
-                                            options_.check.method, run_);
+    out_.report.pairs =
+        count_decisions(state_, arrangement_.triangles, first_search_, options_.check, run_);
     if (changed_) state_.drop_unused_points();
     for (const CandidatePair& p : pairs) {
         const auto contact =

@@ -67,19 +67,23 @@ DecidedBy FirstSearch::decided_by(const CandidatePair& pair) const {
     return in_one_patch ? DecidedBy::patch : DecidedBy::separation;
 }
 
-PairCounts count_decisions(const RoundingState& state, std::span<const Triangle> original,
-                           const FirstSearch& first, PairCheck method, const Run& run) {
-    if (method == PairCheck::full)
+std::optional<PairCounts> count_decisions(const RoundingState& state,
+                                          std::span<const Triangle> original,
+                                          const FirstSearch& first, const PairCheckOptions& check,
+                                          const Run& run) {
+    const std::uint64_t most = check.most_counted(original.size());
+    if (most == 0) return std::nullopt;
+    if (check.method == PairCheck::full)
         return count_pairs(
             state.points, state.triangles, [](const CandidatePair&) { return DecidedBy::test; },
-            run);
+            most, run);
     const auto origins = origins_of(state, original);
     const auto decided_by = [&](const CandidatePair& p) {
         const std::uint32_t a = origins[p.first], b = origins[p.second];
         if (a == tested || b == tested) return DecidedBy::test;
         return first.decided_by({std::min(a, b), std::max(a, b)});
     };
-    return count_pairs(state.points, state.triangles, decided_by, run);
+    return count_pairs(state.points, state.triangles, decided_by, most, run);
 }
 
 } // namespace terrane::rounding::detail

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,8 +36,11 @@ struct FirstSearch {
     [[nodiscard]] DecidedBy decided_by(const CandidatePair& pair) const;
 };
 
-/// Counts the pairs of the triangles of a state. `original`: the triangles of the arrangement.
-PairCounts count_decisions(const RoundingState& state, std::span<const Triangle> original,
-                           const FirstSearch& first, PairCheck method, const Run& run);
+/// Counts the pairs of the triangles of a state, if the options ask for it. `original`: the triangles
+/// of the arrangement.
+std::optional<PairCounts> count_decisions(const RoundingState& state,
+                                          std::span<const Triangle> original,
+                                          const FirstSearch& first, const PairCheckOptions& check,
+                                          const Run& run);
 
 } // namespace terrane::rounding::detail

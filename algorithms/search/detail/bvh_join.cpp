@@ -2,6 +2,7 @@
 #include <terrane/algorithms/search/detail/bvh_join.hpp>
 
 #include <algorithm>
+#include <atomic>
 
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/progress.hpp>
@@ -318,34 +319,42 @@ std::vector<CandidatePair> active_pairs(const BoxSource& boxes,
 
 std::vector<CandidatePair> pairs_of_crowds(std::span<const Box> boxes,
                                            std::span<const std::uint32_t> groups,
-                                           std::span<const std::uint32_t> crowds, const Run& run) {
-    const PairFilter none;
+                                           std::span<const std::uint32_t> crowds,
+                                           const PairFilter& filter, const Run& run) {
     const BoxSource source(boxes);
     const Run quiet = without_progress(run);
-    const Task task{source, groups, crowds, none, quiet};
+    const Task task{source, groups, crowds, filter, quiet};
     return concatenated(join_all(select_all(source), task));
 }
 
-std::array<std::uint64_t, pair_classes> bvh_counts(const BoxSource& boxes,
-                                                   const PairClassifier& class_of, const Run& run) {
+std::optional<std::array<std::uint64_t, pair_classes>> bvh_counts(const BoxSource& boxes,
+                                                                  const PairClassifier& class_of,
+                                                                  std::uint64_t most,
+                                                                  const Run& run) {
     using Counts = std::array<std::uint64_t, pair_classes>;
     const PackedTree tree(select_all(boxes));
+    std::atomic<std::uint64_t> met{0}; // pairs of all threads, after each leaf
     const auto of_blocks = for_reported_blocks<Counts>(
         tree.leaf_count(), leaves_per_block, run,
         [&](std::size_t leaf, std::size_t end) {
             Counts counts{};
-            for (; leaf < end; ++leaf)
+            for (; leaf < end && met.load(std::memory_order_relaxed) <= most; ++leaf) {
+                std::uint64_t here = 0;
                 tree.join(static_cast<std::uint32_t>(leaf), tree,
                           [&](std::uint32_t i, std::uint32_t j, bool inside) {
-                              if (inside || boxes[i].overlaps(boxes[j]))
-                                  ++counts.at(class_of({std::min(i, j), std::max(i, j)}));
+                              if (!inside && !boxes[i].overlaps(boxes[j])) return;
+                              ++here;
+                              ++counts.at(class_of({std::min(i, j), std::max(i, j)}));
                           });
+                met.fetch_add(here, std::memory_order_relaxed);
+            }
             return counts;
         },
         [&](std::size_t done) { report_part(run, "search", 0, 1, done, tree.leaf_count()); });
     Counts sum{};
     for (const Counts& counts : of_blocks)
         for (std::size_t k = 0; k < sum.size(); ++k) sum.at(k) += counts.at(k);
+    if (met > most) return std::nullopt;
     return sum;
 }
 

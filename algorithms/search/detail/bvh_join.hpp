@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,14 +33,17 @@ std::vector<CandidatePair> active_pairs(const BoxSource& boxes,
                                         const PairFilter& filter, const Run& run);
 
 /// Implements count_candidate_pairs.
-std::array<std::uint64_t, pair_classes> bvh_counts(const BoxSource& boxes,
-                                                   const PairClassifier& class_of, const Run& run);
+std::optional<std::array<std::uint64_t, pair_classes>> bvh_counts(const BoxSource& boxes,
+                                                                  const PairClassifier& class_of,
+                                                                  std::uint64_t most,
+                                                                  const Run& run);
 
-/// Returns all pairs of overlapping boxes except those within one group or one crowd; in any order,
-/// each once. crowds: per box, or no_group.
+/// Returns all pairs of overlapping boxes except those within one group or one crowd and those that
+/// the filter (if any) rejects; in any order, each once. crowds: per box, or no_group.
 std::vector<CandidatePair> pairs_of_crowds(std::span<const Box> boxes,
                                            std::span<const std::uint32_t> groups,
-                                           std::span<const std::uint32_t> crowds, const Run& run);
+                                           std::span<const std::uint32_t> crowds,
+                                           const PairFilter& filter, const Run& run);
 
 /// Merges and sorts pairs of indices below `count`.
 std::vector<CandidatePair> sorted(const std::vector<std::vector<CandidatePair>>& blocks,

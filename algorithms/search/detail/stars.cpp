@@ -164,8 +164,9 @@ private:
     /// Finds the pairs with different fans, or none, whose arcs may meet.
     void search_arcs() {
         std::vector<Box> boxes;
-        std::vector<std::uint32_t> member_of, crowds;
+        std::vector<std::uint32_t> member_of, crowds, first_of; // the last per member
         for (std::uint32_t m = 0; m < members_.size(); ++m) {
+            first_of.push_back(static_cast<std::uint32_t>(boxes.size()));
             const auto [v, w] = others(m);
             const auto a = direction(at(vertex_), at(v)), b = direction(at(vertex_), at(w));
             if (a && b)
@@ -175,7 +176,21 @@ private:
             member_of.resize(boxes.size(), m);
             crowds.resize(boxes.size(), fan_of_[m]);
         }
-        add(pairs_of_crowds(boxes, groups_of(member_of), crowds, run_), member_of);
+        // Two arcs overlap in many boxes: only the first pair of boxes is taken.
+        const auto is_first = [&](const CandidatePair& pair) {
+            const std::uint32_t a = member_of[pair.first], b = member_of[pair.second];
+            if (a == b) return false;
+            const std::uint32_t end = b + 1 < first_of.size()
+                                          ? first_of[b + 1]
+                                          : static_cast<std::uint32_t>(boxes.size());
+            for (std::uint32_t i = first_of[a]; i <= pair.first; ++i) {
+                const std::uint32_t last = i < pair.first ? end : pair.second;
+                for (std::uint32_t j = first_of[b]; j < last; ++j)
+                    if (boxes[i].overlaps(boxes[j])) return false;
+            }
+            return true;
+        };
+        add(pairs_of_crowds(boxes, groups_of(member_of), crowds, is_first, run_), member_of);
     }
 
     /// Finds the pairs of one fan that may lie in one half-plane.
@@ -187,7 +202,7 @@ private:
             const std::uint32_t tip = v == fan.other ? w : v;
             boxes.push_back(axis ? box_across(at(vertex_), *axis, at(tip)) : everywhere);
         }
-        add(pairs_of_crowds(boxes, groups_of(fan.members), {}, run_), fan.members);
+        add(pairs_of_crowds(boxes, groups_of(fan.members), {}, {}, run_), fan.members);
     }
 
     [[nodiscard]] std::vector<std::uint32_t>

@@ -298,9 +298,16 @@ TEST_CASE("searches: the progress of the hierarchy ascends to 1, and the pairs a
                   candidate_pairs_of(boxes, active, groups));
             CHECK(ascends_to_1());
         }
-        CHECK(count_candidate_pairs(boxes, all_alike, run) ==
-              count_candidate_pairs(boxes, all_alike));
+        const auto counts = count_candidate_pairs(boxes, all_alike, UINT64_MAX, run);
         CHECK(ascends_to_1());
+        REQUIRE(counts);
+        CHECK(counts == count_candidate_pairs(boxes, all_alike));
+        const std::uint64_t all = (*counts)[1];
+        const Run quiet{.threads = threads};
+        REQUIRE(all > 100);
+        CHECK(count_candidate_pairs(boxes, all_alike, all, quiet) == counts);
+        CHECK_FALSE(count_candidate_pairs(boxes, all_alike, all - 1, quiet));
+        CHECK_FALSE(count_candidate_pairs(boxes, all_alike, 0, quiet));
     }
 }
 
