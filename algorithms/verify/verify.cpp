@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/verify/detail/contacts.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
@@ -284,6 +285,7 @@ std::string name_of(Rule rule) {
 
 std::vector<Violation> verify_arrangement(std::span<const Surface> inputs,
                                           const ArrangementClaim& claim) {
+    const StandardArithmetic arithmetic;
     Violations found;
     const Inputs joined = verifier::join_inputs(inputs, found);
     check_indices(claim, joined, found);
@@ -312,6 +314,7 @@ std::vector<Violation> verify_arrangement(std::span<const Surface> inputs,
 
 std::vector<Violation> verify_conforming(std::span<const Point3> vertices,
                                          std::span<const Triangle> triangles) {
+    const StandardArithmetic arithmetic;
     Violations found;
     verifier::check_finite(vertices, "vertex", Rule::R1_indices, found);
     verifier::check_corners(triangles, vertices.size(), Rule::R1_indices, found);

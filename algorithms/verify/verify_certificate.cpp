@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 #include <terrane/algorithms/verify/detail/kinds.hpp>
 #include <terrane/algorithms/verify/detail/rounded_parts.hpp>
@@ -55,12 +56,14 @@ InputFile input_file(std::string_view contents, std::vector<Surface> surfaces) {
 }
 
 double default_max_deviation(std::span<const Surface> inputs) {
+    const StandardArithmetic arithmetic;
     Violations not_judged;
     return verifier::default_max_deviation(verifier::join_inputs(inputs, not_judged));
 }
 
 Verdict verify_certificate(std::span<const InputFile> files, const Certificate& certificate,
                            const VerifyOptions& options) {
+    const StandardArithmetic arithmetic;
     Verdict verdict;
     Violations& found = verdict.violations;
     check_inputs(files, certificate.inputs, found);

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include <fmt/format.h>
 #include <gmpxx.h>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
@@ -23,8 +24,7 @@ double LayerResolver::area(std::uint32_t t) const {
 
 std::string LayerResolver::place(std::uint32_t t) const {
     const Point3 p = corner(t, 0);
-    return a_.surfaces[a_.surfaces_of[t][0]].name + " (" + std::to_string(p.x) + ", " +
-           std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
+    return fmt::format("{} ({}, {}, {})", a_.surfaces[a_.surfaces_of[t][0]].name, p.x, p.y, p.z);
 }
 
 /// Finds the corners in counterclockwise order, and the boxes, of all triangles of the layers.

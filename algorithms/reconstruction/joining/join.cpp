@@ -28,11 +28,6 @@ using namespace joining::detail;
 
 namespace {
 
-std::string text_of(const Point3& p) {
-    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) +
-           ")";
-}
-
 /// Finds vertices in a loop by their coordinates, so that equal points count as one.
 class LoopNames {
 public:

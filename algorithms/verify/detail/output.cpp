@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/verify/detail/kinds.hpp>
 #include <terrane/algorithms/verify/detail/sha256.hpp>
 #include <terrane/algorithms/verify/verify_certificate.hpp>
@@ -136,6 +137,7 @@ OutputVerdict verify_output(std::string_view contents, const Certificate& certif
 }
 
 OutputVerdict OutputVerifier::operator()(std::string_view contents, std::size_t number) {
+    const StandardArithmetic arithmetic;
     const CertifiedOutput& output = certificate_.outputs[number];
     OutputVerdict verdict;
     const auto refute = [&](const std::string& what) {

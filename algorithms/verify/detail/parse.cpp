@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/verify/detail/kinds.hpp>
 #include <terrane/algorithms/verify/verify_certificate.hpp>
 
@@ -109,6 +110,7 @@ Result<Certificate> parsed(std::string_view text, const std::string& file) {
 } // namespace
 
 Result<Certificate> parse_certificate(std::string_view text, std::string_view source) {
+    const StandardArithmetic arithmetic;
     try {
         return parsed(text, std::string(source));
     } catch (const std::bad_alloc&) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <utility>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 #include <terrane/algorithms/verify/detail/rounded_parts.hpp>
@@ -101,8 +102,9 @@ void check_vanished_list(const RoundedParts& parts, Violations& found) {
 /// Returns a number with some digits, for sentences.
 std::string decimal(double number) {
     std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.3g", number);
-    return text.data();
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), number,
+                                   std::chars_format::general, 3);
+    return {text.data(), end.ptr};
 }
 
 /// Checks the stated distances against each other and the largest that is accepted; returns whether
@@ -147,6 +149,7 @@ void check_all(const RoundedParts& parts, double accepted, Verdict& verdict) {
 
 Verdict verify_rounded(std::span<const Surface> surfaces, const ArrangementClaim& exact,
                        const RoundedClaim& rounded, const VerifyOptions& options) {
+    const StandardArithmetic arithmetic;
     return verifier::verify_rounded_part(surfaces, exact, rounded, options, {});
 }
 

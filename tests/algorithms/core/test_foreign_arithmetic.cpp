@@ -35,7 +35,9 @@
 #include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
+#include <terrane/algorithms/verify/verify_certificate.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/io/certificate.hpp>
 #include <terrane/io/exact_text.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/structure_json.hpp>
@@ -115,6 +117,7 @@ private:
         if (!rounded || !rounded->conforming) return;
         all["rounded"] = format_mesh(rounded->mesh, Format::vtp).value_or("none");
         all["rounding"] = bits_of({rounded->report.max_move, rounded->report.deviation});
+        add_verdict(all, *read, *exact, *rounded);
         const auto model = make_model(*exact, *rounded->conforming, run);
         if (model) {
             StructureExtras extras;
@@ -135,6 +138,37 @@ private:
         add_box(all, *read, run);
         const auto sealed = seal(*read, {.distance = 20}, run);
         if (sealed) all["seal"] = canonical_digest(sealed->surfaces, sealed->arrangement, run);
+    }
+
+    /// What the verifier says of a certificate and of a file that it names.
+    void add_verdict(Results& all, const std::vector<Surface>& surfaces, const Arrangement& exact,
+                     const RoundedMesh& rounded) const {
+        const InputFile file = input_file(crossing, surfaces);
+        const std::vector<InputRecord> inputs{{"a.ts", file.sha256, file.bytes, surfaces.size()}};
+        const auto written = format_mesh(rounded.mesh, Format::obj);
+        if (!written) return;
+        std::vector<SurfaceInfo> infos;
+        for (const Surface& s : surfaces) infos.push_back({s.name, s.role});
+        const std::vector<OutputRecord> outputs{record_output(*written, "a.obj", "obj", infos)};
+        const auto text = to_certificate({inputs, surfaces, exact, &rounded, outputs});
+        const auto certificate = parse_certificate(text, "a.json");
+        all["certificate"] = text + (certificate ? "" : certificate.error().message());
+        if (!certificate) return;
+        const Verdict verdict = verify_certificate(std::vector{file}, *certificate);
+        const OutputVerdict output = verify_output(*written, *certificate, 0);
+        std::string sentences;
+        for (const Violation& v : verdict.violations) sentences += v.sentence;
+        for (const Violation& v : output.violations) sentences += v.sentence;
+        if (verdict.measured)
+            all["verdict"] =
+                sentences + bits_of({verdict.measured->deviation, verdict.measured->max_deviation,
+                                     default_max_deviation(surfaces)});
+        const auto alone = verify_rounded(surfaces, certificate->exact, *certificate->rounded);
+        all["verifier's parts"] =
+            std::to_string(verify_arrangement(surfaces, certificate->exact).size()) + ' ' +
+            std::to_string(
+                verify_conforming(rounded.mesh->vertices, rounded.mesh->triangles).size()) +
+            (alone.measured ? bits_of({alone.measured->deviation}) : "none");
     }
 
     /// A rotated box, the model in it, that at a resolution, and its tetrahedra.
@@ -204,9 +238,9 @@ TEST_CASE("foreign arithmetic: a caller's rounding mode changes no bit, and is g
           "[environment][once]") {
     const Subject subject;
     const Results expected = subject(1);
-    for (const char* stage :
-         {"read", "check", "arrange", "rounded", "model", "improve", "measured", "seal", "kriging",
-          "rbf", "layers", "box", "tetrahedra", "resolution"}) {
+    for (const char* stage : {"read", "check", "arrange", "rounded", "model", "improve", "measured",
+                              "seal", "kriging", "rbf", "layers", "box", "tetrahedra", "resolution",
+                              "certificate", "verdict", "verifier's parts"}) {
         INFO(stage);
         REQUIRE(expected.contains(stage));
     }

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
@@ -14,11 +16,6 @@
 
 namespace terrane::joining::detail {
 namespace {
-
-std::string text_of(const Point3& p) {
-    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) +
-           ")";
-}
 
 Error not_closed(const BorderLine& border, std::size_t wall, const char* how) {
     return {ErrorCode::not_closed, std::string("the strip along the border ") + how,
@@ -371,6 +368,10 @@ Result<InnerPart> InnerPartFinder::part() const {
 }
 
 } // namespace
+
+std::string text_of(const Point3& p) {
+    return fmt::format("({}, {}, {})", p.x, p.y, p.z);
+}
 
 Surface strip_along(const BorderLine& border, double half_width) {
     Surface strip{"strip", Role::unknown, {}, {}};
