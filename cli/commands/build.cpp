@@ -455,10 +455,11 @@ private:
 };
 
 Result<ExitStatus> build(const BuildCommand& command) {
+    Session session(command.threads.value_or(0));
     auto project = read_project(command.project);
     if (!project) return project.error();
     project.value().check = command.check;
-    Session session(command.threads.value_or(project.value().threads));
+    session.use_threads(command.threads.value_or(project.value().threads));
     FileOptions page_files = command.page;
     for (const ProjectSurfaces& entry : project.value().surfaces)
         page_files.inputs.push_back(entry.file.string());

@@ -66,7 +66,15 @@ Examples:
 
 /// Runs main() of the package, or says what is missing.
 constexpr const char* start_script = R"(
-import sys
+import os, signal, sys
+def stop(number, frame):
+    sys.stderr.write("terrane: interrupted\n")
+    sys.stderr.flush()
+    os._exit(2)
+for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    if signal.getsignal(number) != signal.SIG_IGN:
+        signal.signal(number, stop)
+signal.pthread_sigmask(signal.SIG_SETMASK, ())
 try:
     from terrane._ensemble_command import main
 except ImportError as missing:
@@ -142,9 +150,13 @@ Status check_ensemble(const EnsembleCommand& command) {
     return Done{};
 }
 
-/// Becomes the interpreter; returns only if there is none.
+/// Becomes the interpreter; returns only if there is none. The session blocks interrupts in this thread, so that they
+/// wait until the script can answer them.
 ExitStatus run_ensemble(const EnsembleCommand& command) {
-    if (const auto sound = check_ensemble(command); !sound) return fail(sound.error());
+    {
+        Session session(1);
+        if (const auto sound = check_ensemble(command); !sound) return fail(sound.error());
+    }
     if (const auto set = set_python_path(); !set) return fail(set.error());
     const char* const named = std::getenv("TERRANE_PYTHON");
     std::string python = named != nullptr && *named != '\0' ? named : TERRANE_PYTHON_PROGRAM;

@@ -39,8 +39,11 @@ Examples:
   terrane verify model.json --output sent/model.vtp)";
 
 Result<ExitStatus> verify_file(const VerifyCommand& command) {
+    Session session(1); // of which only the interrupts and the progress line are wanted
+    session.begin("verify", Phase::idle);
     const auto judged = judge_certificate(command.request);
     if (!judged) return judged.error();
+    session.end_stage();
     const std::string& path = command.request.certificate;
     if (command.json)
         print(stdout, verdict_json(*judged));

@@ -20,7 +20,7 @@ namespace {
 constexpr int wake_signal = SIGURG;
 
 /// How long a stage may go on after an interrupt. Stages look for stop requests between steps, some
-/// of which are long: the solution of a dense system, say.
+/// of which are long: the solution of a dense system, say, or a large file of a folder.
 constexpr std::chrono::milliseconds patience{700};
 
 /// The progress line is drawn this often at most, and not before so much time.
@@ -46,7 +46,7 @@ sigset_t watched_signals() {
 
 Session::Session(unsigned threads) :
     shows_progress_(shows_progress()), started_(std::chrono::steady_clock::now()) {
-    run_.threads = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+    use_threads(threads);
     run_.stop = source_.get_token();
     run_.progress = [this](std::string_view stage, double share) {
         const std::lock_guard lock(mutex_);
@@ -63,6 +63,10 @@ Session::~Session() {
     pthread_kill(watcher_.native_handle(), wake_signal); // else it would sleep until its next tick
     watcher_.join();
     clear_progress();
+}
+
+void Session::use_threads(unsigned threads) {
+    run_.threads = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
 }
 
 void Session::begin(std::string_view stage, Phase phase) {
@@ -114,7 +118,8 @@ void Session::on_interrupt() {
 }
 
 void Session::end_if_overdue() {
-    if (!stopped() || phase_ != Phase::computing) return;
+    const Phase phase = phase_;
+    if (!stopped() || (phase != Phase::computing && phase != Phase::folder)) return;
     if (std::chrono::steady_clock::now() - interrupted_ > patience) end_at_once();
 }
 

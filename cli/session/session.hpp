@@ -25,7 +25,7 @@ enum class Phase {
     computing, ///< the stage is asked to stop; if it has not soon, or at a second interrupt, the
                ///< program ends
     folder,  ///< writing a folder: it is asked to stop between two files and to remove the folder;
-             ///< a second interrupt ends the program
+             ///< if it has not soon, or at a second interrupt, the program ends
     writing, ///< writing a file: the program ends at once
 };
 
@@ -39,6 +39,8 @@ public:
     Session& operator=(const Session&) = delete;
 
     [[nodiscard]] const Run& run() const { return run_; }
+    /// Changes the number of threads, where it is read after the session began; 0: all cores.
+    void use_threads(unsigned threads);
     /// How long the stages took that have ended.
     [[nodiscard]] const StageTimes& times() const { return times_; }
     [[nodiscard]] bool stopped() const { return source_.stop_requested(); }

@@ -9,11 +9,13 @@ import os
 import re
 import signal
 import sys
+import threading
 import time
-from typing import Any, List, NoReturn, Optional, Tuple
+from typing import Any, Callable, List, NoReturn, Optional, Tuple
 
 from . import _core
 from ._ensemble import Ensemble, ensemble, task_of
+from ._ensemble_engine import abandon
 from ._ensemble_kept import remove
 from ._ensemble_output import new_folder, save, write_project
 from ._ensemble_work import run_one, unpacked
@@ -169,8 +171,41 @@ def _all(arguments: Any, folder: str) -> int:
     return _NEGATIVE if made.failures else 0
 
 
-def _stop(number: int, frame: Any) -> NoReturn:
-    raise KeyboardInterrupt
+#: How long an engine may take, in seconds, to end its processes after an interrupt. Dask can take several.
+_PATIENCE = 0.7
+
+
+class _Interrupts:
+    """SIGINT, SIGTERM and SIGHUP raise KeyboardInterrupt; the program ends soon after the first, and at once at a second."""
+
+    def __init__(self, end: Callable[[], None]) -> None:
+        self._end = end
+        self._lock = threading.Lock()
+        self._patience: Optional[threading.Timer] = None
+        for name in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            if signal.getsignal(name) != signal.SIG_IGN:  # nohup ignores SIGHUP, and a shell's & SIGINT
+                signal.signal(name, self._hear)
+
+    def _hear(self, number: int, frame: Any) -> NoReturn:
+        if self._patience is not None:
+            self._end_at_once()
+        self._patience = threading.Timer(_PATIENCE, self._end_at_once)
+        self._patience.daemon = True
+        self._patience.start()
+        raise KeyboardInterrupt
+
+    def _end_at_once(self) -> NoReturn:
+        self._lock.acquire()  # for good: whoever has it ends the program
+        abandon()
+        self._end()
+        os._exit(_BAD_INPUT)
+
+    def answer(self, at_once: bool) -> None:
+        """Say that the program was interrupted; `at_once`, end it without what engines do and say at the end."""
+        if at_once:
+            self._end_at_once()
+        self._lock.acquire()
+        self._end()
 
 
 def main(given: List[str]) -> int:
@@ -178,8 +213,17 @@ def main(given: List[str]) -> int:
     arguments = _parser().parse_args(given)
     _core.keep_freed_memory()  # as the program terrane does
     logging.disable(logging.CRITICAL)  # Dask logs tracebacks of errors that are also raised
-    for name in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(name, _stop)
+    # After an interrupt, a process of Python's removes what killed workers have left, and says so.
+    os.environ["PYTHONWARNINGS"] = ",".join(
+        filter(None, [os.environ.get("PYTHONWARNINGS"), "ignore:resource_tracker:UserWarning"]))
+
+    def say_interrupted() -> None:
+        kept = "" if arguments.only is not None else "; the same command goes on from there"
+        _fail(arguments, "interrupted" + (kept and f", finished realisations are kept in {_folder_of(arguments)}"
+                                          f".realisations{kept}"))
+        sys.stderr.flush()
+
+    interrupts = _Interrupts(say_interrupted)
     try:
         if arguments.version_of_program != str(_core.version):
             raise Error("unsupported", f"the Python package is terrane {_core.version}, the program "
@@ -187,12 +231,13 @@ def main(given: List[str]) -> int:
         folder = _folder_of(arguments)
         return _one(arguments, folder) if arguments.only is not None else _all(arguments, folder)
     except KeyboardInterrupt:
-        kept = "" if arguments.only is not None else "; the same command goes on from there"
-        _fail(arguments, "interrupted" + (kept and f", finished realisations are kept in {_folder_of(arguments)}"
-                                          f".realisations{kept}"))
+        interrupts.answer(arguments.engine == "dask")
         return _BAD_INPUT
     except Error as error:
-        _fail(arguments, "interrupted" if error.code == "interrupted" else str(error))
+        if error.code == "interrupted":
+            interrupts.answer(arguments.engine == "dask")
+        else:
+            _fail(arguments, str(error))
         return _STATUS.get(error.code, _BAD_INPUT)
     except MemoryError:
         _fail(arguments, "out of memory")

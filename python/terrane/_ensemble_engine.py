@@ -10,7 +10,10 @@ from __future__ import annotations
 import contextlib
 import importlib
 import itertools
+import multiprocessing
+import shutil
 import signal
+import tempfile
 from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
 from ._ensemble_work import Task, run_one
@@ -28,6 +31,10 @@ _QUIET_WORKERS = {"distributed.worker.profile.enabled": False, "distributed.work
 #: to the system at once, and requesting it again took half of the time of an ensemble.
 _MEMORY_KEPT: Dict[str, Any] = {f"distributed.nanny.pre-spawn-environ.{name}": value for name, value in
                 (("MALLOC_TRIM_THRESHOLD_", 1 << 30), ("MALLOC_MMAP_THRESHOLD_", 1 << 30), ("MALLOC_ARENA_MAX", 1))}
+
+
+#: Folders of workers that this process has started.
+_folders: List[str] = []
 
 
 class Engine(NamedTuple):
@@ -132,13 +139,24 @@ def _client(distributed: Any, engine: Engine, task: Task, stack: contextlib.Exit
             return stack.enter_context(distributed.Client(engine.scheduler, timeout=10, set_as_default=False))
         except (OSError, TimeoutError, ValueError) as error:
             raise Error("cannot_open", f"no scheduler answers: {error}", engine.scheduler) from None
+    folder = tempfile.mkdtemp(prefix="terrane-workers-")
+    _folders.append(folder)
+    stack.callback(shutil.rmtree, folder, ignore_errors=True)
     settings = {**_MEMORY_KEPT, **({} if engine.dashboard else _QUIET_WORKERS)}  # workers inherit them
     with _interrupts_blocked(), _module("dask.config", "python3-dask", "engine").set(settings):
         # Terrane itself reports lack of memory; a limit of Dask's would kill workers before.
         cluster = stack.enter_context(distributed.LocalCluster(
-            n_workers=engine.workers, threads_per_worker=1, processes=True, memory_limit=0,
+            n_workers=engine.workers, threads_per_worker=1, processes=True, memory_limit=0, local_directory=folder,
             dashboard_address=engine.dashboard or "127.0.0.1:0", silence_logs=50))
         return stack.enter_context(distributed.Client(cluster, set_as_default=False))
+
+
+def abandon() -> None:
+    """Kill the workers that this process has started, and remove their folders: the process is about to end."""
+    for child in multiprocessing.active_children():
+        child.kill()
+    for folder in _folders:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def _by_mpi(pool: Any, task: Task, numbers: List[int]) -> Iterator[Outcome]:

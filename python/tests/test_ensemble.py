@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import pickle
+import re
 import signal
 import statistics
 import subprocess
@@ -221,6 +222,25 @@ def test_the_program_is_interrupted_and_goes_on():
         if name.suffix != ".h5":  # whose layout on disk is the library's affair
             assert (pathlib.Path("whole") / name).read_bytes() == (pathlib.Path("run") / name).read_bytes(), name
     assert len(rows_of("run/blocks.csv")) == 60 * 6
+
+
+@pytest.mark.skipif(SANITIZED, reason="the program's interpreter would need the sanitizer's library first")
+@pytest.mark.parametrize("engine", ["serial", pytest.param("dask", marks=needs_dask)])
+def test_an_interrupt_at_any_time_ends_the_program_with_one_line(engine):
+    """While the interpreter starts, its packages are imported, workers start, and realisations are computed."""
+    write_stack()
+    for k, number in enumerate([signal.SIGINT, signal.SIGTERM, signal.SIGHUP] * 2):
+        running = subprocess.Popen([PROGRAM, "ensemble", "p.json", "-o", f"run{k}", "--engine", engine,
+                                    "--realisations", "5000"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        time.sleep(0.1 + 0.4 * k)  # it takes a hundredth of a second to be ready for signals
+        running.send_signal(number)
+        if k >= 3:  # the user insists
+            running.send_signal(number)
+        out, err = running.communicate(timeout=60)
+        assert (out, running.returncode) == ("", 2), (k, out, err)
+        assert re.fullmatch("terrane: interrupted(, finished realisations are kept .*)?\n", err), (k, err)
+        assert not os.path.exists(f"run{k}")
+    assert not os.path.exists("dask-worker-space")
 
 
 @pytest.mark.skipif(SANITIZED, reason="the program's interpreter would need the sanitizer's library first")

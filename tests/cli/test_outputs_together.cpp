@@ -86,6 +86,22 @@ TEST_CASE("cli: an interrupt ends a command that waits for its input", "[cli][ou
     CHECK(contains(r.err, "terrane: interrupted, nothing written"));
 }
 
+TEST_CASE("cli: an interrupt ends commands that wait for a project or a certificate",
+          "[cli][outputs]") {
+    const Folder folder;
+    REQUIRE(folder.shell("mkfifo in/p").status == 0);
+    for (const std::string command :
+         {"build in/p -o out", "verify in/p", "verify -", "ensemble in/p -o out"})
+        for (const std::string name : {"INT", "TERM", "HUP"}) {
+            INFO(command << ", " << name);
+            const auto r = folder.shell("timeout --preserve-status -k 20 -s " + name + " 0.5 $T " +
+                                        command + " <>in/p");
+            CHECK(r.status == 2);
+            CHECK(contains(r.err, "terrane: interrupted"));
+            CHECK(folder.left().empty());
+        }
+}
+
 TEST_CASE("cli: a hangup is an interrupt, but not under nohup", "[cli][outputs]") {
     const Folder folder;
     const auto in = folder.input(model, crossing);
