@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -272,12 +273,29 @@ std::optional<Error> open_edge(std::span<const Surface> surfaces, const Run& run
     return found;
 }
 
+/// Whether doubles hold the volume and the areas of the box around all vertices, and sums of some.
+bool can_be_measured(std::span<const Surface> surfaces) {
+    constexpr double infinite = std::numeric_limits<double>::infinity(), terms = 16;
+    Point3 low{infinite, infinite, infinite}, high{-infinite, -infinite, -infinite};
+    for (const Surface& s : surfaces)
+        for (const Point3& p : s.vertices) {
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+    if (low.x > high.x) return true; // there is none
+    const double x = terms * (high.x - low.x), y = high.y - low.y, z = high.z - low.z;
+    return std::isfinite(x * y) && std::isfinite(x * z) && std::isfinite(terms * y * z) &&
+           std::isfinite(x * y * z);
+}
+
 } // namespace
 
 Result<std::vector<Surface>> closed_boundary(std::span<const Surface> surfaces, const Run& run) {
     return guarded("for the boundary", "boundary", [&]() -> Result<std::vector<Surface>> {
         const auto report = check(surfaces, run);
         if (!report) return report.error();
+        if (!can_be_measured(surfaces))
+            return Error{ErrorCode::bad_number, "doubles cannot hold its volume", "boundary"};
         if (const auto open = open_edge(surfaces, run)) return *open;
         if (!report.value().contacts.empty()) return contact_error(report.value(), surfaces);
         if (!report.value().repeated.empty() || !report.value().shared.empty())
@@ -325,7 +343,10 @@ Result<std::vector<Surface>> rotated_box_boundary(const RotatedBox& box) {
                 if (!is_finite(p))
                     return Error{ErrorCode::bad_number, "a corner is not finite", "rotated box"};
         const std::array cap{Triangle{0, 1, 2}, Triangle{0, 2, 3}};
-        return closed_boundary(prism(bottom, top, cap));
+        auto sides = closed_boundary(prism(bottom, top, cap));
+        if (!sides && sides.error().code == ErrorCode::bad_number)
+            return Error{ErrorCode::bad_number, "the box is too large for doubles", "rotated box"};
+        return sides;
     });
 }
 

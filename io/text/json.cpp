@@ -268,7 +268,14 @@ std::string Json::dump(int indent, bool ascii) const {
 ParsedJson parse_json_text(std::string_view text) {
     JsonBuilder builder;
     nlohmann::json::sax_parse(text, &builder);
-    return std::move(builder.made);
+    ParsedJson made = std::move(builder.made);
+    // The parser takes a byte of 0 for the end of the text.
+    const std::size_t zero = text.find('\0');
+    if (made.state == ParsedJson::State::good && zero != text.npos) {
+        made.state = ParsedJson::State::no_json;
+        made.byte = zero + 1;
+    }
+    return made;
 }
 
 } // namespace terrane::detail

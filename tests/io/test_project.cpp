@@ -426,6 +426,17 @@ TEST_CASE("project: what is wrong is named by its key", "[io][project]") {
     CHECK(message(document) == "p.json: the key surfaces is missing");
 }
 
+TEST_CASE("project: a byte of 0 does not end the text", "[io][project]") {
+    const std::string good = full().dump();
+    REQUIRE(parse_project(good, "/", "p.json"));
+    for (const std::string& end : {std::string(1, '\0'), std::string("\0\n{", 3)}) {
+        const auto read = parse_project(good + "\n" + end, "/", "p.json");
+        REQUIRE_FALSE(read);
+        CHECK(read.error().message() == "p.json:2: this is not JSON");
+    }
+    CHECK_FALSE(parse_project('\0' + good, "/", "p.json"));
+}
+
 TEST_CASE("project: any text gives a project or an error", "[io][project]") {
     const auto said = [](std::string_view text) {
         const auto result = parse_project(text, "", "p.json");

@@ -136,6 +136,17 @@ TEST_CASE("volume of interest: invalid boundaries are refused", "[voi]") {
     thin = {{1e6, 1e6, 1e6}, false, {1e-11, 1, 1}, 30, 20, 10};
     CHECK_FALSE(rotated_box_boundary(thin));
 
+    // Doubles have to hold its volume, not its corners alone.
+    CHECK(box_boundary({0, 0, 0}, {1e100, 1e100, 1e100}));
+    CHECK(box_boundary({0, 0, 0}, {1e-100, 1e200, 1e100}));
+    for (const Point3 high : {Point3{8, 8, 1e308}, Point3{1e103, 1e103, 1e103},
+                              Point3{1e-200, 1e200, 1e200}, Point3{1e300, 1, 1e10}})
+        CHECK(box_boundary({0, 0, 0}, high).error().code == ErrorCode::bad_number);
+    CHECK(
+        rotated_box_boundary({{0, 0, 0}, false, {1e103, 1e103, 1e103}, 30, 20, 10}).error().place ==
+        "rotated box");
+    CHECK(closed_boundary(std::vector{cube(-1e103, 1e103)}).error().code == ErrorCode::bad_number);
+
     Surface open = cube(0, 1);
     open.triangles.pop_back();
     const Error hole = closed_boundary(std::vector{open}).error();
