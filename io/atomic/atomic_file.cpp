@@ -163,7 +163,7 @@ Status replace(const Target& to, std::string_view contents, FileSet* set) {
     int code = fill(file, contents);
     if (code == 0 && to.mode != 0 && ::chmod(temporary.c_str(), to.mode) != 0) code = errno;
     if (code == 0 && set != nullptr) {
-        set->add(temporary, to.file);
+        if (auto added = set->add(temporary, to.file); !added) return added;
         made->hand_on();
         return Done{};
     }

@@ -139,7 +139,7 @@ Result<NewFolder> NewFolder::create(const fs::path& path) {
 
 Status NewFolder::publish() {
     if (FileSet::current() != nullptr) {
-        FileSet::current()->add(temporary_, target_);
+        if (auto added = FileSet::current()->add(temporary_, target_); !added) return added;
         temporary_.clear();
         return Done{};
     }

@@ -10,6 +10,8 @@
 
 #include <unistd.h>
 
+#include <terrane/io/atomic/atomic_file.hpp>
+
 namespace terrane {
 
 namespace fs = std::filesystem;
@@ -33,6 +35,21 @@ fs::path normal(const fs::path& path) {
     std::error_code failed;
     auto absolute = fs::absolute(path, failed).lexically_normal();
     return absolute.has_filename() ? absolute : absolute.parent_path();
+}
+
+/// Returns the absolute path without links, as far as it exists.
+fs::path without_links(const fs::path& path) {
+    std::error_code failed;
+    const auto found = fs::weakly_canonical(fs::absolute(followed(path)), failed);
+    return normal(failed ? path : found);
+}
+
+/// Tells whether a path names a file or folder, or nothing yet, and no pipe or device.
+bool can_be_replaced(const fs::path& path) {
+    std::error_code failed;
+    const auto type = fs::status(path, failed).type();
+    return type == fs::file_type::not_found || type == fs::file_type::regular ||
+           type == fs::file_type::directory;
 }
 
 /// Tells whether a path is in a folder; returns the rest of the path then.
@@ -60,8 +77,24 @@ FileSet* FileSet::current() {
     return current_set;
 }
 
-void FileSet::add(fs::path temporary, fs::path target) {
+Status FileSet::add(fs::path temporary, fs::path target) {
+    for (const Pending& p : pending_)
+        if (overlap(p.target, target))
+            return Error{ErrorCode::bad_option,
+                         "two results of this run would be in the same place, this and " +
+                             p.target.string(),
+                         target.string()};
+    for (const fs::path& file : kept_)
+        if (overlap(file, target))
+            return Error{ErrorCode::bad_option,
+                         "a result of this run would replace this file, which is read",
+                         target.string()};
     pending_.push_back({std::move(temporary), std::move(target)});
+    return Done{};
+}
+
+void FileSet::keep(const fs::path& file) {
+    kept_.push_back(without_links(file));
 }
 
 void FileSet::then(std::function<void()> tell) {
@@ -102,6 +135,22 @@ bool make_temporary(const fs::path& path, const std::function<bool()>& make) {
     const bool made = make();
     if (!made && noted.second) temporaries().paths.erase(noted.first);
     return made;
+}
+
+bool are_same(const fs::path& a, const fs::path& b) {
+    std::error_code failed;
+    if (!can_be_replaced(a) || !can_be_replaced(b)) return false;
+    if (fs::is_regular_file(a, failed) && fs::is_regular_file(b, failed))
+        return fs::equivalent(a, b, failed);
+    return without_links(a) == without_links(b);
+}
+
+bool overlap(const fs::path& a, const fs::path& b) {
+    if (are_same(a, b)) return true;
+    if (!can_be_replaced(a) || !can_be_replaced(b)) return false;
+    const fs::path first = without_links(a), second = without_links(b);
+    fs::path rest;
+    return is_inside(first, second, rest) || is_inside(second, first, rest);
 }
 
 void forget_temporary(const fs::path& path) {

@@ -27,8 +27,12 @@ public:
     /// Returns the one that lives in this thread, or null.
     static FileSet* current();
 
-    /// Adds a complete file or folder, which is removed unless it is published.
-    void add(std::filesystem::path temporary, std::filesystem::path target);
+    /// Adds a complete file or folder, which is removed unless it is published. Errors, with the
+    /// target, which is not added: bad_option where it would replace another result or a kept file,
+    /// or one of them would be in the other.
+    Status add(std::filesystem::path temporary, std::filesystem::path target);
+    /// Keeps a file from being replaced by what is added later.
+    void keep(const std::filesystem::path& file);
     /// Calls `tell` after publish() has succeeded, in order.
     void then(std::function<void()> tell);
     /// Returns where the contents of a path are now.
@@ -43,6 +47,7 @@ private:
         std::filesystem::path temporary, target;
     };
     std::vector<Pending> pending_;
+    std::vector<std::filesystem::path> kept_; ///< without links
     std::vector<std::function<void()>> tells_;
 };
 
@@ -51,6 +56,11 @@ private:
 bool make_temporary(const std::filesystem::path& path, const std::function<bool()>& make);
 /// Forgets it: it has its name, or is removed.
 void forget_temporary(const std::filesystem::path& path);
+/// Tells whether two paths name the same file or folder, by any of their names, whether it exists or
+/// not. Pipes and devices are never the same.
+bool are_same(const std::filesystem::path& a, const std::filesystem::path& b);
+/// Tells whether they are the same or one of them names a folder in which the other one is.
+bool overlap(const std::filesystem::path& a, const std::filesystem::path& b);
 /// Tells whether a path is in such a folder, where files need no temporary names.
 bool is_in_temporary(const std::filesystem::path& path);
 /// Removes a temporary file or folder and forgets it. Never throws: where not even removing gets

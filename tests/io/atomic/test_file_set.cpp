@@ -90,3 +90,54 @@ TEST_CASE("file set: a process that ends at once can remove its temporary files"
         CHECK(entries(folder.path()) == 0);
     }
 }
+
+TEST_CASE("file set: two results in one place, or one in that of a kept file, are refused",
+          "[io][files]") {
+    TemporaryFolder folder;
+    REQUIRE(write_file(folder / "kept", "old"));
+    fs::create_symlink("kept", folder / "link");
+    fs::create_symlink("new", folder / "to_new");
+    fs::create_directory(folder / "empty");
+    FileSet files;
+    files.keep(folder / "link");
+    REQUIRE(write_file(folder / "new", "one"));
+    auto made = NewFolder::create(folder / "empty");
+    REQUIRE(made);
+    REQUIRE(made->publish());
+    for (const char* const name : {"kept", "link", "new", "to_new", "empty/file"}) {
+        const auto status = write_file(folder / name, "two");
+        INFO(name);
+        REQUIRE_FALSE(status);
+        CHECK(status.error().code == ErrorCode::bad_option);
+        CHECK(fs::path(status.error().place).filename() ==
+              (name == std::string("link")     ? "kept"
+               : name == std::string("to_new") ? "new"
+                                               : fs::path(name).filename().string()));
+    }
+    auto again = NewFolder::create(folder / "new");
+    REQUIRE(again);
+    CHECK_FALSE(again->publish());
+    REQUIRE(write_file(folder / "new2", "one"));
+    REQUIRE(write_file("/dev/null", "one"));
+    REQUIRE(write_file("/dev/null", "two"));
+    REQUIRE(files.publish());
+    CHECK(read_file(folder / "kept").value_or("") == "old");
+    CHECK(read_file(folder / "new").value_or("") == "one");
+}
+
+TEST_CASE("file set: paths overlap by any of their names", "[io][files]") {
+    TemporaryFolder folder;
+    REQUIRE(write_file(folder / "a", "old"));
+    fs::create_hard_link(folder / "a", folder / "hard");
+    fs::create_symlink("b", folder / "to_b");
+    CHECK(are_same(folder / "a", folder / "." / "a"));
+    CHECK(are_same(folder / "a", folder / "hard"));
+    CHECK(are_same(folder / "b", folder / "to_b"));
+    CHECK(are_same(folder / "c", folder / "c" / ""));
+    CHECK_FALSE(are_same(folder / "a", folder / "b"));
+    CHECK_FALSE(are_same(folder / "c", folder / "c" / "d"));
+    CHECK(overlap(folder / "c", folder / "c" / "d"));
+    CHECK(overlap(folder / "to_b" / "d", folder / "b"));
+    CHECK_FALSE(overlap(folder / "c", folder / "cd"));
+    CHECK_FALSE(overlap("/dev/null", "/dev/null"));
+}
