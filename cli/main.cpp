@@ -44,6 +44,7 @@ ExitStatus run_and_publish(const Command& command) {
     if (const auto sound = check_values(*command.options); !sound) return fail(sound.error());
     if (const auto sound = check_file_options(*command.options); !sound) return fail(sound.error());
     FileSet files;
+    for (const auto& path : files_to_keep(*command.options)) files.keep(path);
     const ExitStatus status = command.run();
     if (status != ExitStatus::done && status != ExitStatus::negative) return status;
     if (const auto published = files.publish(); !published) return fail(published.error());

@@ -103,6 +103,16 @@ Result<std::vector<Surface>> boundary_of(const Project& project, const Run& run)
 
 } // namespace
 
+std::vector<std::filesystem::path> named_files(const Project& project) {
+    std::vector<std::filesystem::path> files;
+    for (const ProjectSurfaces& entry : project.surfaces) files.push_back(entry.file);
+    if (const auto* within = std::get_if<ProjectWithin>(&project.volume))
+        files.insert(files.end(), within->files.begin(), within->files.end());
+    for (const ProjectUncertainty& u : project.uncertainty)
+        if (u.field && !u.field->map.empty()) files.push_back(u.field->map);
+    return files;
+}
+
 Result<ProjectInputs> read_inputs(const Project& project, const Run& run) {
     return guarded("to read the files", "read", [&]() -> Result<ProjectInputs> {
         ProjectInputs read;

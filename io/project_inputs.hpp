@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
@@ -22,6 +23,10 @@ struct ProjectInputs {
     std::size_t vertices = 0,                     ///< number in all surfaces
         triangles = 0;                            ///< number in all surfaces
 };
+
+/// Returns the files that a project names: of surfaces, of its volume of interest, and maps of how
+/// uncertain they are.
+std::vector<std::filesystem::path> named_files(const Project& project);
 
 /// Reads the surfaces and makes the boundary of the volume of interest. Errors: those of
 /// read_surfaces and of the makers in boundary_surfaces.hpp; bad_option with the key of an object

@@ -15,6 +15,7 @@
 #include <terrane/algorithms/volumes/region_points.hpp>
 #include <terrane/cli/commands/build_help.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/commands/file_options.hpp>
 #include <terrane/cli/options/volume_options.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
@@ -63,8 +64,7 @@ public:
           Session& session) :
         project_(project),
         page_(std::move(page)), page_files_(std::move(files)), source_(command.project),
-        folder_(command.folder.empty() ? project.folder : fs::path(command.folder)),
-        strict_(command.strict), session_(session) {
+        folder_(project.folder), strict_(command.strict), session_(session) {
         if (command.resume && !folder_.empty()) kept_.emplace(folder_);
     }
 
@@ -458,6 +458,8 @@ Result<ExitStatus> build(const BuildCommand& command) {
     Session session(command.threads.value_or(0));
     auto project = read_project(command.project);
     if (!project) return project.error();
+    if (!command.folder.empty()) project->folder = command.folder;
+    if (auto sound = check_project_files(*command.page.app, *project); !sound) return sound.error();
     project.value().check = command.check;
     session.use_threads(command.threads.value_or(project.value().threads));
     FileOptions page_files = command.page;

@@ -10,8 +10,16 @@
 #include <system_error>
 #include <vector>
 
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <terrane/cli/options/files.hpp>
+#include <terrane/cli/options/volume_options.hpp>
 #include <terrane/cli/session/console.hpp>
-#include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/cli/stages/kept_stages.hpp>
+#include <terrane/io/atomic/file_set.hpp>
+#include <terrane/io/meshes/pvtp.hpp>
+#include <terrane/io/project_inputs.hpp>
 
 namespace terrane::cli {
 
@@ -28,9 +36,14 @@ constexpr std::array<std::string_view, 15> output_options{
 /// Options that write surfaces or tetrahedra, which may take the place of what was read.
 constexpr std::array<std::string_view, 2> replacing_options{"--output", "OUT"};
 
+/// Options that name surfaces of which others are made, which may take their place.
+constexpr std::array<std::string_view, 3> replaced_options{"IN", "--hard", "--soft"};
+
 struct NamedFile {
-    std::string option; ///< "--stats"
-    fs::path path;
+    std::string option;     ///< "--stats"
+    fs::path path;          ///< "-": standard output
+    bool replaces = false;  ///< whether it may take the place of surfaces
+    bool is_folder = false; ///< whether it is a new folder
 };
 
 template <std::size_t N>
@@ -38,19 +51,103 @@ bool is_among(const std::array<std::string_view, N>& names, const std::string& n
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Tells whether the value of an option is the name of a file or folder.
+/// Returns the name of an option: "--stats", or "IN" if it is known by its place.
+std::string name_of(const CLI::Option& option) {
+    return option.get_lnames().empty() ? option.get_name(true) : "--" + option.get_lnames()[0];
+}
+
+/// Tells whether the values of an option are names of files or folders.
 bool names_file(const CLI::Option& option) {
     const std::string type = option.get_type_name();
     return type.starts_with("FILE") || type == "OUT" || type == "DIR" || type == "CERT";
 }
 
-bool are_same(const fs::path& a, const fs::path& b) {
+bool names_file(const CLI::Option& option, const std::string& value) {
+    return names_file(option) || (option.get_type_name() == "POLYGON" && is_polygon_file(value));
+}
+
+/// Tells whether a path is the file that the program has as this standard stream. The null device is
+/// none: nothing gets lost there.
+bool is_stream(const fs::path& path, int stream) {
+    struct stat named {
+    }, open{};
+    if (::stat(path.c_str(), &named) != 0 || ::fstat(stream, &open) != 0) return false;
+    return named.st_dev == open.st_dev && named.st_ino == open.st_ino &&
+           (!S_ISCHR(open.st_mode) || ::isatty(stream) == 1);
+}
+
+bool is_standard_output(const fs::path& path) {
+    return path == "-" || (has_standard_output() && is_stream(path, STDOUT_FILENO));
+}
+
+/// The files and folders that the options of a command name.
+struct FilesOfCommand {
+    std::vector<NamedFile> inputs;
+    std::vector<NamedFile> outputs;
+};
+
+FilesOfCommand files_of(const CLI::App& command) {
+    FilesOfCommand files;
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string name = name_of(*option);
+        const bool writes = is_among(output_options, name) && command.get_name() != "verify";
+        const bool replaces =
+            is_among(replacing_options, name) && !option->get_type_name().starts_with("FILE.");
+        const bool is_folder = option->get_type_name() == "DIR";
+        for (const std::string& value : option->results()) {
+            if (value.empty() || !names_file(*option, value)) continue;
+            if (!writes) {
+                files.inputs.push_back({name, value == "-" ? "/dev/stdin" : value});
+                continue;
+            }
+            files.outputs.push_back({name, value, replaces, is_folder});
+            if (fs::path(value).extension() == ".pvtp")
+                files.outputs.push_back({name, folder_of_pieces(value), false, true});
+        }
+    }
+    return files;
+}
+
+/// Tells whether an output may take the place of an input: surfaces of those that they are made of.
+bool may_replace(const NamedFile& out, const NamedFile& in) {
+    return out.replaces && is_among(replaced_options, in.option);
+}
+
+Status check_outputs(const std::vector<NamedFile>& outputs) {
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        const NamedFile& out = outputs[i];
+        const bool is_standard = is_standard_output(out.path);
+        if (is_standard && !has_standard_output())
+            return Error{ErrorCode::cannot_open, "cannot be written: it is closed",
+                         "standard output"};
+        for (std::size_t j = 0; j < i; ++j) {
+            if (is_standard && is_standard_output(outputs[j].path))
+                return Error{ErrorCode::bad_option,
+                             "standard output can take only one file, and " + outputs[j].option +
+                                 " names it, too",
+                             out.option};
+            if (!is_standard && overlap(out.path, outputs[j].path))
+                return Error{ErrorCode::bad_option,
+                             (are_same(out.path, outputs[j].path)
+                                  ? "names the same file as "
+                                  : "names a file in another one, or the folder of it: see ") +
+                                 outputs[j].option + ": " + out.path.string(),
+                             out.option};
+        }
+    }
+    return Done{};
+}
+
+Status check_inputs_stay(const std::vector<NamedFile>& outputs,
+                         const std::vector<NamedFile>& inputs) {
     std::error_code failed;
-    if (fs::exists(a, failed) && fs::exists(b, failed))
-        return fs::is_regular_file(a, failed) && fs::equivalent(a, b, failed);
-    const auto first = fs::weakly_canonical(fs::absolute(followed(a)), failed),
-               second = fs::weakly_canonical(fs::absolute(followed(b)), failed);
-    return !failed && first == second;
+    for (const NamedFile& out : outputs)
+        for (const NamedFile& in : inputs)
+            if (out.path != "-" && !may_replace(out, in) && !fs::is_directory(in.path, failed) &&
+                overlap(out.path, in.path))
+                return Error{ErrorCode::bad_option,
+                             "would replace a file that is read: " + out.path.string(), out.option};
+    return Done{};
 }
 
 /// Tells whether a word means "not a number" or infinity, which no option takes.
@@ -72,8 +169,7 @@ bool is_text(const CLI::Option& option) {
 
 Status check_values(const CLI::App& command) {
     for (const CLI::Option* option : command.get_options()) {
-        const std::string name =
-            option->get_lnames().empty() ? option->get_name(true) : "--" + option->get_lnames()[0];
+        const std::string name = name_of(*option);
         for (const std::string& value : option->results()) {
             if (value.empty()) return Error{ErrorCode::bad_option, "the value is empty", name};
             if (is_text(*option)) continue;
@@ -90,35 +186,39 @@ Status check_values(const CLI::App& command) {
 }
 
 Status check_file_options(const CLI::App& command) {
-    std::vector<NamedFile> inputs, outputs;
-    for (const CLI::Option* option : command.get_options()) {
-        if (!names_file(*option)) continue;
-        const std::string name =
-            option->get_lnames().empty() ? option->get_name(true) : "--" + option->get_lnames()[0];
-        const bool writes = is_among(output_options, name) && command.get_name() != "verify";
-        for (const std::string& value : option->results()) {
-            if (value == "-" && writes && !has_standard_output())
-                return Error{ErrorCode::cannot_open, "cannot be written: it is closed",
-                             "standard output"};
-            if (value != "-" && !value.empty())
-                (writes ? outputs : inputs).push_back({name, value});
-        }
-    }
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-        const NamedFile& out = outputs[i];
-        for (std::size_t j = 0; j < i; ++j)
-            if (are_same(out.path, outputs[j].path))
-                return Error{ErrorCode::bad_option,
-                             "names the same file as " + outputs[j].option + ": " +
-                                 out.path.string(),
-                             out.option};
-        if (is_among(replacing_options, out.option)) continue;
-        for (const NamedFile& in : inputs)
-            if (are_same(out.path, in.path))
-                return Error{ErrorCode::bad_option,
-                             "would replace a file that is read: " + out.path.string(), out.option};
-    }
+    const FilesOfCommand files = files_of(command);
+    if (auto sound = check_outputs(files.outputs); !sound) return sound;
+    if (auto sound = check_inputs_stay(files.outputs, files.inputs); !sound) return sound;
+    for (const NamedFile& out : files.outputs)
+        if (!out.is_folder)
+            if (auto sound = check_folder(out.path.string()); !sound) return sound;
     return Done{};
+}
+
+Status check_project_files(const CLI::App& command, const Project& project) {
+    std::vector<NamedFile> inputs{{"PROJECT", project.source}};
+    for (const fs::path& file : named_files(project)) inputs.push_back({"PROJECT", file});
+    std::vector<NamedFile> outputs = files_of(command).outputs;
+    if (!project.folder.empty() && command.get_option("--output")->empty())
+        outputs.push_back({"key folder", project.folder, false, true});
+    if (auto sound = check_outputs(outputs); !sound) return sound;
+    if (!project.folder.empty() && command.get_option("--resume")->count() > 0)
+        outputs.push_back({"--resume", KeptStages(project.folder).folder(), false, true});
+    if (auto sound = check_inputs_stay(outputs, inputs); !sound) return sound;
+    if (FileSet::current() != nullptr)
+        for (const NamedFile& in : inputs) FileSet::current()->keep(in.path);
+    return Done{};
+}
+
+std::vector<fs::path> files_to_keep(const CLI::App& command) {
+    const FilesOfCommand files = files_of(command);
+    std::vector<fs::path> kept;
+    for (const NamedFile& in : files.inputs)
+        if (std::none_of(files.outputs.begin(), files.outputs.end(), [&](const NamedFile& out) {
+                return may_replace(out, in) && overlap(out.path, in.path);
+            }))
+            kept.push_back(in.path);
+    return kept;
 }
 
 } // namespace terrane::cli

@@ -1,15 +1,27 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
+#include <vector>
+
 #include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/project/project.hpp>
 #include <terrane/cli/commands/command.hpp>
 
 namespace terrane::cli {
 
-/// Refuses, before any work, a command of which two outputs are the same file, by any of its names,
-/// or that would replace one of its inputs by something else than surfaces. Standard input, standard
-/// output and devices may be given several times. Errors: bad_option with the option.
+/// Refuses, before any work, a command of which two outputs are the same file, by any of its names, or are both
+/// standard output, or one is in the folder that the other one names; that would replace one of its
+/// inputs, other than surfaces by those made of them; or of which an output cannot be written. Other
+/// devices and pipes may be given several times. Errors: bad_option with the option; cannot_open.
 Status check_file_options(const CLI::App& command);
+
+/// Does the same for a command that builds a project, with all files that this names and the folder
+/// of its results, and keeps the files from being replaced later.
+Status check_project_files(const CLI::App& command, const Project& project);
+
+/// Returns the files that the command reads, without those that it is asked to replace.
+std::vector<std::filesystem::path> files_to_keep(const CLI::App& command);
 
 /// Refuses values of options that are no number where a number is needed: nan, inf, or nothing.
 /// Errors: bad_option with the option.

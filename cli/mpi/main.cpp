@@ -22,7 +22,9 @@
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/session.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/atomic/file_set.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/io/meshes/pvtp.hpp>
 #include <terrane/io/meshes/pvtp_output.hpp>
 
 namespace terrane::cli {
@@ -58,6 +60,15 @@ Status check_command(const MpiCommand& command, MpiSupersteps& blocks) {
             if (input == "-")
                 return Error{ErrorCode::bad_option,
                              "several processes cannot share standard input; name files", "-"};
+        for (const std::filesystem::path& output :
+             {std::filesystem::path(command.output), folder_of_pieces(command.output)})
+            if (!command.stats.empty() && overlap(command.stats, output))
+                return Error{ErrorCode::bad_option,
+                             "names the same file as --output: " + command.stats, "--stats"};
+        for (const std::string& input : command.inputs)
+            if (!command.stats.empty() && overlap(command.stats, input))
+                return Error{ErrorCode::bad_option,
+                             "would replace a file that is read: " + command.stats, "--stats"};
         return check_pvtp(command.output);
     });
 }

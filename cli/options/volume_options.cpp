@@ -152,6 +152,10 @@ void add_volume_options(CLI::App& command, VolumeOptions& options) {
         ->group(group);
 }
 
+bool is_polygon_file(const std::string& value) {
+    return !numbers_in(value);
+}
+
 Status check_volume_options(const VolumeOptions& o) {
     const int given = int{!o.box.empty()} + int{!o.rotated_box.empty()} + int{!o.polygon.empty()} +
                       int{!o.within.empty()};

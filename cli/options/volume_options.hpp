@@ -36,6 +36,9 @@ struct VolumeOptions {
 
 void add_volume_options(CLI::App& command, VolumeOptions& options);
 
+/// Tells whether a value of --polygon is the name of a file, as it is no list of numbers.
+bool is_polygon_file(const std::string& value);
+
 /// Checks, before any work is done, that the options fit together. Errors: bad_option.
 Status check_volume_options(const VolumeOptions& options);
 

@@ -3,6 +3,7 @@
 // Tests from outside that the outputs of a command appear together or not at all, whatever ends it.
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -188,4 +189,168 @@ TEST_CASE("cli: edges of a filling that ask for too many points are refused befo
             CHECK(contains(r.err, "points in a hole, more than 1e+06"));
             CHECK(folder.left().empty());
         }
+}
+
+namespace {
+
+const auto horizons = R"(o base
+v -1 -1 3
+v 9 -1 3
+v 9 9 3
+v -1 9 3
+f 1 2 3 4
+o top
+v -1 -1 5
+v 9 -1 5
+v 9 9 5
+v -1 9 5
+f 5 6 7 8
+)";
+const auto fault = "o F\nv 4 -1 -1\nv 4 4 -1\nv 4 4 9\nv 4 -1 9\nf 1 2 3 4\n";
+const auto polygon = "0 0\n8 0\n8 8\n0 8\n";
+
+/// A folder with horizons, a fault, files of a volume of interest and projects, all of which must
+/// stay as they are.
+class Inputs {
+public:
+    Inputs() {
+        for (const auto& [name, text] : files) folder.input(name, text);
+    }
+    void check_unchanged() const {
+        for (const auto& [name, text] : files) CHECK(folder.read("in/" + name) == text);
+    }
+    /// Checks that a command is refused with a sentence, before any work.
+    void check_refused(const std::string& line, const std::string& sentence) const {
+        const auto before = folder.left();
+        const auto r = folder.run(line);
+        INFO(line << ": " << r.err);
+        CHECK(r.status == 2);
+        CHECK(contains(r.err, sentence));
+        CHECK(r.out.empty());
+        CHECK(folder.left() == before);
+        check_unchanged();
+    }
+
+    const Folder folder;
+    const std::vector<std::pair<std::string, std::string>> files{
+        {"in.obj", horizons},
+        {"fault.obj", fault},
+        {"poly.txt", polygon},
+        {"box.obj", "v 0 0 0\nv 8 0 0\nv 0 8 0\nv 0 0 8\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"},
+        {"map.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 9\n1 1\n1 1\n"},
+        {"column.json", R"({"column": [{"unit": "a", "surface": "top"}, {"unit": "b"}]})"},
+        {"p.json",
+         R"({"format": "terrane-project 1", "folder": "../out",
+ "surfaces": [{"file": "in.obj", "role": "horizon"}, {"file": "fault.obj", "role": "fault"}],
+ "uncertainty": [{"surface": "top", "field": {"range": 5, "map": "map.asc"}}],
+ "volume_of_interest": {"within": ["box.obj"]}, "outputs": {"surfaces": ["obj"]}})"},
+        {"stages.json", R"({"format": "terrane-project 1", "folder": "../in/made",
+ "surfaces": [{"file": "made.stages/improve"}], "outputs": {"surfaces": ["obj"]}})"}};
+};
+
+const std::string surfaces = " in/in.obj in/fault.obj ";
+const std::string bounded = surfaces + "--box 0,0,0,8,8,8 ";
+
+} // namespace
+
+TEST_CASE("cli: a file that is read is replaced only by surfaces made of it", "[cli][outputs]") {
+    const Inputs in;
+    const std::string replaced = "would replace a file that is read: in/";
+    const std::string by_polygon = "arrange" + surfaces + "--polygon in/poly.txt --between 0,8 ";
+    in.check_refused(by_polygon + "-o a.obj --stats in/poly.txt", "--stats: " + replaced);
+    in.check_refused(by_polygon + "-o in/poly.txt --output-format obj", "--output: " + replaced);
+    in.check_refused("arrange" + surfaces + "--within in/box.obj -o in/box.obj",
+                     "--output: " + replaced);
+    in.check_refused("volume" + bounded + "-o v --column in/column.json --relations in/column.json",
+                     "--relations: " + replaced);
+    in.check_refused("tetrahedralize" + bounded +
+                         "-o in/column.json --output-format obj "
+                         "--column in/column.json",
+                     "--output: " + replaced);
+    in.check_refused("report" + surfaces + "-o in/in.obj", "--output: " + replaced);
+    in.check_refused("arrange - --format obj -o a.obj --stats in/in.obj <in/in.obj",
+                     "--stats: " + replaced);
+    // Numbers name no file, even one that there is.
+    REQUIRE(in.folder.shell("echo x > 0,0,8,0,8,8").status == 0);
+    const auto numbers = in.folder.run(
+        "arrange" + surfaces + "--polygon 0,0,8,0,8,8 --between 0,8 -o a.obj --stats 0,0,8,0,8,8");
+    INFO(numbers.err);
+    CHECK(numbers.status == 0);
+    CHECK(in.folder.run("layer --hard in/in.obj --soft in/fault.obj --help").status == 0);
+}
+
+TEST_CASE("cli: build replaces no file that the project names", "[cli][outputs]") {
+    const Inputs in;
+    for (const char* const file : {"in.obj", "fault.obj", "box.obj", "map.asc", "p.json"})
+        in.check_refused("build in/p.json --report in/" + std::string(file),
+                         "--report: would replace a file that is read: in/" + std::string(file));
+    in.check_refused("build in/p.json --report out", "names the same file as --report");
+    in.check_refused("build in/p.json -o r.html --report r.html", "--report: names the same file");
+    in.check_refused("build in/p.json -o in", "--output: would replace a file that is read");
+    in.check_refused("build in/stages.json --resume", "--resume: would replace a file");
+}
+
+TEST_CASE("cli: files beside an output are not replaced by another one", "[cli][outputs]") {
+    const Inputs in;
+    const std::string mesh = "tetrahedralize" + bounded + "--quiet ";
+    in.check_refused(mesh + "-o t.vtm --output-format geos --stats t_main.vtu",
+                     "t_main.vtu: two results of this run would be in the same place");
+    in.check_refused(mesh + "-o t.ugi --stats ./t_below_base.txt", "t_below_base.txt: two results");
+    in.check_refused(mesh + "-o t.vtu --output-format ogs -o t_F_front.vtu",
+                     "t_F_front.vtu: two results");
+    REQUIRE(in.folder.shell("cp in/fault.obj t_below_base.txt").status == 0);
+    in.check_refused("tetrahedralize in/in.obj t_below_base.txt --input-format obj --box "
+                     "0,0,0,8,8,8 --quiet -o t.ugi",
+                     "t_below_base.txt: a result of this run would replace this file");
+}
+
+TEST_CASE("cli: pieces of a mesh are not replaced by another output", "[cli][outputs]") {
+    const Inputs in;
+    const std::string mesh = "arrange" + surfaces + "-o a.pvtp --memory 1GiB ";
+    in.check_refused(mesh + "--stats a_pieces", "--stats: names the same file as --output");
+    REQUIRE(in.folder.shell("mkdir a_pieces").status == 0);
+    in.check_refused(mesh + "--stats a_pieces/s.json", "--stats: names a file in another one");
+    in.check_refused("volume" + bounded + "-o a_pieces --relations a_pieces/r.csv",
+                     "--relations: names a file in another one");
+}
+
+TEST_CASE("cli: standard output takes one file, by any of its names", "[cli][outputs]") {
+    const Inputs in;
+    const std::string only = "standard output can take only one file";
+    for (const char* const name : {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1", "-"}) {
+        const std::string to = name;
+        in.check_refused("arrange" + surfaces + "-o - --output-format obj --stats " + to, only);
+        in.check_refused("arrange" + surfaces + "-o " + to + " --output-format obj --stats -",
+                         only);
+        in.check_refused("volume" + bounded + "-o v --relations - --juxtaposition " + to, only);
+        if (to != "-")
+            in.check_refused("arrange" + surfaces + "-o - --output-format obj --certificate " + to,
+                             only);
+        const auto piped =
+            in.folder.shell("{ $T arrange" + surfaces + "-o - --output-format obj --stats " + to +
+                            "; echo $? >&2; } | cat");
+        CHECK(contains(piped.err, only));
+        CHECK(contains(piped.err, "\n2\n"));
+    }
+    const auto other = in.folder.run("arrange" + surfaces +
+                                     "-o - --output-format obj --stats /dev/stderr 2>/dev/null");
+    CHECK(other.status == 0);
+    CHECK(contains(other.out, "\nf "));
+}
+
+TEST_CASE("cli: every output is checked before any work", "[cli][outputs]") {
+    const Inputs in;
+    REQUIRE(in.folder.shell("mkdir d").status == 0);
+    for (const std::string& line : std::vector<std::string>{
+             "volume" + bounded + "-o v --relations ", "volume" + bounded + "-o v --juxtaposition ",
+             "volume" + bounded + "-o v --gocad ", "volume" + bounded + "-o v --lines ",
+             "volume" + bounded + "-o v --certificate ", "volume" + bounded + "-o v --report ",
+             "volume" + bounded + "--suggest-seal --seal-plot ",
+             "arrange" + surfaces + "-o a.obj --exact ",
+             "improve" + surfaces + "-o a.obj --histogram ", "fill" + surfaces + "-o a.obj --map ",
+             "fill" + surfaces + "-o a.obj --points ", "check" + surfaces + "--report ",
+             "tetrahedralize" + bounded + "-o a.vtu --stats ", "convert in/in.obj "}) {
+        in.check_refused(line + "none/x.csv", "none/x.csv: there is no folder none");
+        in.check_refused(line + "d", "d: this is a folder");
+    }
 }
