@@ -2,8 +2,10 @@
 #include <terrane/cli/session/session.hpp>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <ctime>
+#include <span>
 
 #include <fmt/format.h>
 #include <pthread.h>
@@ -26,20 +28,43 @@ constexpr std::chrono::milliseconds patience{700};
 /// The progress line is drawn this often at most, and not before so much time.
 constexpr std::chrono::milliseconds tick{100}, first_shown{1000};
 
-bool is_ignored(int signal) {
+/// The signals that interrupt a command.
+constexpr std::array interrupts{SIGINT, SIGTERM, SIGHUP};
+
+/// Other signals that end a program, and that people or limits of the system send. Temporary files are
+/// removed before they do.
+constexpr std::array endings{SIGQUIT, SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2, SIGXCPU};
+
+bool is_among(std::span<const int> signals, int signal) {
+    return std::find(signals.begin(), signals.end(), signal) != signals.end();
+}
+
+/// Tells whether a signal ends the program. It does not where the parent process has it ignored, as
+/// nohup and shells do.
+bool ends_program(int signal) {
     struct sigaction action {};
-    return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+    return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_DFL;
 }
 
 /// Returns the signals that the watcher waits for; all threads block them.
 sigset_t watched_signals() {
     sigset_t set;
     sigemptyset(&set);
-    sigaddset(&set, SIGINT);
-    sigaddset(&set, SIGTERM);
-    if (!is_ignored(SIGHUP)) sigaddset(&set, SIGHUP); // nohup ignores it
+    for (const std::span<const int> signals : {std::span<const int>(interrupts), {endings}})
+        for (const int signal : signals)
+            if (ends_program(signal)) sigaddset(&set, signal);
     sigaddset(&set, wake_signal);
     return set;
+}
+
+/// Ends the program by a signal, as if it had not been blocked.
+[[noreturn]] void die_by(int signal) {
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, signal);
+    pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+    raise(signal);
+    _exit(static_cast<int>(ExitStatus::bad_input)); // the signal has a handler by now
 }
 
 } // namespace
@@ -103,7 +128,8 @@ void Session::watch(const std::stop_token& over) {
     const timespec pause{0, std::chrono::nanoseconds(tick).count()};
     while (!over.stop_requested()) {
         const int received = sigtimedwait(&set, nullptr, &pause);
-        if (received == SIGINT || received == SIGTERM || received == SIGHUP) on_interrupt();
+        if (is_among(interrupts, received)) on_interrupt();
+        if (is_among(endings, received)) end_by(received);
         end_if_overdue();
         if (shows_progress_) show();
     }
@@ -128,6 +154,12 @@ void Session::end_at_once() {
     const auto lock = remove_temporaries(); // until the end, so that no other is made
     fail({ErrorCode::interrupted, "", ""});
     _exit(static_cast<int>(ExitStatus::bad_input));
+}
+
+void Session::end_by(int signal) {
+    clear_progress();
+    const auto lock = remove_temporaries(); // until the end, so that no other is made
+    die_by(signal);
 }
 
 /// Draws the progress line, but not in the first second, and at most once per tick.

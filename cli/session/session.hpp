@@ -18,7 +18,8 @@
 
 namespace terrane::cli {
 
-/// Phases of a command, each with its own answer to an interrupt (Ctrl-C, SIGTERM, SIGHUP). No file
+/// Phases of a command, each with its own answer to an interrupt (Ctrl-C, SIGTERM, SIGHUP). Other
+/// signals that end a program do so after its temporary files are removed. No file
 /// has its name before the session is over, so nothing is written when the program ends in one.
 enum class Phase {
     idle,      ///< reading, or writing to a pipe: the program ends at once
@@ -57,6 +58,7 @@ private:
     void on_interrupt();
     void end_if_overdue();
     [[noreturn]] void end_at_once();
+    [[noreturn]] static void end_by(int signal);
     void show();
     /// Notes the stage and its share; the caller holds mutex_.
     void enter(std::string_view stage, double share);
