@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/cli/session/console.hpp>
 
+#include <atomic>
 #include <utility>
 
 #include <fcntl.h>
@@ -13,6 +14,12 @@
 #include <terrane/io/text/names.hpp>
 
 namespace terrane::cli {
+namespace {
+
+/// Whether something that was asked for was printed to a closed standard output.
+std::atomic<bool> is_result_lost = false;
+
+} // namespace
 
 ExitStatus status_of(ErrorCode code) {
     switch (code) {
@@ -55,11 +62,12 @@ void say_written(std::FILE* stream, const std::string& path) {
 }
 
 void print(std::FILE* stream, std::string_view text) {
+    if (stream == stdout && !text.empty() && !has_standard_output()) is_result_lost = true;
     write_text(stream, text);
 }
 
 void say(std::FILE* stream, std::string_view text) {
-    if (!is_quiet()) print(stream, text);
+    if (!is_quiet()) write_text(stream, text);
 }
 
 std::string complaint(std::string_view sentence) {
@@ -81,8 +89,9 @@ bool has_standard_output() {
 }
 
 ExitStatus finish(ExitStatus status) {
-    if (!has_standard_output()) return status;
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+    if (has_standard_output() ? std::fflush(stdout) == 0 && std::ferror(stdout) == 0
+                              : !is_result_lost)
+        return status;
     if (status != ExitStatus::done && status != ExitStatus::negative) return status;
     return fail({ErrorCode::write_failed, "not all could be written", "standard output"});
 }

@@ -38,8 +38,8 @@ void tell_when_written(std::FILE* stream, std::string text);
 /// Says that a file was written, when it has its name; nothing of standard output.
 void say_written(std::FILE* stream, const std::string& path);
 
-/// Writes text, with the colours of its marks (styles.hpp) where the stream has colours. finish()
-/// reports a failure to write.
+/// Writes text that was asked for, with the colours of its marks (styles.hpp) where the stream has
+/// colours. finish() reports a failure to write.
 void print(std::FILE* stream, std::string_view text);
 
 /// Writes what nobody asked for: summaries, and names of files that were written. Nothing with
@@ -56,8 +56,8 @@ void occupy_closed_streams();
 /// Tells whether standard output can be written to: a caller that has closed it wants no summary.
 bool has_standard_output();
 
-/// Returns `status`, or bad_input if standard output did not take all that was printed. Nothing is
-/// missed where the caller has closed it.
+/// Returns `status`, or bad_input if standard output did not take all that was printed. Where the
+/// caller has closed it only results are missed, no summary.
 ExitStatus finish(ExitStatus status);
 
 /// Returns "(1.5, 2, -300.25)", with as many digits as are needed to read the same doubles back.
