@@ -14,6 +14,7 @@
 #include <terrane/algorithms/structure/structure_meshes.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
+#include <terrane/io/atomic/file_set.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/meshes/vtm.hpp>
 #include <terrane/io/structure_json.hpp>
@@ -53,7 +54,7 @@ public:
             std::filesystem::create_directory(folder_ / inner, failed);
             if (failed)
                 return Error{ErrorCode::cannot_open, "cannot be made: " + failed.message(),
-                             (folder_ / inner).string()};
+                             final_path_of(folder_ / inner).string()};
         }
         if (auto done = write_result(); !done) return done;
         const Structure& s = model_.structure;

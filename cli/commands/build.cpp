@@ -348,7 +348,7 @@ private:
         fs::create_directory(to / "model", failed);
         if (failed)
             return Error{ErrorCode::cannot_open, "cannot be made: " + failed.message(),
-                         (to / "model").string()};
+                         (folder_ / "model").string()};
         written_.emplace_back("model/");
         return write_model_files({*built_.model, built_.arranged.sealed, leaks_},
                                  project_.outputs.blocks, to / "model", session_.run());

@@ -35,7 +35,7 @@ public:
     explicit Spool(const fs::path& output) {
         const fs::path parent = output.has_parent_path() ? output.parent_path() : fs::path(".");
         path_ = parent / fmt::format(".{}.{}.blocks", output.filename().string(), ::getpid());
-        made_ = make_temporary(path_, [&] { return fs::create_directory(path_, failed_); });
+        made_ = make_temporary(path_, path_, [&] { return fs::create_directory(path_, failed_); });
     }
     ~Spool() {
         if (made_) discard_temporary(path_);

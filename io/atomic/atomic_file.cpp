@@ -121,7 +121,7 @@ public:
         int code = 0;
         do {
             TemporaryFile made(temporary_name(to.file));
-            const bool is_there = make_temporary(made.path_, [&] {
+            const bool is_there = make_temporary(made.path_, to.path, [&] {
                 made.number_ =
                     ::open(made.path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
                 code = made.number_ < 0 ? errno : 0;
@@ -174,7 +174,7 @@ Status replace(const Target& to, std::string_view contents, FileSet* set) {
     return Done{};
 }
 
-Status write_with(const fs::path& path, std::string_view contents, FileSet* set) {
+Status write_to(const fs::path& path, std::string_view contents, FileSet* set) {
     if (path == "-") return write_directly("standard output", STDOUT_FILENO, contents);
     struct stat info {};
     if (::stat(path.c_str(), &info) != 0) // a link to nothing yet is kept
@@ -187,6 +187,13 @@ Status write_with(const fs::path& path, std::string_view contents, FileSet* set)
     std::error_code failed;
     const auto target = fs::canonical(path, failed);
     return replace({path, failed ? path : target, info.st_mode & 07777u}, contents, set);
+}
+
+/// Does the same; an error names the file as it is called when it is complete.
+Status write_with(const fs::path& path, std::string_view contents, FileSet* set) {
+    auto status = write_to(path, contents, set);
+    if (status || path == "-" || status.error().place != path.string()) return status;
+    return Error{status.error().code, status.error().sentence, final_path_of(path).string()};
 }
 
 } // namespace
@@ -203,7 +210,7 @@ Result<std::string> read_file(const fs::path& path) {
     if (code == 0) code = read_all(file.number(), contents);
     if (code == 0) return contents;
     return Error{ErrorCode::cannot_open, "cannot be read: " + reason(code),
-                 standard ? "standard input" : path.string()};
+                 standard ? "standard input" : final_path_of(path).string()};
 }
 
 fs::path followed(fs::path path) {

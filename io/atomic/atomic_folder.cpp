@@ -80,7 +80,8 @@ Result<fs::path> make_beside(const fs::path& target, const fs::path& path) {
             parent_of(target) /
             fmt::format(".{}.{}-{}.part", target.filename().string().substr(0, 200), ::getpid(), k);
         std::error_code failed;
-        if (make_temporary(temporary, [&] { return fs::create_directory(temporary, failed); }))
+        if (make_temporary(temporary, target,
+                           [&] { return fs::create_directory(temporary, failed); }))
             return temporary;
         if (failed) return cannot_make("the folder cannot be made: " + failed.message(), path);
     }

@@ -2,9 +2,9 @@
 #include <terrane/io/atomic/file_set.hpp>
 
 #include <algorithm>
+#include <map>
 #include <mutex>
 #include <new>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -23,7 +23,7 @@ thread_local FileSet* current_set = nullptr;
 /// The temporary files and folders of this process.
 struct Temporaries {
     std::mutex mutex;
-    std::set<fs::path> paths;
+    std::map<fs::path, fs::path> finals; ///< by their paths, their names when they are complete
 };
 
 Temporaries& temporaries() {
@@ -40,7 +40,9 @@ fs::path normal(const fs::path& path) {
 /// Returns the absolute path without links, as far as it exists.
 fs::path without_links(const fs::path& path) {
     std::error_code failed;
-    const auto found = fs::weakly_canonical(fs::absolute(followed(path)), failed);
+    fs::path all;
+    for (const fs::path& part : fs::absolute(path, failed)) all = followed(all / part);
+    const auto found = fs::weakly_canonical(all, failed);
     return normal(failed ? path : found);
 }
 
@@ -129,11 +131,12 @@ Status FileSet::publish() {
     return Done{};
 }
 
-bool make_temporary(const fs::path& path, const std::function<bool()>& make) {
+bool make_temporary(const fs::path& path, const fs::path& final_path,
+                    const std::function<bool()>& make) {
     const std::lock_guard lock(temporaries().mutex);
-    const auto noted = temporaries().paths.insert(path);
+    const auto noted = temporaries().finals.emplace(path, final_path);
     const bool made = make();
-    if (!made && noted.second) temporaries().paths.erase(noted.first);
+    if (!made && noted.second) temporaries().finals.erase(noted.first);
     return made;
 }
 
@@ -155,7 +158,7 @@ bool overlap(const fs::path& a, const fs::path& b) {
 
 void forget_temporary(const fs::path& path) {
     const std::lock_guard lock(temporaries().mutex);
-    temporaries().paths.erase(path);
+    temporaries().finals.erase(path);
 }
 
 bool is_in_temporary(const fs::path& path) {
@@ -163,8 +166,18 @@ bool is_in_temporary(const fs::path& path) {
     fs::path rest;
     const std::lock_guard lock(temporaries().mutex);
     return std::any_of(
-        temporaries().paths.begin(), temporaries().paths.end(),
-        [&](const fs::path& folder) { return is_inside(wanted, normal(folder), rest); });
+        temporaries().finals.begin(), temporaries().finals.end(),
+        [&](const auto& folder) { return is_inside(wanted, normal(folder.first), rest); });
+}
+
+fs::path final_path_of(const fs::path& path) {
+    const fs::path wanted = normal(path);
+    fs::path rest;
+    const std::lock_guard lock(temporaries().mutex);
+    for (const auto& [temporary, final_path] : temporaries().finals)
+        if (is_inside(wanted, normal(temporary), rest))
+            return rest.empty() ? final_path : final_path / rest;
+    return path;
 }
 
 void discard_temporary(const fs::path& path) noexcept {
@@ -187,7 +200,7 @@ std::unique_lock<std::mutex> remove_temporaries() {
     std::unique_lock lock(temporaries().mutex);
     std::error_code ignored;
     constexpr int tries = 20; // another thread may be putting files into a folder
-    for (const fs::path& path : temporaries().paths)
+    for (const auto& [path, final_path] : temporaries().finals)
         for (int k = 0; k < tries && fs::exists(path, ignored); ++k) fs::remove_all(path, ignored);
     return lock;
 }

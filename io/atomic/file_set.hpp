@@ -52,8 +52,10 @@ private:
 };
 
 /// Makes a temporary file or folder by `make`, and notes it, so that remove_temporaries() finds it,
-/// whichever thread calls that and when. Returns what `make` returns: whether there is one now.
-bool make_temporary(const std::filesystem::path& path, const std::function<bool()>& make);
+/// whichever thread calls that and when. `final_path` is its name when it is complete. Returns what
+/// `make` returns: whether there is one now.
+bool make_temporary(const std::filesystem::path& path, const std::filesystem::path& final_path,
+                    const std::function<bool()>& make);
 /// Forgets it: it has its name, or is removed.
 void forget_temporary(const std::filesystem::path& path);
 /// Tells whether two paths name the same file or folder, by any of their names, whether it exists or
@@ -63,6 +65,9 @@ bool are_same(const std::filesystem::path& a, const std::filesystem::path& b);
 bool overlap(const std::filesystem::path& a, const std::filesystem::path& b);
 /// Tells whether a path is in such a folder, where files need no temporary names.
 bool is_in_temporary(const std::filesystem::path& path);
+/// Returns the name that a temporary file or folder, or a file in one, will have, for messages; other
+/// paths as they are.
+std::filesystem::path final_path_of(const std::filesystem::path& path);
 /// Removes a temporary file or folder and forgets it. Never throws: where not even removing gets
 /// the memory that it needs, a folder is left.
 void discard_temporary(const std::filesystem::path& path) noexcept;
