@@ -81,7 +81,7 @@ typedef struct terrane_improve_options {
     double turn;                  ///< normals may turn by this angle along an edge; 0: no
                                   ///< adaptation
     double layers_in_gaps;        ///< edges are at most as long as the distance of surfaces divided
-                                  ///< by this; 0: no limit
+                                  ///< by this, which is at most 1000; 0: no limit
     double smallest;              ///< layers_in_gaps asks for no shorter edges; 0: an eighth of the
                                   ///< target length
     double growth;                ///< target lengths at two points differ by at most this multiple

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/detail/column_keys.hpp>
 #include <terrane/io/detail/json_reader.hpp>
@@ -280,6 +281,13 @@ private:
         return all;
     }
 
+    double layers_in_gaps(const Json& value, const std::string& path) {
+        const double layers = in_.positive(value, path);
+        if (layers > most_layers_in_gaps)
+            in_.fail(path, fmt::format("must be at most {}", most_layers_in_gaps));
+        return layers;
+    }
+
     ProjectImprove improve(const Json& json) {
         ProjectImprove i;
         const std::string path = "improve";
@@ -291,7 +299,7 @@ private:
         if (const Json* v = in_.find(json, "edge_length_of"))
             i.edge_length_of = sizes(*v, path + ".edge_length_of");
         if (const Json* v = in_.find(json, "layers_in_gaps"))
-            i.layers_in_gaps = in_.positive(*v, path + ".layers_in_gaps");
+            i.layers_in_gaps = layers_in_gaps(*v, path + ".layers_in_gaps");
         if (const Json* v = in_.find(json, "smallest"))
             i.smallest = in_.positive(*v, path + ".smallest");
         if (const Json* v = in_.find(json, "resolution"))

@@ -44,6 +44,8 @@ Status check_options(const Mesh& mesh, const ImproveOptions& o) {
         return wrong("lengths must be finite and not negative");
     if (!is_length(o.smallest) || !is_length(o.layers_in_gaps))
         return wrong("smallest and layers_in_gaps must be finite and not negative");
+    if (o.layers_in_gaps > most_layers_in_gaps)
+        return wrong(fmt::format("layers_in_gaps must be at most {}", most_layers_in_gaps));
     if (!o.edge_length_of.empty() && o.edge_length_of.size() != mesh.surfaces.size())
         return wrong("edge_length_of needs one length per surface");
     for (const LocalSize& local : o.local_sizes)

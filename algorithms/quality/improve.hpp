@@ -60,6 +60,10 @@ struct LocalSize {
     double length = 0; ///< > 0, unit of the mesh
 };
 
+/// Bounds ImproveOptions::layers_in_gaps: gaps are looked for so many wanted lengths from each triangle,
+/// and beyond a thousand all sheets of a model are that close, so each is compared with all others.
+inline constexpr double most_layers_in_gaps = 1000;
+
 /// Options of improve(). Lengths are in the unit of the mesh, angles in degrees.
 struct ImproveOptions {
     double edge_length = 0; ///< target edge length; 0: for each surface, that of as many
@@ -70,7 +74,8 @@ struct ImproveOptions {
     double turn = 0; ///< normals may turn by this angle along an edge: edges become shorter where
                      ///< the surface is curved, down to an eighth; 0: no adaptation
     double layers_in_gaps = 0; ///< where surfaces are close, edges are at most as long as their
-                               ///< distance divided by this; no unit; 0: no adaptation
+                               ///< distance divided by this; no unit, at most
+                               ///< most_layers_in_gaps; 0: no adaptation
     double smallest = 0;       ///< layers_in_gaps asks for no shorter edges than this; 0: an eighth
                                ///< of the target length
     std::vector<LocalSize> local_sizes{}; ///< edges are no longer near these points; each costs a

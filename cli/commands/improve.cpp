@@ -75,6 +75,9 @@ Status check_numbers(const ImproveCommand& command, const CLI::App& app) {
         if (const auto* option = app.get_option(name);
             option->count() > 0 && !positive(option->as<std::string>()))
             return Error{ErrorCode::bad_option, "needs a positive number", name};
+    if (command.options.layers_in_gaps > most_layers_in_gaps)
+        return Error{ErrorCode::bad_option, fmt::format("must be at most {}", most_layers_in_gaps),
+                     "--layers-in-gaps"};
     if (!(command.options.least_quality <= 1))
         return Error{ErrorCode::bad_option, "must be at most 1", "--least-quality"};
     if (!(command.options.max_volume_change >= 0))

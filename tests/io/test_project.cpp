@@ -407,6 +407,8 @@ TEST_CASE("project: what is wrong is named by its key", "[io][project]") {
           "p.json: tetrahedra.size_of.F1: must be a number larger than 0");
     CHECK(with("/tetrahedra/quality", 1) ==
           "p.json: tetrahedra.quality: must be a number, at least 1.1");
+    CHECK(with("/improve/layers_in_gaps", 1001) ==
+          "p.json: improve.layers_in_gaps: must be at most 1000");
     CHECK(with("/volume_of_interest/box/low", json::array({1, 2})) ==
           "p.json: volume_of_interest.box.low: must be a list of 3");
     CHECK(with("/volume_of_interest/box/low/1", "0") ==

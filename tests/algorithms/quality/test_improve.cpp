@@ -284,6 +284,8 @@ TEST_CASE("improve: invalid options and meshes are refused", "[improve]") {
     options = {};
     options.layers_in_gaps = std::numeric_limits<double>::infinity();
     CHECK(refusal(mesh, options) == ErrorCode::bad_option);
+    options.layers_in_gaps = 1001;
+    CHECK(refusal(mesh, options) == ErrorCode::bad_option);
     options = {};
     options.local_sizes = {{{0, 0, 0}, 0}};
     CHECK(refusal(mesh, options) == ErrorCode::bad_option);
