@@ -55,6 +55,9 @@ bool sizes_for_gmsh(const TetrahedraOptions& options) {
 Status check_options(const TetrahedraOptions& options) {
     if (!options.box)
         if (Status margin = check_length("margin", options.margin); !margin) return margin;
+    if (!options.box && options.margin > constants.most_enlargement)
+        return bad_option(fmt::format("margin must be at most {:.3g}, not {:.3g}",
+                                      constants.most_enlargement, options.margin));
     if (options.box) {
         const auto& [low, high] = *options.box;
         if (!is_finite(low) || !is_finite(high) || low.x >= high.x || low.y >= high.y ||
@@ -83,19 +86,29 @@ bool strictly_inside(const Point3& p, const Box3& box) {
            p.z < high.z;
 }
 
-Box3 enlarged_bounds(std::span<const Point3> points, double margin) {
+Box3 bounds_of(std::span<const Point3> points) {
     Box3 box{points[0], points[0]};
     for (const Point3& p : points) {
         box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
         box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y),
                     std::max(box.high.z, p.z)};
     }
+    return box;
+}
+
+/// Returns the longest edge.
+double length_of(const Box3& box) {
+    return std::max({box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z});
+}
+
+Box3 enlarged_bounds(std::span<const Point3> points, double margin) {
+    Box3 box = bounds_of(points);
     const auto largest = [](const Point3& p) {
         return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     };
-    const double add = std::max(
-        margin * std::max({box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z}),
-        constants.least_margin * std::max(largest(box.low), largest(box.high)));
+    const double add =
+        std::max(margin * length_of(box),
+                 constants.least_margin * std::max(largest(box.low), largest(box.high)));
     const auto below = [&](double x) { return std::min(x - add, std::nextafter(x, -HUGE_VAL)); };
     const auto above = [&](double x) { return std::max(x + add, std::nextafter(x, HUGE_VAL)); };
     box.low = {below(box.low.x), below(box.low.y), below(box.low.z)};
@@ -113,6 +126,12 @@ Result<Box3> box_around(std::span<const Point3> points, const TetrahedraOptions&
         if (!strictly_inside(p, box))
             return bad_option(fmt::format("{} leaves ({}, {}, {}) on or outside of the box",
                                           options.box ? "box" : "margin", p.x, p.y, p.z));
+    if (!options.box || points.empty()) return box;
+    const double times = length_of(box) / length_of(bounds_of(points));
+    if (times > constants.most_enlargement)
+        return bad_option(fmt::format("box is {:.3g} times as long as the surfaces; at most {:.3g} "
+                                      "can be filled",
+                                      times, constants.most_enlargement));
     return box;
 }
 

@@ -13,6 +13,9 @@ namespace terrane::tetgen::detail {
 struct TetrahedraConstants {
     /// Least distance of the box from the mesh, in largest coordinates: room for doubles between.
     double least_margin = 0x1p-40;
+    /// Largest margin, and length of a box that is given, in lengths of the mesh: meshers crash at 1e13, where few of the 53
+    /// bits of its coordinates are left for the mesh.
+    double most_enlargement = 1e9;
     /// Least ratio of circumradius to shortest edge that may be asked for: TetGen need not end
     /// below.
     double least_ratio = 1.1;
@@ -29,6 +32,7 @@ inline constexpr TetrahedraConstants constants;
 inline std::vector<NamedConstant> named_constants() {
     return {
         {"least_margin", constants.least_margin},
+        {"most_enlargement", constants.most_enlargement},
         {"least_ratio", constants.least_ratio},
         {"most_tetrahedra", constants.most_tetrahedra},
         {"bounded_share", constants.bounded_share},

@@ -281,6 +281,8 @@ TEST_CASE("tetrahedra: each option that makes no sense is an error", "[tetrahedr
         {.margin = -0.1},
         {.margin = nan_value},
         {.margin = infinity},
+        {.margin = 1.1e9},
+        {.box = Box3{{-1, -1, -1}, {2, 2, 1e20}}},
         {.edge_length = 0.0},
         {.edge_length = -1.0},
         {.edge_length = nan_value},
