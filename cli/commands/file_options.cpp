@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -43,7 +44,7 @@ struct NamedFile {
     std::string option;     ///< "--stats"
     fs::path path;          ///< "-": standard output
     bool replaces = false;  ///< whether it may take the place of surfaces
-    bool is_folder = false; ///< whether it is a new folder
+    bool is_folder = false; ///< whether it is a new folder, which replaces nothing
 };
 
 template <std::size_t N>
@@ -143,43 +144,57 @@ Status check_inputs_stay(const std::vector<NamedFile>& outputs,
     std::error_code failed;
     for (const NamedFile& out : outputs)
         for (const NamedFile& in : inputs)
-            if (out.path != "-" && !may_replace(out, in) && !fs::is_directory(in.path, failed) &&
-                overlap(out.path, in.path))
+            if (out.path != "-" && !out.is_folder && !may_replace(out, in) &&
+                !fs::is_directory(in.path, failed) && overlap(out.path, in.path))
                 return Error{ErrorCode::bad_option,
                              "would replace a file that is read: " + out.path.string(), out.option};
     return Done{};
 }
 
-/// Tells whether a word means "not a number" or infinity, which no option takes.
-bool is_no_number(std::string word) {
-    std::transform(word.begin(), word.end(), word.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (!word.empty() && (word[0] == '-' || word[0] == '+')) word.erase(0, 1);
-    return word == "nan" || word == "inf" || word == "infinity" || word.starts_with("nan(");
+/// Says what is wrong with a word that could be a number; empty: nothing. Infinity is also what no
+/// double holds, such as 1e999.
+std::string flaw_of_number(const std::string& word, bool is_whole) {
+    char* end = nullptr;
+    const double value = std::strtod(word.c_str(), &end);
+    if (end == word.c_str() || *end != '\0') return {};
+    if (!std::isfinite(value)) return "needs a finite number, not ";
+    const std::size_t first = word.find_first_not_of("+-");
+    if (word.find_first_of("xX") != std::string::npos) return "needs a decimal number, not ";
+    if (is_whole && word[first] == '0' && word.size() > first + 1) // CLI11 takes it for octal
+        return "needs a number without a zero before it, not ";
+    return {};
 }
 
 /// Tells whether the value of an option is text that people choose: a name, or a file.
-bool is_text(const CLI::Option& option) {
+bool is_text(const CLI::Option& option, const std::string& value) {
+    constexpr std::array<std::string_view, 6> texts{"NAME",    "NAME=ROLE", "FORMAT",
+                                                    "PROGRAM", "UNIT",      "ADDRESS"};
+    return names_file(option, value) || is_among(texts, option.get_type_name());
+}
+
+/// Checks the numbers in a value: all of it, or what is behind the name in NAME=L.
+Status check_number_words(const CLI::Option& option, const std::string& value) {
     const std::string type = option.get_type_name();
-    return names_file(option) || type.find("NAME") != std::string::npos || type == "FORMAT" ||
-           type == "PROGRAM" || type == "UNIT";
+    const bool is_named = type.find('=') != std::string::npos;
+    const bool is_whole = type == "N" || type == "LIST";
+    for (std::size_t at = is_named ? value.rfind('=') + 1 : 0; at < value.size();) {
+        const std::size_t end = std::min(value.find_first_of(",; \t", at), value.size());
+        if (const auto flaw = flaw_of_number(value.substr(at, end - at), is_whole); !flaw.empty())
+            return Error{ErrorCode::bad_option, flaw + value, name_of(option)};
+        at = end + 1;
+    }
+    return Done{};
 }
 
 } // namespace
 
 Status check_values(const CLI::App& command) {
     for (const CLI::Option* option : command.get_options()) {
-        const std::string name = name_of(*option);
         for (const std::string& value : option->results()) {
-            if (value.empty()) return Error{ErrorCode::bad_option, "the value is empty", name};
-            if (is_text(*option)) continue;
-            for (std::size_t at = 0; at < value.size();) {
-                const std::size_t end = std::min(value.find_first_of(",; \t", at), value.size());
-                if (is_no_number(value.substr(at, end - at)))
-                    return Error{ErrorCode::bad_option, "needs a finite number, not " + value,
-                                 name};
-                at = end + 1;
-            }
+            if (value.empty())
+                return Error{ErrorCode::bad_option, "the value is empty", name_of(*option)};
+            if (is_text(*option, value)) continue;
+            if (auto sound = check_number_words(*option, value); !sound) return sound;
         }
     }
     return Done{};
@@ -190,7 +205,7 @@ Status check_file_options(const CLI::App& command) {
     if (auto sound = check_outputs(files.outputs); !sound) return sound;
     if (auto sound = check_inputs_stay(files.outputs, files.inputs); !sound) return sound;
     for (const NamedFile& out : files.outputs)
-        if (!out.is_folder)
+        if (!out.is_folder && out.option != "--output") // whose format is checked first
             if (auto sound = check_folder(out.path.string()); !sound) return sound;
     return Done{};
 }
@@ -203,7 +218,7 @@ Status check_project_files(const CLI::App& command, const Project& project) {
         outputs.push_back({"key folder", project.folder, false, true});
     if (auto sound = check_outputs(outputs); !sound) return sound;
     if (!project.folder.empty() && command.get_option("--resume")->count() > 0)
-        outputs.push_back({"--resume", KeptStages(project.folder).folder(), false, true});
+        outputs.push_back({"--resume", KeptStages(project.folder).folder()});
     if (auto sound = check_inputs_stay(outputs, inputs); !sound) return sound;
     if (FileSet::current() != nullptr)
         for (const NamedFile& in : inputs) FileSet::current()->keep(in.path);

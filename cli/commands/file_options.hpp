@@ -23,7 +23,8 @@ Status check_project_files(const CLI::App& command, const Project& project);
 /// Returns the files that the command reads, without those that it is asked to replace.
 std::vector<std::filesystem::path> files_to_keep(const CLI::App& command);
 
-/// Refuses values of options that are no number where a number is needed: nan, inf, or nothing.
+/// Refuses values of options that are no number where a number is needed: nothing, nan, infinity, which
+/// is also what is too large for a double, hexadecimal numbers, and whole ones that begin with 0.
 /// Errors: bad_option with the option.
 Status check_values(const CLI::App& command);
 

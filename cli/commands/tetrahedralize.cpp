@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <filesystem>
@@ -99,8 +100,9 @@ Status add_sizes(const std::vector<std::string>& texts, const char* option,
                  std::vector<NamedSize>& sizes) {
     for (const std::string& text : texts) {
         const auto size = parse_named_length(text);
-        if (!size)
-            return Error{ErrorCode::bad_option, "needs NAME=L, with a length: " + text, option};
+        if (!size || !(size->length > 0))
+            return Error{ErrorCode::bad_option, "needs NAME=L, with a positive length: " + text,
+                         option};
         sizes.push_back({{size->name, option}, size->length});
     }
     return Done{};
@@ -121,6 +123,16 @@ Result<TetrahedraRequest> wishes_of(const TetrahedralizeCommand& command) {
     for (const std::string& name : command.split) wishes.split.push_back({name, "--split"});
     wishes.outside = !command.blocks_only && !command.settings.volume.wanted();
     return wishes;
+}
+
+/// Names the option that an error is about, whose sentence begins with its name in the library.
+Error at_option(Error error, const CLI::App& app) {
+    if (error.code != ErrorCode::bad_option || !error.place.empty()) return error;
+    std::string word = error.sentence.substr(0, error.sentence.find(' '));
+    std::replace(word.begin(), word.end(), '_', '-');
+    const std::string option = word == "box" ? "--around" : "--" + word;
+    if (app.get_option_no_throw(option) != nullptr) error.place = option;
+    return error;
 }
 
 Result<FilledBlocks> fill(const Model& model, const TetrahedraRequest& wishes, Session& session,
@@ -211,7 +223,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (const auto sound = examine(*model, *inputs, true, statistics); !sound) return sound.error();
     page->add_model(*model, std::nullopt);
     const auto filled = fill(model.value(), wishes.value(), session, statistics);
-    if (!filled) return filled.error();
+    if (!filled) return at_option(filled.error(), *files.app);
     page->add_tetrahedra(*filled);
     say(summary_stream(files), filled_text(filled.value(), inputs->unit));
     const bool good = filled->report.violations.empty();

@@ -368,7 +368,7 @@ TEST_CASE("cli: tetrahedralize with sizes and cuts by name", "[cli]") {
     refused("--size-of top=1m", "--size-of: needs NAME=L");
     refused("--size-of tpo=1", "--size-of: no surface is called tpo");
     refused("--size-in 77=1", "--size-in: no block is called 77");
-    refused("--size-in 2=0", "the edge length of block 2 must be a positive number");
+    refused("--size-in 2=0", "--size-in: needs NAME=L, with a positive length: 2=0");
     refused("--split tpo", "--split: no surface is called tpo");
     refused("--role fault=salt", "needs NAME=ROLE");
     CHECK_FALSE(c.folder.left().contains("b.vtu"));

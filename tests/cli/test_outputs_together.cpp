@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Tests from outside that the outputs of a command appear together or not at all, whatever ends it.
+#include <csignal>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "holed_fold.hpp"
 #include "program.hpp"
@@ -286,7 +288,7 @@ TEST_CASE("cli: build replaces no file that the project names", "[cli][outputs]"
                          "--report: would replace a file that is read: in/" + std::string(file));
     in.check_refused("build in/p.json --report out", "names the same file as --report");
     in.check_refused("build in/p.json -o r.html --report r.html", "--report: names the same file");
-    in.check_refused("build in/p.json -o in", "--output: would replace a file that is read");
+    in.check_refused("build in/p.json -o in", "the folder is there already and not empty");
     in.check_refused("build in/stages.json --resume", "--resume: would replace a file");
 }
 
@@ -353,4 +355,103 @@ TEST_CASE("cli: every output is checked before any work", "[cli][outputs]") {
         in.check_refused(line + "none/x.csv", "none/x.csv: there is no folder none");
         in.check_refused(line + "d", "d: this is a folder");
     }
+}
+
+TEST_CASE("cli: numbers that an option cannot have are refused with its name", "[cli][outputs]") {
+    const Inputs in;
+    struct Wrong {
+        std::string line, sentence;
+    };
+    const std::string fill_all = "tetrahedralize" + surfaces + "-o a.vtu ";
+    const std::string improve = "improve" + surfaces + "-o a.obj ";
+    for (const auto& [line, sentence] : std::vector<Wrong>{
+             {fill_all + "--time-limit 1e999", "--time-limit: needs a finite number, not 1e999"},
+             {fill_all + "--size-of base=nan", "--size-of: needs a finite number, not base=nan"},
+             {fill_all + "--size-of base=1e999", "--size-of: needs"},
+             {fill_all + "--size-of base=-1", "--size-of: needs NAME=L, with a positive length"},
+             {fill_all + "--size-in 3=inf", "--size-in: needs a finite number"},
+             {fill_all + "--time-limit 0x10", "--time-limit: needs a decimal number, not 0x10"},
+             {fill_all + "--threads 0x1", "--threads: needs a decimal number, not 0x1"},
+             {fill_all + "--threads 010", "--threads: needs a number without a zero before it"},
+             {fill_all + "--margin 1e10", "--margin: margin must be at most 1e+09"},
+             {fill_all + "--around -2,-2,-2,10,10,1e20", "--around: box is"},
+             {improve + "--max-volume-change 1e999", "--max-volume-change: needs a finite number"},
+             {improve + "--edge-length 0x10", "--edge-length: needs a decimal number"},
+             {improve + "--edge-length-of base=0x10", "--edge-length-of: needs a decimal number"},
+             {improve + "--passes 1e999", "--passes"},
+             {improve + "--layers-in-gaps 1e20", "--layers-in-gaps: must be at most 1000"},
+             {"volume" + surfaces + "-o v --box 0,0,0,8,8,1e999", "--box: needs a finite number"},
+             {"volume" + surfaces + "-o v --seal base=0x1", "--seal"}}) {
+        const auto r = in.folder.run(line + " --quiet");
+        INFO(line << ": " << r.err);
+        CHECK(r.status == 2);
+        CHECK(contains(r.err, sentence));
+        CHECK(in.folder.left().empty());
+    }
+    // Names and files may look like such numbers.
+    REQUIRE(in.folder.shell("cp in/in.obj inf; cp in/in.obj 0x10").status == 0);
+    CHECK(in.folder.run("arrange inf 0x10 --input-format obj -o a.obj").status == 0);
+}
+
+TEST_CASE("cli: an error names a file by its final name", "[cli][outputs]") {
+    const Inputs in;
+    for (const std::string& line :
+         std::vector<std::string>{"volume" + bounded + "-o v", "build in/p.json -o v"}) {
+        const auto r = in.folder.shell("ulimit -f 1; $T " + line);
+        INFO(r.err);
+        CHECK(r.status == 2);
+        CHECK(contains(r.err, "terrane: v/"));
+        CHECK(contains(r.err, ": writing failed: File too large"));
+        CHECK_FALSE(contains(r.err, ".part"));
+        CHECK(in.folder.left().empty());
+    }
+}
+
+TEST_CASE("cli: a signal that ends the program leaves no temporary file", "[cli][outputs]") {
+    const Inputs in;
+    // The second output is a pipe that nobody reads, so that the first one waits for its name.
+    REQUIRE(in.folder.shell("mkfifo in/p.obj").status == 0);
+    const std::string waits = " arrange in/in.obj -o a.vtp -o in/p.obj";
+    for (const int signal : {SIGQUIT, SIGALRM, SIGVTALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGPROF}) {
+        const auto r = in.folder.shell(fmt::format(
+            "ulimit -c 0; timeout --preserve-status -k 20 -s {} 1 $T {}; test $? -eq {}", signal,
+            waits, 128 + signal));
+        INFO(signal << ": " << r.err);
+        CHECK(r.status == 0);
+        CHECK(in.folder.left().empty());
+    }
+}
+
+TEST_CASE("cli: a limit on processor time leaves no temporary file", "[cli][outputs]") {
+    const Inputs in;
+    const auto r = in.folder.shell("ulimit -c 0; ulimit -t 1; $T improve" + surfaces +
+                                   "-o a.obj --edge-length 0.02 --quiet; test $? -ge 128");
+    INFO(r.err);
+    CHECK(r.status == 0);
+    CHECK(in.folder.left().empty());
+}
+
+TEST_CASE("cli: a signal that the caller ignores stays ignored", "[cli][outputs]") {
+    const Inputs in;
+    for (const std::string signal : {"INT", "TERM", "HUP", "QUIT", "USR1"}) {
+        const auto r =
+            in.folder.shell("(sleep 2; cat in/in.obj) | timeout --preserve-status -s " + signal +
+                            " 0.5 sh -c \"trap '' " + signal +
+                            "; exec '$T' convert - - --format obj --output-format obj\"");
+        INFO(signal << ": " << r.err);
+        CHECK(r.status == 0);
+        CHECK(contains(r.out, "\nf "));
+    }
+}
+
+TEST_CASE("cli: a result that a closed standard output loses is status 2", "[cli][outputs]") {
+    const Inputs in;
+    for (const std::string line :
+         {"check in/in.obj --json", "completion bash", "--version", "arrange --help"}) {
+        const auto r = in.folder.shell("$T " + line + " >&-");
+        INFO(line << ": " << r.err);
+        CHECK(r.status == 2);
+        CHECK(contains(r.err, "standard output: "));
+    }
+    CHECK(in.folder.shell("$T check in/in.obj >&-").status == 0); // a summary may get lost
 }
