@@ -80,18 +80,24 @@ FileSet* FileSet::current() {
 }
 
 Status FileSet::add(fs::path temporary, fs::path target) {
-    for (const Pending& p : pending_)
-        if (overlap(p.target, target))
-            return Error{ErrorCode::bad_option,
-                         "two results of this run would be in the same place, this and " +
-                             p.target.string(),
-                         target.string()};
-    for (const fs::path& file : kept_)
-        if (overlap(file, target))
+    fs::path place = without_links(target);
+    fs::path rest;
+    const auto meets = [&](const fs::path& other) { // of hundreds of files, so only by their names
+        return is_inside(place, other, rest) || is_inside(other, place, rest);
+    };
+    if (can_be_replaced(target)) {
+        for (const Pending& p : pending_)
+            if (meets(p.place))
+                return Error{ErrorCode::bad_option,
+                             "two results of this run would be in the same place, this and " +
+                                 p.target.string(),
+                             target.string()};
+        if (std::any_of(kept_.begin(), kept_.end(), meets))
             return Error{ErrorCode::bad_option,
                          "a result of this run would replace this file, which is read",
                          target.string()};
-    pending_.push_back({std::move(temporary), std::move(target)});
+    }
+    pending_.push_back({std::move(temporary), std::move(target), std::move(place)});
     return Done{};
 }
 

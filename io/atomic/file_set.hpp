@@ -45,6 +45,7 @@ public:
 private:
     struct Pending {
         std::filesystem::path temporary, target;
+        std::filesystem::path place; ///< the target without links
     };
     std::vector<Pending> pending_;
     std::vector<std::filesystem::path> kept_; ///< without links
