@@ -28,7 +28,7 @@ function(terrane_harden target)
   if(type STREQUAL EXECUTABLE)
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_link_options(${target} PRIVATE ${terrane_hardened_linking})
-  elseif(type STREQUAL SHARED_LIBRARY)
+  elseif(type MATCHES "^(SHARED|MODULE)_LIBRARY$") # the Python module is the latter
     target_link_options(${target} PRIVATE ${terrane_hardened_linking})
   endif()
 endfunction()
