@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/structure/structure_meshes.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
@@ -178,19 +179,23 @@ std::vector<std::string> part_formats() {
 
 Status write_model_files(const ModelReports& reports, const std::string& part_format,
                          const std::filesystem::path& folder, const Run& run) {
-    return FolderWriter(reports, part_format, folder)(run);
+    return guarded("to write the model", "model",
+                   [&]() -> Status { return FolderWriter(reports, part_format, folder)(run); });
 }
 
 Status write_model_folder(const ModelReports& reports, const std::string& part_format,
                           const std::filesystem::path& folder, const Run& run) {
-    const auto known = part_formats();
-    if (std::find(known.begin(), known.end(), part_format) == known.end())
-        return Error{ErrorCode::unknown_format, "no format of blocks is called " + part_format, ""};
-    auto made = NewFolder::create(folder);
-    if (!made) return made.error();
-    if (auto done = write_model_files(reports, part_format, made->temporary(), run); !done)
-        return done;
-    return made->publish();
+    return guarded("to write the model", "model", [&]() -> Status {
+        const auto known = part_formats();
+        if (std::find(known.begin(), known.end(), part_format) == known.end())
+            return Error{ErrorCode::unknown_format, "no format of blocks is called " + part_format,
+                         ""};
+        auto made = NewFolder::create(folder);
+        if (!made) return made.error();
+        if (auto done = write_model_files(reports, part_format, made->temporary(), run); !done)
+            return done;
+        return made->publish();
+    });
 }
 
 } // namespace terrane

@@ -55,7 +55,8 @@ struct BlockPiece {
     std::vector<std::uint32_t> triangle_ids; ///< per triangle, ascending
 };
 
-/// Arranges. Errors: those of the reader and of arrange().
+/// Arranges. Errors: those of the reader and of arrange(). Throws std::bad_alloc where memory ends between steps, as
+/// all other functions for blocks do: a process alone must end all (MPI_Abort), as the others would wait for it.
 Result<DistributedReport> arrange_in_blocks(Supersteps& blocks, const FileReader& read,
                                             const DistributedOptions& options, const Run& run = {});
 

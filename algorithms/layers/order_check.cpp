@@ -11,6 +11,7 @@
 
 #include <gmpxx.h>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/search/search.hpp>
@@ -221,17 +222,20 @@ Result<std::vector<OutOfOrder>> below_of(const Mesh& mesh, const Layers& layers,
 
 Result<std::vector<OutOfOrder>> find_out_of_order(const Mesh& mesh, double step_width,
                                                   const Run& run) {
-    const Layers layers = layers_of(mesh);
-    std::vector<OutOfOrder> all;
-    for (std::uint32_t upper = 0; upper + 1 < layers.triangles.size(); ++upper) {
-        const auto found = below_of(mesh, layers, upper, step_width, run);
-        if (!found) return found.error();
-        all.insert(all.end(), found->begin(), found->end());
-    }
-    std::sort(all.begin(), all.end(), [](const OutOfOrder& a, const OutOfOrder& b) {
-        return std::tie(a.upper, a.lower, a.triangles) < std::tie(b.upper, b.lower, b.triangles);
+    return guarded("for the order of layers", "layers", [&]() -> Result<std::vector<OutOfOrder>> {
+        const Layers layers = layers_of(mesh);
+        std::vector<OutOfOrder> all;
+        for (std::uint32_t upper = 0; upper + 1 < layers.triangles.size(); ++upper) {
+            const auto found = below_of(mesh, layers, upper, step_width, run);
+            if (!found) return found.error();
+            all.insert(all.end(), found->begin(), found->end());
+        }
+        std::sort(all.begin(), all.end(), [](const OutOfOrder& a, const OutOfOrder& b) {
+            return std::tie(a.upper, a.lower, a.triangles) <
+                   std::tie(b.upper, b.lower, b.triangles);
+        });
+        return all;
     });
-    return all;
 }
 
 } // namespace terrane

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
 
@@ -23,34 +23,38 @@ constexpr double deviation_of_length = 0.05;
 Result<Simplified> simplify_for(const ConformingMesh& mesh, const Resolution& resolution,
                                 ImproveOptions& options, const RoundingOptions& rounding,
                                 const Run& run) {
-    const StandardArithmetic arithmetic;
-    if (options.max_deviation == 0) {
-        options.max_deviation = improvement_share * resolution.length;
-        if (options.edge_length > 0)
-            options.max_deviation =
-                std::min(options.max_deviation, deviation_of_length * options.edge_length);
-    }
-    if (resolution.length > 0 && !(options.max_deviation < resolution.length))
-        return Error{ErrorCode::bad_option, "must be less than the resolution", "max_deviation"};
-    return simplify(mesh,
-                    {.resolution = resolution.length,
-                     .max_move = resolution.length - options.max_deviation,
-                     .edge_length = options.edge_length,
-                     .dissolve = resolution.dissolve,
-                     .rounding = rounding},
-                    run);
+    return guarded("to simplify the mesh", "simplify", [&]() -> Result<Simplified> {
+        if (options.max_deviation == 0) {
+            options.max_deviation = improvement_share * resolution.length;
+            if (options.edge_length > 0)
+                options.max_deviation =
+                    std::min(options.max_deviation, deviation_of_length * options.edge_length);
+        }
+        if (resolution.length > 0 && !(options.max_deviation < resolution.length))
+            return Error{ErrorCode::bad_option, "must be less than the resolution",
+                         "max_deviation"};
+        return simplify(mesh,
+                        {.resolution = resolution.length,
+                         .max_move = resolution.length - options.max_deviation,
+                         .edge_length = options.edge_length,
+                         .dissolve = resolution.dissolve,
+                         .rounding = rounding},
+                        run);
+    });
 }
 
 Status simplify_to(const Resolution& resolution, ImproveOptions& options,
                    const RoundingOptions& rounding, Arranged& arranged, const Run& run) {
-    auto simplified =
-        simplify_for(*arranged.rounded.conforming, resolution, options, rounding, run);
-    if (!simplified) return simplified.error();
-    arranged.simplified = AtResolution{arranged.rounded.mesh, std::move(simplified->report)};
-    arranged.surfaces = std::move(simplified->surfaces);
-    arranged.exact = std::move(simplified->exact);
-    arranged.rounded = std::move(simplified->rounded);
-    return Done{};
+    return guarded("to simplify the mesh", "simplify", [&]() -> Status {
+        auto simplified =
+            simplify_for(*arranged.rounded.conforming, resolution, options, rounding, run);
+        if (!simplified) return simplified.error();
+        arranged.simplified = AtResolution{arranged.rounded.mesh, std::move(simplified->report)};
+        arranged.surfaces = std::move(simplified->surfaces);
+        arranged.exact = std::move(simplified->exact);
+        arranged.rounded = std::move(simplified->rounded);
+        return Done{};
+    });
 }
 
 bool is_within_resolution(const AtResolution& simplified, const Mesh& improved, const Run& run) {
@@ -68,16 +72,19 @@ bool is_within_resolution(const AtResolution& simplified, const Mesh& improved, 
 Result<ImprovedAtResolution>
 improve_at_resolution(const ConformingMesh& mesh, const Resolution& resolution,
                       ImproveOptions options, const RoundingOptions& rounding, const Run& run) {
-    auto simplified = simplify_for(mesh, resolution, options, rounding, run);
-    if (!simplified) return simplified.error();
-    auto improved = improve_and_measure(*simplified->rounded.conforming, options, run);
-    if (!improved) return improved.error();
-    if (!is_within_resolution({mesh.mesh(), simplified->report}, improved->improved.mesh, run))
-        return Error{ErrorCode::bad_option,
-                     "not all of each surface is shown to be within the resolution of what it was; "
-                     "try a smaller value",
-                     "max_deviation"};
-    return ImprovedAtResolution{std::move(*simplified), std::move(*improved)};
+    return guarded("to simplify the mesh", "simplify", [&]() -> Result<ImprovedAtResolution> {
+        auto simplified = simplify_for(mesh, resolution, options, rounding, run);
+        if (!simplified) return simplified.error();
+        auto improved = improve_and_measure(*simplified->rounded.conforming, options, run);
+        if (!improved) return improved.error();
+        if (!is_within_resolution({mesh.mesh(), simplified->report}, improved->improved.mesh, run))
+            return Error{
+                ErrorCode::bad_option,
+                "not all of each surface is shown to be within the resolution of what it was; "
+                "try a smaller value",
+                "max_deviation"};
+        return ImprovedAtResolution{std::move(*simplified), std::move(*improved)};
+    });
 }
 
 } // namespace terrane

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/face_sides.hpp>
 
 namespace terrane {
@@ -131,32 +131,33 @@ std::uint32_t node_between(const TetrahedralMesh& mesh, const EdgeNodes& nodes, 
 } // namespace
 
 Result<EdgeNodes> find_edge_nodes(const TetrahedralMesh& mesh) {
-    const StandardArithmetic guard; // the middles of edges are the same whoever asks
-    const auto uses = sorted_uses(mesh);
-    if (mesh.vertices.size() + uses.size() >= UINT32_MAX)
-        return Error{ErrorCode::unsupported,
-                     "these are too many tetrahedra for nodes of second order: 32 bits number them",
-                     ""};
-    const CutFaces cut(mesh);
-    EdgeNodes nodes;
-    nodes.vertices = mesh.vertices;
-    nodes.of_tetrahedra.resize(mesh.tetrahedra.size());
-    for (std::size_t i = 0, end = 0; i < uses.size(); i = end) {
-        while (end < uses.size() && uses[end].edge == uses[i].edge) ++end;
-        add_nodes(mesh, std::span(uses).subspan(i, end - i), cut, nodes);
-    }
-    const auto sides = sides_of_faces(mesh);
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        const auto& side = sides[f].front.exists() ? sides[f].front : sides[f].back;
-        if (!side.exists())
-            return Error{ErrorCode::bad_index,
-                         fmt::format("face {} is no face of a tetrahedron", f), ""};
-        const auto& c = mesh.faces[f];
-        auto& of_face = nodes.of_faces.emplace_back();
-        for (std::size_t k = 0; k < 3; ++k)
-            of_face[k] = node_between(mesh, nodes, side.tetrahedron, c[k], c[(k + 1) % 3]);
-    }
-    return nodes;
+    return guarded("for nodes on edges", "nodes", [&]() -> Result<EdgeNodes> {
+        const auto uses = sorted_uses(mesh);
+        if (mesh.vertices.size() + uses.size() >= UINT32_MAX)
+            return Error{
+                ErrorCode::unsupported,
+                "these are too many tetrahedra for nodes of second order: 32 bits number them", ""};
+        const CutFaces cut(mesh);
+        EdgeNodes nodes;
+        nodes.vertices = mesh.vertices;
+        nodes.of_tetrahedra.resize(mesh.tetrahedra.size());
+        for (std::size_t i = 0, end = 0; i < uses.size(); i = end) {
+            while (end < uses.size() && uses[end].edge == uses[i].edge) ++end;
+            add_nodes(mesh, std::span(uses).subspan(i, end - i), cut, nodes);
+        }
+        const auto sides = sides_of_faces(mesh);
+        for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+            const auto& side = sides[f].front.exists() ? sides[f].front : sides[f].back;
+            if (!side.exists())
+                return Error{ErrorCode::bad_index,
+                             fmt::format("face {} is no face of a tetrahedron", f), ""};
+            const auto& c = mesh.faces[f];
+            auto& of_face = nodes.of_faces.emplace_back();
+            for (std::size_t k = 0; k < 3; ++k)
+                of_face[k] = node_between(mesh, nodes, side.tetrahedron, c[k], c[(k + 1) % 3]);
+        }
+        return nodes;
+    });
 }
 
 std::vector<std::vector<NodePair>> node_pairs(const TetrahedralMesh& mesh, const EdgeNodes& nodes) {

@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/triangulation/detail/constants.hpp>
 #include <terrane/algorithms/triangulation/planar.hpp>
 #include <terrane/kernel/predicates.hpp>
@@ -81,42 +82,48 @@ double median_edge(std::span<const Point3> points, std::span<const Triangle> tri
 
 Result<std::vector<Triangle>> connect_points(std::span<const Point3> points,
                                              const ConnectOptions& options, const Run& run) {
-    if (!(options.max_edge >= 0))
-        return Error{ErrorCode::bad_option, "the longest edge must be a length", ""};
-    if (points.size() < 3) return std::vector<Triangle>{};
-    std::vector<Point3> flat(points.begin(), points.end());
-    auto triangles = delaunay(flat, run);
-    if (!triangles) return triangles;
-    if (auto tilted = flattened(points, true); !tilted.empty()) {
-        auto others = delaunay(tilted, run);
-        if (!others) return others;
-        const double upright = median_edge(points, triangles.value(), false);
-        const double along = median_edge(points, others.value(), false);
-        if (upright == 0 || along < constants.worth_tilting * upright) {
-            flat = std::move(tilted);
-            triangles = std::move(others);
+    return guarded("to connect points", "points", [&]() -> Result<std::vector<Triangle>> {
+        if (!(options.max_edge >= 0))
+            return Error{ErrorCode::bad_option, "the longest edge must be a length", ""};
+        if (points.size() < 3) return std::vector<Triangle>{};
+        std::vector<Point3> flat(points.begin(), points.end());
+        auto triangles = delaunay(flat, run);
+        if (!triangles) return triangles;
+        if (auto tilted = flattened(points, true); !tilted.empty()) {
+            auto others = delaunay(tilted, run);
+            if (!others) return others;
+            const double upright = median_edge(points, triangles.value(), false);
+            const double along = median_edge(points, others.value(), false);
+            if (upright == 0 || along < constants.worth_tilting * upright) {
+                flat = std::move(tilted);
+                triangles = std::move(others);
+            }
         }
-    }
-    const double limit = options.max_edge > 0
-                             ? options.max_edge
-                             : constants.longest_edge * median_edge(flat, triangles.value(), true);
-    std::erase_if(triangles.value(), [&](const Triangle& t) {
-        return longest_edge(flat, t) > limit || collinear(points[t[0]], points[t[1]], points[t[2]]);
+        const double limit = options.max_edge > 0 ? options.max_edge
+                                                  : constants.longest_edge *
+                                                        median_edge(flat, triangles.value(), true);
+        std::erase_if(triangles.value(), [&](const Triangle& t) {
+            return longest_edge(flat, t) > limit ||
+                   collinear(points[t[0]], points[t[1]], points[t[2]]);
+        });
+        return triangles;
     });
-    return triangles;
 }
 
 Result<std::vector<Triangle>> fill_closed_line(std::span<const Point3> line, const Run& run) {
-    const auto flat = flattened(line, false);
-    if (flat.size() < 3) return std::vector<Triangle>{};
-    Polygon polygon(flat.size());
-    std::iota(polygon.begin(), polygon.end(), 0U);
-    auto triangles = triangulate_inside(flat, std::span(&polygon, 1), run);
-    if (triangles || triangles.error().code != ErrorCode::improper_contact) return triangles;
-    return Error{ErrorCode::improper_contact,
-                 "the line touches or crosses itself, seen along the normal of its plane of least "
-                 "squares",
-                 ""};
+    return guarded("to fill the line", "line", [&]() -> Result<std::vector<Triangle>> {
+        const auto flat = flattened(line, false);
+        if (flat.size() < 3) return std::vector<Triangle>{};
+        Polygon polygon(flat.size());
+        std::iota(polygon.begin(), polygon.end(), 0U);
+        auto triangles = triangulate_inside(flat, std::span(&polygon, 1), run);
+        if (triangles || triangles.error().code != ErrorCode::improper_contact) return triangles;
+        return Error{
+            ErrorCode::improper_contact,
+            "the line touches or crosses itself, seen along the normal of its plane of least "
+            "squares",
+            ""};
+    });
 }
 
 std::vector<NamedConstant> point_constants() {

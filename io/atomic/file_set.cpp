@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
-#include <new>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
+#include <dirent.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <terrane/io/atomic/atomic_file.hpp>
@@ -62,6 +64,23 @@ bool is_inside(const fs::path& path, const fs::path& folder, fs::path& rest) {
     rest.clear();
     for (auto part = there; part != path.end(); ++part) rest /= *part;
     return true;
+}
+
+/// Removes a folder and what is in it, without operator new: memory may be what is lacking.
+void remove_folder(int above, const char* name) noexcept {
+    const int folder = ::openat(above, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (folder < 0) return;
+    if (DIR* const entries = ::fdopendir(folder)) {
+        while (const dirent* const entry = ::readdir(entries)) {
+            const std::string_view inner(entry->d_name);
+            if (inner == "." || inner == "..") continue;
+            if (::unlinkat(folder, entry->d_name, 0) != 0) remove_folder(folder, entry->d_name);
+        }
+        ::closedir(entries);
+    } else {
+        ::close(folder);
+    }
+    ::unlinkat(above, name, AT_REMOVEDIR);
 }
 
 } // namespace
@@ -119,7 +138,10 @@ fs::path FileSet::where(const fs::path& path) const {
 }
 
 Status FileSet::publish() {
-    std::string given;
+    std::string given; // needs no memory between the first name and the last
+    std::size_t length = 0;
+    for (const Pending& p : pending_) length += p.target.native().size() + 2;
+    given.reserve(length);
     while (!pending_.empty()) {
         const Pending& p = pending_.front();
         std::error_code failed;
@@ -130,7 +152,8 @@ Status FileSet::publish() {
                              (given.empty() ? "" : "; written before: " + given),
                          p.target.string()};
         forget_temporary(p.temporary);
-        given += (given.empty() ? "" : ", ") + p.target.string();
+        if (!given.empty()) given += ", ";
+        given += p.target.native();
         pending_.erase(pending_.begin());
     }
     for (const auto& tell : std::exchange(tells_, {})) tell();
@@ -187,18 +210,7 @@ fs::path final_path_of(const fs::path& path) {
 }
 
 void discard_temporary(const fs::path& path) noexcept {
-    if (::unlink(path.c_str()) != 0) { // it is a folder
-        constexpr int tries = 3;
-        for (int k = 0; k < tries; ++k) {
-            try {
-                std::error_code ignored;
-                fs::remove_all(path, ignored);
-                break;
-            } catch (const std::bad_alloc&) {
-                continue;
-            }
-        }
-    }
+    if (::unlink(path.c_str()) != 0) remove_folder(AT_FDCWD, path.c_str());
     forget_temporary(path);
 }
 

@@ -69,8 +69,8 @@ bool is_in_temporary(const std::filesystem::path& path);
 /// Returns the name that a temporary file or folder, or a file in one, will have, for messages; other
 /// paths as they are.
 std::filesystem::path final_path_of(const std::filesystem::path& path);
-/// Removes a temporary file or folder and forgets it. Never throws: where not even removing gets
-/// the memory that it needs, a folder is left.
+/// Removes a temporary file or folder and forgets it. Never throws: where not even the system gets
+/// the memory to list a folder, that is left.
 void discard_temporary(const std::filesystem::path& path) noexcept;
 /// Removes all temporary files and folders of this process, which is about to end. Any thread may
 /// call it; others may still be writing. No other is made while the returned lock lives.

@@ -321,7 +321,8 @@ std::string name_of_piece(const fs::path& path, std::size_t piece) {
 }
 
 Result<Mesh> read_pvtp(const fs::path& path) {
-    return guard_memory(path.string(), [&] { return join_pieces(path); });
+    return guard_memory(
+        "", [&] { return guard_memory(path.string(), [&] { return join_pieces(path); }); });
 }
 
 } // namespace terrane

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/io/page/contact_lines.hpp>
@@ -32,10 +33,12 @@ const char* filling_verdict(bool all) {
 }
 
 Status check_pages() {
-    if (bundle() != nullptr) return Done{};
-    return Error{ErrorCode::unsupported,
-                 fmt::format("this terrane was built without report pages: {}", bundle_missing()),
-                 ""};
+    return guarded("for the page", "page", [&]() -> Status {
+        if (bundle() != nullptr) return Done{};
+        return Error{
+            ErrorCode::unsupported,
+            fmt::format("this terrane was built without report pages: {}", bundle_missing()), ""};
+    });
 }
 
 void Page::set_inputs(std::string unit, std::vector<std::string> files) {
@@ -44,15 +47,17 @@ void Page::set_inputs(std::string unit, std::vector<std::string> files) {
 }
 
 Status Page::add_file(const std::string& path) {
-    if (!wanted_) return Done{};
-    if (path == "-") {
-        inputs_.push_back({"standard input", nullptr, nullptr});
+    return guarded("for the page", "page", [&]() -> Status {
+        if (!wanted_) return Done{};
+        if (path == "-") {
+            inputs_.push_back({"standard input", nullptr, nullptr});
+            return Done{};
+        }
+        auto row = file_row(path);
+        if (!row) return row.error();
+        inputs_.push_back(*std::move(row));
         return Done{};
-    }
-    auto row = file_row(path);
-    if (!row) return row.error();
-    inputs_.push_back(*std::move(row));
-    return Done{};
+    });
 }
 
 void Page::describe(const std::vector<SurfaceInfo>& surfaces) {
@@ -62,18 +67,22 @@ void Page::describe(const std::vector<SurfaceInfo>& surfaces) {
 
 Status Page::add_check(std::span<const Surface> surfaces, const CheckReport& report,
                        const Run& run) {
-    if (!wanted_) return Done{};
-    add_mesh(SharedMesh(concatenate(surfaces)));
-    add_flaws(findings_, report, surfaces);
-    add_contact_lines(scene_, **mesh_, report.contacts);
-    set_verdict(report.clean() ? "The surfaces are conforming, by an exact check."
-                               : "The surfaces are not conforming, by an exact check.",
-                report.clean());
-    return add_holes(surfaces, run);
+    return guarded("for the page", "page", [&]() -> Status {
+        if (!wanted_) return Done{};
+        add_mesh(SharedMesh(concatenate(surfaces)));
+        add_flaws(findings_, report, surfaces);
+        add_contact_lines(scene_, **mesh_, report.contacts);
+        set_verdict(report.clean() ? "The surfaces are conforming, by an exact check."
+                                   : "The surfaces are not conforming, by an exact check.",
+                    report.clean());
+        return add_holes(surfaces, run);
+    });
 }
 
 Status Page::add_holes(std::span<const Surface> surfaces, const Run& run) {
-    return wanted_ ? page::add_holes(findings_, surfaces, run) : Status(Done{});
+    return guarded("for the page", "page", [&]() -> Status {
+        return wanted_ ? page::add_holes(findings_, surfaces, run) : Status(Done{});
+    });
 }
 
 void Page::add_mesh(const SharedMesh& mesh) {
@@ -239,11 +248,13 @@ Json Page::content(Json statistics, Arrays& arrays) {
 }
 
 Result<std::string> Page::html(Json statistics, const Json& run) {
-    if (const auto possible = check_pages(); !possible) return possible.error();
-    statistics.erase("seconds");
-    Arrays arrays;
-    const Json json = content(std::move(statistics), arrays);
-    return html_of(json, arrays, run, *bundle());
+    return guarded("for the page", "page", [&]() -> Result<std::string> {
+        if (const auto possible = check_pages(); !possible) return possible.error();
+        statistics.erase("seconds");
+        Arrays arrays;
+        const Json json = content(std::move(statistics), arrays);
+        return html_of(json, arrays, run, *bundle());
+    });
 }
 
 } // namespace terrane::page

@@ -40,10 +40,18 @@ void append_big_endian(std::string& bytes, std::size_t value) {
         bytes += static_cast<char>(value >> (shift - 8) & 255U);
 }
 
-/// The contents of a .shp and of the .shx that belongs to it.
+/// A file in memory, as shapelib sees it.
+struct ShapeStream {
+    std::string_view bytes;
+    std::size_t at = 0;
+};
+
+/// The contents of a .shp and of the .shx that belongs to it, and the two as files: shapelib opens each once,
+/// and no exception may pass through it.
 struct ShapeBytes {
     std::string_view shp;
     std::string shx;
+    ShapeStream shp_file{}, shx_file{};
 };
 
 /// Makes the .shx of a .shp: where each record begins, and its length, in words of two bytes.
@@ -66,12 +74,6 @@ std::optional<std::size_t> make_index(ShapeBytes& bytes) {
     return std::nullopt;
 }
 
-/// A file in memory, as shapelib sees it.
-struct ShapeStream {
-    std::string_view bytes;
-    std::size_t at = 0;
-};
-
 ShapeStream& stream_of(SAFile file) {
     return *reinterpret_cast<ShapeStream*>(file);
 }
@@ -86,16 +88,12 @@ SAFile open_shape(const char* name, const char* access) {
         std::string_view(access) != "rb")
         return nullptr;
     // NOLINTNEXTLINE(performance-no-int-to-ptr): shapelib 1.5 passes nothing but the name
-    const auto* bytes = reinterpret_cast<const ShapeBytes*>(address);
+    auto& bytes = *reinterpret_cast<ShapeBytes*>(address);
     const auto extension = text.substr(dot);
-    auto stream = std::make_unique<ShapeStream>();
-    if (extension == ".shp")
-        stream->bytes = bytes->shp;
-    else if (extension == ".shx")
-        stream->bytes = bytes->shx;
-    else
-        return nullptr;
-    return reinterpret_cast<SAFile>(stream.release());
+    if (extension != ".shp" && extension != ".shx") return nullptr;
+    ShapeStream& stream = extension == ".shp" ? bytes.shp_file : bytes.shx_file;
+    stream = {extension == ".shp" ? bytes.shp : std::string_view(bytes.shx), 0};
+    return reinterpret_cast<SAFile>(&stream);
 }
 
 SAOffset read_shape(void* to, SAOffset size, SAOffset count, SAFile file) {
@@ -116,8 +114,7 @@ SAOffset seek_shape(SAFile file, SAOffset offset, int whence) {
     return 0;
 }
 
-int close_shape(SAFile file) {
-    delete &stream_of(file);
+int close_shape(SAFile) {
     return 0;
 }
 

@@ -6,12 +6,13 @@
 // must throw std::bad_alloc), give back all memory, and leave the next call as it was before.
 // Of more than MOST allocations of a stage (default: 10 000), MOST are tried, evenly spread.
 //
-// failing_allocations stack KIB: see call_unusually.
+// failing_allocations stack KIB: see call_unusually. failing_allocations list: prints the names of all stages.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "fixture.hpp"
 #include "stage.hpp"
@@ -103,6 +104,15 @@ private:
 };
 
 } // namespace
+
+std::vector<Stage> all_stages() {
+    std::vector<Stage> stages;
+    for (const auto& part : {stages_of_meshes(), stages_of_models(), stages_of_surfaces(),
+                             stages_of_files(), stages_of_outputs(), stages_of_scale()})
+        stages.insert(stages.end(), part.begin(), part.end());
+    return stages;
+}
+
 } // namespace failing
 
 int main(int argc, char** argv) {
@@ -111,21 +121,22 @@ int main(int argc, char** argv) {
     const std::string_view wanted = argc > 2 ? argv[2] : "";
     if (argc == 3 && std::string_view(argv[1]) == "stack") {
         int flaws = 0;
-        for (const auto& part : {stages_of_meshes(), stages_of_models(), stages_of_surfaces(),
-                                 stages_of_files(), large_stages()})
+        for (const auto& part : {all_stages(), large_stages()})
             flaws += call_unusually(part, std::atol(argv[2]));
         return flaws == 0 ? 0 : 1;
     }
+    if (argc == 2 && std::string_view(argv[1]) == "list") {
+        for (const Stage& stage : all_stages()) std::printf("%s\n", stage.name.c_str());
+        return 0;
+    }
     take_over_gmp();
     int flaws = 0, stages = 0;
-    for (const auto& part :
-         {stages_of_meshes(), stages_of_models(), stages_of_surfaces(), stages_of_files()})
-        for (const Stage& stage : part) {
-            if (!stage.name.starts_with(wanted)) continue;
-            ++stages;
-            flaws += Trial(stage, stage.starts_process ? std::max(1L, most / 10) : most)();
-            std::fflush(stdout);
-        }
+    for (const Stage& stage : all_stages()) {
+        if (!stage.name.starts_with(wanted)) continue;
+        ++stages;
+        flaws += Trial(stage, stage.starts_process ? std::max(1L, most / 10) : most)();
+        std::fflush(stdout);
+    }
     std::printf("%d stages, %d flaws\n", stages, flaws);
     return flaws == 0 && stages > 0 ? 0 : 1;
 }

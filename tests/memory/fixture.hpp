@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,12 +18,24 @@
 
 namespace failing {
 
-/// Returns the value, or ends the program: the fixture itself must not fail.
+/// Ends the program: the fixture itself must not fail.
+[[noreturn]] inline void fail(const std::string& message) {
+    std::fprintf(stderr, "the fixture: %s\n", message.c_str());
+    std::exit(2);
+}
+
+/// Returns the value, or ends the program.
 template <class T>
 T needed(terrane::Result<T> made) {
-    if (made) return std::move(made).value();
-    std::fprintf(stderr, "the fixture: %s\n", made.error().message().c_str());
-    std::exit(2);
+    if (!made) fail(made.error().message());
+    return std::move(made).value();
+}
+
+/// Tells whether this is the first of the names of a format.
+inline bool is_first_name(std::string_view name) {
+    for (const std::string_view other : terrane::format_names())
+        if (terrane::format_named(other) == terrane::format_named(name)) return other == name;
+    return false;
 }
 
 inline std::string text_of(const terrane::Mesh& mesh) {

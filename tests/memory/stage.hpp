@@ -77,6 +77,11 @@ std::vector<Stage> stages_of_meshes();
 std::vector<Stage> stages_of_models();
 std::vector<Stage> stages_of_surfaces();
 std::vector<Stage> stages_of_files();
+std::vector<Stage> stages_of_outputs();
+/// Stages of large models and of many: simplification, blocks of space, realisations.
+std::vector<Stage> stages_of_scale();
+/// All of these.
+std::vector<Stage> all_stages();
 /// Models large enough, and texts nested deeply enough, that a recursion shows in the stack.
 std::vector<Stage> large_stages();
 

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Readers, writers, certificates and the verifier.
+#include <algorithm>
 #include <array>
-#include <fstream>
+#include <bit>
+#include <cstdint>
 
 #include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/io/meshes/pvtp.hpp>
 #include <terrane/io/points/outline.hpp>
+#include <terrane/io/points/shape_outline.hpp>
+#include <terrane/io/uncertainty_maps.hpp>
 
 #include "fixture.hpp"
+#include "scratch.hpp"
 #include "stage.hpp"
 
 namespace failing {
@@ -17,51 +23,73 @@ namespace {
 using namespace terrane;
 namespace fs = std::filesystem;
 
-/// The folder in which files are read and written; it lives as long as the program.
-const test_support::TemporaryFolder& scratch() {
-    static const test_support::TemporaryFolder folder;
-    return folder;
+/// Texts of formats that are only read, by the names of the formats.
+std::vector<std::pair<std::string, std::string>> only_read() {
+    return {{"irap", "-996 2 1 1\n0 2 0 1\n3 0 0 0\n0 0 0 0 0 0 0\n1 2 3 4 9999900 6\n"},
+            {"zmap",
+             "! made\n@top HEADER, GRID, 2\n10, -99999.0, , 4, 1\n2, 3, 0, 2, 0, 1\n0, 0, 0\n@\n"
+             "+ data\n1 2\n-99999.0 3\n4 5\n"},
+            {"cps3", "FSASCI 0 1 COMPUTED 0 0.1E+31\nFSATTR 0 0\nFSLIMI 0 2 0 1 0 1\nFSNROW 2 3\n"
+                     "FSXINC 1 1\n->top\n1 2\n0.1E+31 3\n4 5\n"},
+            {"asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n"
+                    "NODATA_value -9999\n1 2 3\n4 5 6\n"},
+            {"xyz", "0 0 1\n1 0 2\n0 1 3\n1 1 4\n2 0 1.5\n"},
+            {"vs", "GOCAD VSet 1\nHEADER {\nname: points with a long name\n}\n"
+                   "VRTX 1 0 0 1\nVRTX 2 1 0 2\nVRTX 3 0 1 3\nEND\n"},
+            {"pl", "GOCAD PLine 1\nHEADER {\nname: a line with a long name\n}\nILINE\n"
+                   "VRTX 1 0 0 1\nVRTX 2 1 0 2\nVRTX 3 0 1 3\nSEG 1 2\nSEG 2 3\nEND\n"},
+            {"dxf", "0\nSECTION\n2\nENTITIES\n0\n3DFACE\n8\nlayer\n10\n0\n20\n0\n30\n0\n11\n1\n"
+                    "21\n0\n31\n0\n12\n0\n22\n1\n32\n0\n13\n0\n23\n1\n33\n0\n0\nENDSEC\n0\nEOF\n"},
+            {"grdecl", "SPECGRID\n2 1 1 1 F /\nCOORD\n0 0 0 0 0 9\n1 0 0 1 0 9\n2 0 0 2 0 9\n"
+                       "0 1 0 0 1 9\n1 1 0 1 1 9\n2 1 0 2 1 9 /\nZCORN\n1 1 1.5 1.5 1 1 1.5 1.5\n"
+                       "2 2 2.5 2.5 2 2 2.5 2.5 /\n"},
+            {"sticks", "0 0 0 1\n0 0 1 1\n1 0 0 2\n1 0 1 2\n"}};
 }
 
-std::string contents_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+/// Tetrahedra of one format that is read and written.
+std::string vtu_text() {
+    TetrahedralMesh mesh;
+    mesh.surfaces = {{.name = "a face with a name that needs memory"}};
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    mesh.tetrahedra = {{0, 1, 2, 3}};
+    mesh.region_of = {1};
+    mesh.region_count = 2;
+    mesh.faces = {{0, 1, 2}};
+    mesh.face_triangle = {0};
+    const std::uint32_t surface = 0;
+    mesh.surfaces_of.push_back({&surface, 1});
+    const auto path = scratch() / "tetrahedra.vtu";
+    needed(write_tetrahedra(mesh, path));
+    return contents_of(path);
 }
 
-fs::path written(std::string_view name, const std::string& text) {
-    const fs::path path = scratch() / name;
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
-}
-
-/// Texts of formats that are only read.
-std::vector<std::pair<Format, std::string>> grids_and_points() {
-    return {{Format::esri, "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n"
-                           "NODATA_value -9999\n1 2 3\n4 5 6\n"},
-            {Format::xyz, "0 0 1\n1 0 2\n0 1 3\n1 1 4\n2 0 1.5\n"},
-            {Format::vset, "GOCAD VSet 1\nHEADER {\nname: points with a long name\n}\n"
-                           "VRTX 1 0 0 1\nVRTX 2 1 0 2\nVRTX 3 0 1 3\nEND\n"},
-            {Format::dxf,
-             "0\nSECTION\n2\nENTITIES\n0\n3DFACE\n8\nlayer\n10\n0\n20\n0\n30\n0\n11\n1\n"
-             "21\n0\n31\n0\n12\n0\n22\n1\n32\n0\n13\n0\n23\n1\n33\n0\n0\nENDSEC\n0\nEOF\n"},
-            {Format::sticks, "0 0 0 1\n0 0 1 1\n1 0 0 2\n1 0 1 2\n"}};
+/// Texts of all formats that are read. The fixture fails where one is missing.
+std::vector<std::pair<std::string, std::string>> all_texts() {
+    auto texts = only_read();
+    const Fixture& f = Fixture::get();
+    for (const char* name : {"ts", "obj", "off", "stl", "ply", "vtp", "msh", "msh22", "vtk"})
+        texts.emplace_back(name, needed(format_mesh(*f.mesh, *format_named(name))));
+    texts.emplace_back("vtu", vtu_text());
+    for (const std::string_view name : format_names()) {
+        const auto is_of_format = [&](const auto& text) {
+            return format_named(text.first) == format_named(name);
+        };
+        if (is_read(*format_named(name)) && std::ranges::none_of(texts, is_of_format))
+            fail("there is no text of the format " + std::string(name));
+    }
+    return texts;
 }
 
 std::vector<Stage> reading() {
     const Fixture& f = Fixture::get();
-    auto texts = grids_and_points();
-    for (const Format format : {Format::gocad, Format::obj, Format::off, Format::stl, Format::ply,
-                                Format::vtp, Format::msh, Format::msh22, Format::vtk})
-        texts.emplace_back(format, needed(format_mesh(*f.mesh, format)));
     const auto as_text = [](const std::vector<Surface>& surfaces) { return text_of(surfaces); };
     std::vector<Stage> stages;
-    for (const auto& text : texts) {
-        const auto number = std::to_string(static_cast<int>(text.first));
-        const Format read_as = text.first == Format::msh22 ? Format::msh : text.first;
+    for (const auto& [name, text] : all_texts()) {
+        const Format format = name == "msh22" ? Format::msh : *format_named(name);
         stages.push_back(stage(
-            "parse_surfaces, format " + number,
-            [contents = text.second, read_as] {
-                return parse_surfaces(contents, "a file with a name that needs memory", read_as);
+            "parse_surfaces, " + name,
+            [contents = text, format] {
+                return parse_surfaces(contents, "a file with a name that needs memory", format);
             },
             as_text));
     }
@@ -75,6 +103,67 @@ std::vector<Stage> reading() {
     stages.push_back(stage(
         "read_model", [model] { return read_model(model); },
         [](const GocadModel& read) { return text_of(read.surfaces); }));
+    distribution::BlockPiece piece{*f.mesh, {}, {}};
+    piece.mesh.intersection_edges.clear();
+    for (std::uint32_t v = 0; v < f.mesh->vertices.size(); ++v) piece.vertex_ids.push_back(v);
+    for (std::uint32_t t = 0; t < f.mesh->triangles.size(); ++t) piece.triangle_ids.push_back(t);
+    const std::vector<std::string> pieces{
+        written("a piece with a long name.vtp", to_vtp_piece(piece)).filename().string()};
+    const auto pvtp = written("pieces with a long name.pvtp", to_pvtp(pieces));
+    stages.push_back(stage(
+        "read_pvtp", [pvtp] { return read_pvtp(pvtp); },
+        [](const Mesh& mesh) { return text_of(mesh); }));
+    return stages;
+}
+
+/// The contents of a shapefile with one polygon, a square.
+std::string shapefile() {
+    std::string bytes;
+    const auto integer = [&bytes](std::uint32_t value, bool big) {
+        for (unsigned i = 0; i < 4; ++i)
+            bytes += static_cast<char>(value >> 8 * (big ? 3 - i : i) & 255U);
+    };
+    const auto doubles = [&bytes](std::initializer_list<double> values) {
+        for (const double value : values) {
+            const auto bits = std::bit_cast<std::uint64_t>(value);
+            for (unsigned i = 0; i < 8; ++i) bytes += static_cast<char>(bits >> 8 * i & 255U);
+        }
+    };
+    constexpr std::uint32_t polygon = 5, of_record = 48 + 5 * 16;
+    integer(9994, true);
+    bytes += std::string(20, '\0');
+    integer((100 + 8 + of_record) / 2, true);
+    integer(1000, false);
+    integer(polygon, false);
+    doubles({0, 0, 8, 8, 0, 0, 0, 0});
+    integer(1, true); // the record
+    integer(of_record / 2, true);
+    integer(polygon, false);
+    doubles({0, 0, 8, 8});
+    integer(1, false); // parts, points, first point
+    integer(5, false);
+    integer(0, false);
+    doubles({0, 0, 0, 8, 8, 8, 8, 0, 0, 0});
+    return bytes;
+}
+
+std::vector<Stage> reading_outlines() {
+    const std::string outline = R"({"type": "FeatureCollection", "features": [{"type": "Feature",
+        "properties": {"name": "a property that needs memory"}, "geometry": {"type": "Polygon",
+        "coordinates": [[[0, 0], [8, 0], [8, 8], [0, 8], [0, 0]]]}}]})";
+    std::vector<std::pair<std::string, std::string>> texts{
+        {"geojson", outline}, {"txt", "# a comment\n0 0\n8 0\n8 8\n0 8\n"}};
+    if (reads_shapefiles()) texts.emplace_back("shp", shapefile());
+    std::vector<Stage> stages;
+    for (const auto& [name, text] : texts)
+        stages.push_back(stage(
+            "read_outline, " + name,
+            [contents = text, source = "an outline with a long name." + name] {
+                return read_outline(contents, source);
+            },
+            [](const std::vector<std::array<double, 2>>& corners) {
+                return std::to_string(corners.size());
+            }));
     return stages;
 }
 
@@ -107,14 +196,14 @@ std::vector<Stage> reading_json() {
     stages.push_back(stage(
         "read_exact", [exact] { return read_exact(exact, "a file with a name that needs memory"); },
         [](const ExactText& read) { return to_text(read); }));
-    const std::string outline = R"({"type": "FeatureCollection", "features": [{"type": "Feature",
-        "properties": {"name": "a property that needs memory"}, "geometry": {"type": "Polygon",
-        "coordinates": [[[0, 0], [8, 0], [8, 8], [0, 8], [0, 0]]]}}]})";
+    const auto map = written("a map with a long name.asc", "ncols 2\nnrows 2\nxllcorner 0\n"
+                                                           "yllcorner 0\ncellsize 8\n1 2 3 4\n");
+    auto uncertain = parsed;
+    uncertain.uncertainty.resize(2);
+    uncertain.uncertainty[1].field.emplace().map = map;
     stages.push_back(stage(
-        "read_outline", [outline] { return read_outline(outline, "an outline in a file.geojson"); },
-        [](const std::vector<std::array<double, 2>>& corners) {
-            return std::to_string(corners.size());
-        }));
+        "read_uncertainty_maps", [uncertain] { return read_uncertainty_maps(uncertain); },
+        [](const std::vector<std::optional<Surface>>& maps) { return text_of({*maps[1]}); }));
     stages.push_back(stage_of(
         "record_input", [] { return std::string("a name in the certificate, with memory"); },
         [obj](std::string name) { return record_input(obj, std::move(name), 1); },
@@ -126,12 +215,13 @@ std::vector<Stage> formatting() {
     const Fixture& f = Fixture::get();
     std::vector<Stage> stages;
     const auto as_it_is = [](const std::string& text) { return text; };
-    for (const Format format : {Format::gocad, Format::obj, Format::off, Format::stl, Format::ply,
-                                Format::vtp, Format::msh, Format::msh22, Format::poly,
-                                Format::smesh, Format::vtk, Format::vset, Format::pline})
-        stages.push_back(stage(
-            "format_mesh, format " + std::to_string(static_cast<int>(format)),
-            [&f, format] { return format_mesh(*f.mesh, format); }, as_it_is));
+    for (const std::string_view name : format_names()) {
+        const Format format = *format_named(name);
+        if ((holds_surfaces(format) || holds_outlines(format)) && is_first_name(name))
+            stages.push_back(stage(
+                "format_mesh, " + std::string(name),
+                [&f, format] { return format_mesh(*f.mesh, format); }, as_it_is));
+    }
     stages.push_back(stage(
         "lines_to_gocad", [&f] { return lines_to_gocad(*f.mesh, f.model.structure); }, as_it_is));
     stages.push_back(stage(
@@ -141,36 +231,6 @@ std::vector<Stage> formatting() {
     stages.push_back(stage(
         "to_json", [&f] { return to_json(*f.mesh, f.model.structure, {}); }, as_it_is));
     return stages;
-}
-
-/// Describes the folder of files that are written: their names and contents.
-std::string left(const fs::path& folder) {
-    std::string text;
-    for (const auto& entry : fs::directory_iterator(folder))
-        text += entry.path().filename().string() + ": " + contents_of(entry.path()) + "\n";
-    return text;
-}
-
-/// Writes over an old file. A failure must leave that, and nothing beside it.
-std::vector<Stage> writing() {
-    const Fixture& f = Fixture::get();
-    const fs::path folder = scratch() / "written";
-    fs::create_directory(folder);
-    const fs::path path = folder / "a mesh with a long name.obj";
-    const auto anew = [path] {
-        std::ofstream(path) << "old";
-        return 0;
-    };
-    Stage write = stage_of(
-        "write_mesh", anew, [&f, path](int) { return write_mesh(*f.mesh, path); },
-        [path](const Done&) { return contents_of(path); });
-    write.call = [call = write.call, folder](long n, Mode mode) {
-        Answer answer = call(n, mode);
-        if (answer.error && left(folder) != "a mesh with a long name.obj: old\n")
-            answer.error = Error{ErrorCode::internal, "something was written", left(folder)};
-        return answer;
-    };
-    return {write};
 }
 
 std::vector<Stage> certifying() {
@@ -216,7 +276,8 @@ std::vector<Stage> certifying() {
 
 std::vector<Stage> stages_of_files() {
     std::vector<Stage> stages;
-    for (const auto& part : {reading(), reading_json(), formatting(), writing(), certifying()})
+    for (const auto& part :
+         {reading(), reading_outlines(), reading_json(), formatting(), certifying()})
         stages.insert(stages.end(), part.begin(), part.end());
     return stages;
 }

@@ -2,6 +2,10 @@
 //
 // Stages about volumes of interest, gaps, blocks and tetrahedra, and the whole chain.
 #include <array>
+#include <optional>
+
+#include <terrane/algorithms/quality/improve_back.hpp>
+#include <terrane/algorithms/tetrahedra/edge_nodes.hpp>
 
 #include "fixture.hpp"
 #include "stage.hpp"
@@ -50,6 +54,9 @@ std::vector<Stage> boundaries() {
             return polygon_boundary(corners, -1, 2);
         },
         as_text));
+    static const auto box = needed(box_boundary({0, 0, 0}, {1, 2, 3}));
+    stages.push_back(stage(
+        "closed_boundary", [] { return closed_boundary(box); }, as_text));
     return stages;
 }
 
@@ -96,6 +103,12 @@ std::vector<Stage> cutting() {
         "merge_small_blocks", [&f] { return f.arranged.exact; },
         [](Arrangement a) { return merge_small_blocks(std::move(a), 1000); },
         [](const WithoutSmallBlocks& merged) { return text_of(merged.arrangement); }));
+    stages.push_back(stage(
+        "choose_seal, surfaces", [&f] { return choose_seal(f.surfaces, f.box); },
+        [](const SealChoice& choice) { return failing::shown(choice.distance); }));
+    stages.push_back(stage(
+        "choose_seal, arrangement", [&f] { return choose_seal(f.arranged.exact, 8); },
+        [](const SealChoice& choice) { return failing::shown(choice.distance); }));
     const std::vector<std::string> labels{f.surfaces[0].name, "top", "fault"};
     const std::vector<SurfaceInfo> infos(labels.size());
     stages.push_back(stage(
@@ -116,6 +129,9 @@ std::vector<Stage> improving() {
     stages.push_back(stage(
         "improve_and_measure", [&f, options] { return improve_and_measure(f.mesh, options); },
         [](const ImprovedAndMeasured& made) { return text_of(*made.improved.mesh); }));
+    stages.push_back(stage(
+        "bounds_back", [&f, improved, options] { return bounds_back(*f.mesh, improved, options); },
+        [](const std::vector<double>& bounds) { return failing::shown(bounds.front()); }));
     const auto as_text = [](const Model& model) {
         return text_of(*model.mesh) + std::to_string(model.volumes.measures.size());
     };
@@ -140,13 +156,18 @@ std::vector<Stage> tetrahedra() {
     stages.push_back(stage(
         "find_tetgen_helper", [] { return find_tetgen_helper(); },
         [](const std::filesystem::path& path) { return path.string(); }));
+    static const std::filesystem::path shell = "/bin/sh"; // any program that can be run
+    stages.push_back(stage(
+        "find_gmsh_helper", [] { return find_gmsh_helper(shell); },
+        [](const std::filesystem::path& path) { return path.string(); }));
     if (!find_tetgen_helper()) return stages;
     const auto made = needed(tetrahedralize(f.mesh, f.volumes, {}, {}));
     stages.push_back(stage(
         "tetrahedralize",
         [&f] {
-            return tetrahedralize(f.mesh, f.volumes, {.mesher = Mesher::tetgen, .edge_length = 6},
-                                  {});
+            return tetrahedralize(
+                f.mesh, f.volumes,
+                {.mesher = Mesher::tetgen, .edge_length = 6, .optimise = std::nullopt}, {});
         },
         counts_of));
     stages.back().starts_process = true;
@@ -157,6 +178,22 @@ std::vector<Stage> tetrahedra() {
     stages.push_back(stage(
         "check_tetrahedra", [&f, made] { return check_tetrahedra(made, *f.mesh, f.volumes); },
         [](const TetrahedraReport& report) { return std::to_string(report.violations.size()); }));
+    stages.push_back(stage_of(
+        "optimise", [made] { return made; },
+        [](TetrahedralMesh given) -> Result<TetrahedralMesh> {
+            auto report =
+                optimise(given, {.wanted_angle = 30, .max_passes = 1, .max_effort = 3000});
+            if (!report) return report.error();
+            return given;
+        },
+        counts_of));
+    stages.push_back(stage_of(
+        "adopt_volume_numbers", [made] { return made; },
+        [&f](TetrahedralMesh given) { return adopt_volume_numbers(f.volumes, given); },
+        [](const Done&) { return std::string("adopted"); }));
+    stages.push_back(stage(
+        "find_edge_nodes", [made] { return find_edge_nodes(made); },
+        [](const EdgeNodes& nodes) { return std::to_string(nodes.vertices.size()); }));
     stages.push_back(stage(
         "split_nodes",
         [made] {

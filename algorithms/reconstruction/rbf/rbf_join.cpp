@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/is_external.hpp>
 #include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
 
@@ -57,15 +58,17 @@ bool may_be_joined_otherwise(const Error& error) {
 Result<FilledByRbf> fill_and_join_by_rbf(const Surface& surface, const BorderLoop& loop,
                                          const RbfOptions& options, const JoinOptions& join,
                                          const Run& run) {
-    if (!options.long_edges)
-        if (auto graph = try_graph(surface, loop, options, run)) return std::move(*graph);
-    auto filled = try_once(surface, loop, options, join, run);
-    if (filled || options.long_edges || !may_be_joined_otherwise(filled.error())) return filled;
-    RbfOptions again = options;
-    again.long_edges = true;
-    auto second = try_once(surface, loop, again, join, run);
-    if (second || is_external(second.error().code)) return second;
-    return filled;
+    return guarded("for the filling", "fill", [&]() -> Result<FilledByRbf> {
+        if (!options.long_edges)
+            if (auto graph = try_graph(surface, loop, options, run)) return std::move(*graph);
+        auto filled = try_once(surface, loop, options, join, run);
+        if (filled || options.long_edges || !may_be_joined_otherwise(filled.error())) return filled;
+        RbfOptions again = options;
+        again.long_edges = true;
+        auto second = try_once(surface, loop, again, join, run);
+        if (second || is_external(second.error().code)) return second;
+        return filled;
+    });
 }
 
 } // namespace terrane

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Stages for models that are too large or too uncertain to be built at once: simplification, blocks of space,
+// realisations.
+#include <memory>
+
+#include <terrane/algorithms/distribution/distributed_arrangement.hpp>
+#include <terrane/algorithms/distribution/local_supersteps.hpp>
+#include <terrane/algorithms/uncertainty/measures.hpp>
+#include <terrane/algorithms/uncertainty/realisations.hpp>
+
+#include "fixture.hpp"
+#include "scratch.hpp"
+#include "stage.hpp"
+
+namespace failing {
+namespace {
+
+using namespace terrane;
+using namespace terrane::distribution;
+
+/// Two triangles that end just below a third surface.
+const Arranged& nearly_touching() {
+    static const Arranged arranged = [] {
+        std::vector<Surface> surfaces = Fixture::get().surfaces;
+        surfaces.erase(surfaces.begin());
+        return needed(arrange_within(std::move(surfaces), {}));
+    }();
+    return arranged;
+}
+
+std::vector<Stage> simplifying() {
+    const Arranged& arranged = nearly_touching();
+    static const ConformingMesh mesh = arranged.rounded.conforming.value();
+    static const Resolution resolution{.length = 0.5, .dissolve = false};
+    const ImproveOptions options{.edge_length = 8, .passes = 1};
+    std::vector<Stage> stages;
+    stages.push_back(stage(
+        "simplify", [] { return simplify(mesh, {.resolution = 0.5, .edge_length = 8}); },
+        [](const Simplified& made) { return text_of(*made.rounded.mesh); }));
+    stages.push_back(stage(
+        "improve_at_resolution",
+        [options] { return improve_at_resolution(mesh, resolution, options); },
+        [](const ImprovedAtResolution& made) { return text_of(*made.improved.improved.mesh); }));
+    stages.push_back(stage_of(
+        "simplify_to", [&arranged] { return arranged; },
+        [options](Arranged given) -> Result<Arranged> {
+            ImproveOptions changed = options;
+            if (auto done = simplify_to(resolution, changed, {}, given); !done) return done.error();
+            return given;
+        },
+        [](const Arranged& made) { return text_of(*made.rounded.mesh); }));
+    return stages;
+}
+
+/// Blocks in memory, or one after the other with files in a folder of their own.
+std::unique_ptr<LocalSupersteps> blocks_of(bool spools) {
+    static const Run run;
+    if (!spools)
+        return std::make_unique<LocalSupersteps>(LocalOptions{.blocks = 2, .spool = {}}, run);
+    const auto folder = scratch() / "blocks with a long name";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directory(folder);
+    return std::make_unique<LocalSupersteps>(LocalOptions{.blocks = 2, .spool = folder}, run);
+}
+
+Result<DistributedReport> arranged_in(Supersteps& blocks, bool digest) {
+    const Fixture& f = Fixture::get();
+    return arrange_in_blocks(blocks,
+                             [&f](std::size_t file) -> Result<std::vector<Surface>> {
+                                 return std::vector<Surface>{f.surfaces[file]};
+                             },
+                             {.files = f.surfaces.size(), .digest = digest});
+}
+
+std::vector<Stage> dividing() {
+    std::vector<Stage> stages;
+    for (const bool spools : {false, true})
+        stages.push_back(stage_of(
+            spools ? "arrange_in_blocks, files" : "arrange_in_blocks, memory",
+            [spools] { return blocks_of(spools); },
+            [](const std::unique_ptr<LocalSupersteps>& blocks) {
+                return arranged_in(*blocks, true);
+            },
+            [](const DistributedReport& report) { return report.digest; }));
+    stages.push_back(stage_of(
+        "repair_in_one_process",
+        [] {
+            auto blocks = blocks_of(false);
+            needed(arranged_in(*blocks, false));
+            return blocks;
+        },
+        [](const std::unique_ptr<LocalSupersteps>& blocks) {
+            return repair_in_one_process(*blocks);
+        },
+        [](const RepairedWhole& whole) { return text_of(whole.piece.mesh); }));
+    for (Stage& s : stages) s.returns_errors = false; // see distributed_arrangement.hpp
+    return stages;
+}
+
+Project uncertain_project() {
+    Project project;
+    project.source = "a project with a long name.json";
+    project.uncertainty.resize(2);
+    project.uncertainty[0].surface = "top";
+    ProjectField& field = project.uncertainty[0].field.emplace();
+    field.range = 5;
+    field.sd = 0.1;
+    project.uncertainty[1].surface = "fault";
+    project.uncertainty[1].dip = 1;
+    return project;
+}
+
+std::vector<Stage> drawing() {
+    const Fixture& f = Fixture::get();
+    static const std::vector<std::optional<Surface>> maps(2);
+    const auto given = [&f] {
+        return std::pair(uncertain_project(), BuildInput{.surfaces = f.surfaces});
+    };
+    const auto prepare = [](std::pair<Project, BuildInput> from) {
+        return Realisations::prepare(std::move(from.first), std::move(from.second), maps);
+    };
+    static const Realisations all = needed(prepare(given()));
+    std::vector<Stage> stages;
+    stages.push_back(
+        stage_of("Realisations::prepare", given, prepare,
+                 [](const Realisations& made) { return text_of(made.input_of(1, 1).surfaces); }));
+    stages.push_back(stage(
+        "Realisations::input_of", [] { return all.input_of(7, 3); },
+        [](const BuildInput& input) { return text_of(input.surfaces); }));
+    stages.push_back(stage(
+        "column_maps",
+        [&f] {
+            return column_maps(*f.mesh, f.volumes,
+                               {.x = 0, .y = 0, .width = 2, .height = 2, .columns = 4, .rows = 4});
+        },
+        [](const ColumnMaps& made) { return shown(made.thicknesses.back()); }));
+    static constexpr double contact = 4;
+    stages.push_back(stage(
+        "measure_blocks",
+        [&f] { return measure_blocks(*f.mesh, f.volumes, std::span(&contact, 1)); },
+        [](const std::vector<BlockMeasure>& made) { return shown(made.back().high); }));
+    return stages;
+}
+
+} // namespace
+
+std::vector<Stage> stages_of_scale() {
+    std::vector<Stage> stages;
+    for (const auto& part : {simplifying(), dividing(), drawing()})
+        stages.insert(stages.end(), part.begin(), part.end());
+    return stages;
+}
+
+} // namespace failing
