@@ -7,8 +7,9 @@
 Each run has old files where it writes. It gets SIGINT, SIGTERM or SIGHUP at a random time, some runs
 a second one, or it has a random limit on the size of files (SIGXFSZ). Afterwards either all outputs
 are those of an undisturbed run and the status is the same, or the status is 2, the message says why,
-and all files are the old ones; nothing else is left. A signal that comes before the program listens ends the
-process by itself; then nothing may have changed, either. --large takes larger models, too.
+and all files are the old ones; nothing else is left, but for the finished realisations of an ensemble, which it keeps.
+The process must end within a second. A signal that comes before the program listens ends the process by itself;
+then nothing may have changed, either, and it must listen soon after its start. --large takes larger models, too.
 """
 import argparse
 import hashlib
@@ -35,6 +36,12 @@ o top
 v -1 -1 5\nv 9 -1 5\nv 9 9 5\nv -1 9 5\nf 5 6 7 8
 """
 FAULT = "v 4 -1 -1\nv 4 4 -1\nv 4 4 9\nv 4 -1 9\nf 1 2 3 4\n"
+HOLED = "o holed\n" + "".join(f"v {i} {j} {0.1 * (i * j % 3)}\n" for j in range(9) for i in range(9)) + "".join(
+    f"f {a} {a + 1} {a + 10}\nf {a} {a + 10} {a + 9}\n" for j in range(8) for i in range(8)
+    if not (2 < i < 6 and 2 < j < 6) for a in (9 * j + i + 1,))
+UNCERTAIN = """{"format": "terrane-project 1", "folder": "run", "surfaces": [{"file": "in.obj", "role": "horizon"}],
+ "volume_of_interest": {"box": {"low": [0, 0, 0], "high": [8, 8, 8]}}, "outputs": {"surfaces": ["vtp"]},
+ "uncertainty": [{"surface": "top", "shift": 0.2}, {"surface": "base", "shift": 0.2}]}"""
 BOX = "--box 0,0,0,8,8,8"
 # The command line, its output files, and its output folders. Times in some files differ.
 COMMANDS = [
@@ -50,6 +57,11 @@ COMMANDS = [
     ("build project.json", (), ("out",)),
     ("layer in.obj --layer top=1 --layer base=2 -o l.obj --certificate c.json", ("l.obj", "c.json"), ()),
     ("convert in.obj x.vtp", ("x.vtp",), ()),
+    ("fill holed.obj -o f.obj --certificate c.json --points p.csv --map m.svg", ("f.obj", "c.json", "p.csv", "m.svg"), ()),
+    (f"report in.obj fault.obj {BOX} -o r.html", ("r.html",), ()),
+    ("arrange in.obj fault.obj -o a.vtp -o p.pvtp --memory 1KiB --digest", ("a.vtp", "p.pvtp"), ("p_pieces",)),
+    (f"verify proof.json {DATA}/ringmesh/modelA1.ml", (), ()),
+    ("ensemble uncertain.json --realisations 60 --engine serial", (), ("run",)),
 ]
 LARGE = [
     (f"arrange {DATA}/arch-platform/faults.ts {DATA}/arch-platform/mnt.ts -o a.vtp -o b.obj --certificate c.json",
@@ -57,7 +69,12 @@ LARGE = [
     (f"volume {DATA}/ringmesh/modelA1.ml -o model --certificate c.json", ("c.json",), ("model",)),
     (f"tetrahedralize {DATA}/ringmesh/modelA1.ml -o t.vtu -o t.msh", ("t.vtu", "t.msh"), ()),
 ]
-UNSTEADY = {"s.json", "statistics.json", "log.txt"}
+UNSTEADY = {"s.json", "statistics.json", "log.txt", "r.html", "report.html", "ensemble.json", "ensemble.h5"}
+KEPT = "run.realisations"  # for the next run of the same ensemble
+MOST_TO_END = 1.0  # seconds, after the signal
+# Seconds after which a process must have said what it does at a signal; an interpreter first loads its modules.
+MOST_TO_LISTEN = {"ensemble": 1.0}
+USUAL_TO_LISTEN = 0.25
 
 
 class Flaw(Exception):
@@ -69,6 +86,8 @@ def state(folder):
     found = {}
     for path in sorted(folder.rglob("*")):
         name = str(path.relative_to(folder))
+        if name.startswith(KEPT):
+            continue
         if path.is_dir():
             found[name] = "folder"
         elif path.name in UNSTEADY and path.stat().st_size > 3:
@@ -78,10 +97,21 @@ def state(folder):
     return found
 
 
+INPUTS = {"in.obj": HORIZONS, "fault.obj": FAULT, "project.json": PROJECT, "holed.obj": HOLED, "uncertain.json": UNCERTAIN}
+
+
+def certified(terrane):
+    """Returns a certificate of modelA1.ml and its output: what takes the verifier a while."""
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch)
+        subprocess.run([terrane, "arrange", DATA / "ringmesh/modelA1.ml", "-o", "proven.obj", "--certificate", "proof.json",
+                        "--quiet"], cwd=folder, check=True)
+        return {name: (folder / name).read_text() for name in ("proven.obj", "proof.json")}
+
+
 def prepare(folder, files):
-    (folder / "in.obj").write_text(HORIZONS)
-    (folder / "fault.obj").write_text(FAULT)
-    (folder / "project.json").write_text(PROJECT)
+    for name, text in INPUTS.items():
+        (folder / name).write_text(text)
     for name in files:
         (folder / name).write_text("old")
 
@@ -109,6 +139,16 @@ def ended(process, seconds):
     return process.returncode, said
 
 
+def listens(process, number):
+    """Whether the process says itself what it does at a signal."""
+    try:
+        text = Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")
+    except OSError:
+        return True  # it has ended
+    masks = [int(line.split()[1], 16) for line in text.splitlines() if line.startswith(("SigCgt:", "SigBlk:"))]
+    return any(mask >> (number - 1) & 1 for mask in masks) or "State:\tZ" in text
+
+
 class Command:
     """A command and what it does when nobody disturbs it."""
 
@@ -124,7 +164,7 @@ class Command:
             self.seconds = time.monotonic() - begun
             self.after = state(folder)
             self.largest = max(p.stat().st_size for p in folder.rglob("*"))
-        if self.status not in (0, 1) or self.after == self.before:
+        if self.status not in (0, 1) or ((files or folders) and self.after == self.before):
             sys.exit(f"{line}: status {self.status}: {said}")
 
     def disturbed(self, draw):
@@ -135,13 +175,24 @@ class Command:
             prepare(folder, self.files)
             limit = draw.randrange(self.largest + 1) if draw.random() < 0.2 else None
             process = start(self.terrane, self.line, folder, limit)
+            late = ""
             if limit is None:
+                begun = time.monotonic()
                 time.sleep(draw.uniform(0, 1.1 * self.seconds))
-                process.send_signal(draw.choice(SIGNALS))
+                number = draw.choice(SIGNALS)
+                waited = time.monotonic() - begun
+                if waited > MOST_TO_LISTEN.get(self.line.split()[0], USUAL_TO_LISTEN) and not listens(process, number):
+                    late = f"it does not listen to signal {number:d} after {waited:.2f} s"
+                sent = time.monotonic()
+                process.send_signal(number)
                 if draw.random() < 0.2:
                     time.sleep(draw.uniform(0, 0.05))
                     process.send_signal(draw.choice(SIGNALS))
             status, said = ended(process, 600 + 10 * self.seconds)
+            if late:
+                raise Flaw(f"{late}; it ended with status {status} and said {said.strip()[-200:]!r}")
+            if limit is None and status != self.status and time.monotonic() - sent > MOST_TO_END:
+                raise Flaw(f"it took {time.monotonic() - sent:.2f} s to end, with status {status}")
             return self.judged(status, said, limit, state(folder))
 
     def judged(self, status, said, limit, after):
@@ -159,7 +210,9 @@ class Command:
             return "ended before it listened"
         if status != 2:
             raise Flaw(f"status {status}: {said}")
-        wanted = "interrupted, nothing written" if limit is None else "File too large"
+        wanted = "File too large"
+        if limit is None:
+            wanted = "interrupted, nothing written" if self.files else "interrupted"
         if wanted not in said:
             raise Flaw(f"it did not say {wanted!r} but {said!r}")
         return "was interrupted" if limit is None else "met the limit of sizes"
@@ -174,11 +227,13 @@ def main():
     parser.add_argument("--terrane", default=ROOT / "build/release/cli/terrane", type=Path)
     parser.add_argument("--runs", type=int, default=2000)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", default="", help="only commands that begin so")
     parser.add_argument("--large", action="store_true")
     options = parser.parse_args()
     terrane = str(options.terrane.resolve())
+    INPUTS.update(certified(terrane))
     os.environ.pop("TERRANE_TETGEN", None)
-    commands = [Command(terrane, *c) for c in COMMANDS + (LARGE if options.large else [])]
+    commands = [Command(terrane, *c) for c in COMMANDS + (LARGE if options.large else []) if c[0].startswith(options.only)]
     counts, flaws = {}, 0
     try:
         for run in range(options.runs):

@@ -19,6 +19,17 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 DATA = ROOT / "tests/data"
+LAYERS = "".join(f"o {name}\nv -1 -1 {z}\nv 9 -1 {z}\nv 9 9 {z}\nv -1 9 {6 - z}\nf {a} {a + 1} {a + 2}\nf {a} {a + 2} {a + 3}\n"
+                 for name, z, a in (("top", 4, 1), ("base", 2, 5)))
+HOLED = "o holed\n" + "".join(f"v {i} {j} {0.1 * (i * j % 3)}\n" for j in range(7) for i in range(7)) + "".join(
+    f"f {a} {a + 1} {a + 8}\nf {a} {a + 8} {a + 7}\n" for j in range(6) for i in range(6)
+    if (i, j) not in ((2, 2), (3, 2), (2, 3), (3, 3)) for a in (7 * j + i + 1,))
+PROJECT = """{"format": "terrane-project 1", "folder": "out", "surfaces": [{"file": "layers.obj", "role": "horizon"}],
+ "layers": {"order": [{"surface": "top", "hardness": 1}, {"surface": "base", "hardness": 2}]},
+ "volume_of_interest": {"box": {"low": [0, 0, 0], "high": [8, 8, 8]}}, "improve": {"edge_length": 2},
+ "outputs": {"surfaces": ["vtp"], "blocks": "obj", "tetrahedra": ["vtu"]}}"""
+# What the commands below read.
+INPUTS = {"layers.obj": LAYERS, "holed.obj": HOLED, "project.json": PROJECT}
 PAGE = resource.getpagesize()
 # Each with its outputs; the folder has an old file in place of each that is no folder.
 COMMANDS = [
@@ -29,6 +40,11 @@ COMMANDS = [
     (f"improve {DATA}/ringmesh/modelA1.ml -o i.obj --max-triangles 1e6", ("i.obj",)),
     (f"check {DATA}/ringmesh/modelA1.ml", ()),
     (f"convert {DATA}/ringmesh/modelA1.ml x.vtp", ("x.vtp",)),
+    ("build project.json", ()),
+    ("fill holed.obj -o f.obj --certificate c.json", ("f.obj", "c.json")),
+    ("layer layers.obj --layer top=1 --layer base=2 -o l.obj --certificate c.json", ("l.obj", "c.json")),
+    ("verify proof.json", ()),
+    ("report layers.obj --box 0,0,0,8,8,8 -o r.html", ("r.html",)),
 ]
 
 
@@ -40,13 +56,23 @@ def run(terrane, line, files, limit):
     """Runs a command within a limit; returns its status, what it said, and whether files changed."""
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
-        for name in files:
-            (folder / name).write_text("old")
+        for name, text in {**INPUTS, **dict.fromkeys(files, "old")}.items():
+            (folder / name).write_text(text)
         before = state(folder)
         done = subprocess.run(
             [terrane, *line.split()], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, check=False,
             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)), timeout=900)
         return done.returncode, done.stderr.decode(errors="replace"), state(folder) != before
+
+
+def certified(terrane):
+    """Returns a certificate of layers.obj, and its output, for `verify`."""
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch)
+        (folder / "layers.obj").write_text(LAYERS)
+        subprocess.run([terrane, "arrange", "layers.obj", "-o", "proven.obj", "--certificate", "proof.json", "--quiet"],
+                       cwd=folder, check=True)
+        return {name: (folder / name).read_text() for name in ("proven.obj", "proof.json")}
 
 
 def least(good, low, high):
@@ -74,14 +100,20 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--terrane", default=ROOT / "build/release/cli/terrane", type=Path)
     parser.add_argument("--limits", type=int, default=100)
+    parser.add_argument("--only", default="", help="only commands that begin so")
     options = parser.parse_args()
     os.environ["LC_ALL"] = "C"
     terrane = str(options.terrane.resolve())
     most = 4 << 30
+    INPUTS.update(certified(terrane))
     starts = least(lambda limit: run(terrane, "--version", (), limit)[0] == 0, 0, most)
     flaws = 0
     for line, files in COMMANDS:
-        usual = run(terrane, line, files, most)[0]
+        if not line.startswith(options.only):
+            continue
+        usual, said, _ = run(terrane, line, files, most)
+        if usual not in (0, 1):
+            sys.exit(f"{line}: status {usual}: {said}")
         ends = least(lambda limit: run(terrane, line, files, limit)[0] == usual, starts, most)
         counts = {}
         for k in range(options.limits):
