@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 import importlib
+import io
 import json
 import math
 import os
@@ -187,7 +188,8 @@ def _write_hdf5(made: "Ensemble", path: str) -> bool:
     except ImportError:
         return False
     text = h5py.string_dtype()
-    with h5py.File(path, "w") as file:
+    contents = io.BytesIO()  # HDF5 itself crashes where the disk is full
+    with h5py.File(contents, "w") as file:
         file.attrs["format"] = "terrane-ensemble 1"
         file.attrs["seed"] = made.seed
         file.attrs["realisations"] = made.count
@@ -209,6 +211,8 @@ def _write_hdf5(made: "Ensemble", path: str) -> bool:
             group = maps.create_group(start)
             for i, (name, values) in enumerate(of.items()):
                 group.create_dataset(f"{i:03d}", data=values).attrs["name"] = name
+    with open(path, "wb") as out:
+        out.write(contents.getbuffer())
     return True
 
 
