@@ -37,9 +37,11 @@ Status check_pvtp(const fs::path& path) {
 }
 
 Status write_pvtp(Supersteps& blocks, const fs::path& path, const BlockPiece* whole) {
-    std::optional<NewFolder> folder; // in the process of the first block
+    // In the process of the last block, whose turn is the last in a process: nothing can fail after it.
+    std::optional<NewFolder> folder;
+    const auto is_last = [&](const Block& b) { return b.index + 1 == blocks.blocks(); };
     auto done = blocks.step("write", [&](Block& b, Inbox&, Outbox& out) -> Status {
-        if (b.index != 0) return Done{};
+        if (!is_last(b)) return Done{};
         auto made = NewFolder::create(folder_of_pieces(path));
         if (!made) return made.error();
         folder = std::move(*made);
@@ -59,7 +61,7 @@ Status write_pvtp(Supersteps& blocks, const fs::path& path, const BlockPiece* wh
     });
     if (!done) return done;
     return blocks.step("write", [&](Block& b, Inbox&, Outbox&) -> Status {
-        return b.index == 0 ? publish(*folder, path, blocks.blocks()) : Status(Done{});
+        return is_last(b) ? publish(*folder, path, blocks.blocks()) : Status(Done{});
     });
 }
 
