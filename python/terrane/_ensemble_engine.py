@@ -7,6 +7,7 @@ it yields does not depend on how many workers it has, nor on what happened to th
 
 from __future__ import annotations
 
+import concurrent.futures
 import contextlib
 import importlib
 import itertools
@@ -122,10 +123,14 @@ def _by_dask(engine: Engine, task: Task, numbers: List[int]) -> Iterator[Outcome
         done = distributed.as_completed(sent(_AHEAD * workers), loop=client.loop)
         for future in done:
             number = numbered.pop(future.key)
-            if future.status in ("cancelled", "lost"):
-                raise Error("cannot_open", "the scheduler is gone, or has cancelled realisations", engine.scheduler or "")
             error = future.exception() if future.status == "error" else None
-            data, seconds = future.result() if error is None else (None, 0.0)
+            try:
+                if future.status in ("cancelled", "lost"):
+                    raise ConnectionError
+                data, seconds = future.result() if error is None else (None, 0.0)
+            except (OSError, concurrent.futures.CancelledError):  # of the connection: tasks' own errors are not raised here
+                raise Error("cannot_open", "the scheduler is gone, or has cancelled realisations",
+                            engine.scheduler or "") from None
             future.release()
             for other in sent(1):
                 done.add(other)
