@@ -49,6 +49,20 @@ std::vector<Surface> star(int n) {
     return {s};
 }
 
+/// n triangles in planes through the x axis; their sides on it overlap at random.
+std::vector<Surface> collinear(int n) {
+    constexpr unsigned extent = 10'000;
+    Surface s;
+    std::mt19937 random(1);
+    for (int i = 0; i < n; ++i) {
+        const double angle = half_turn * i / n, from = pick(random, extent),
+                     to = from + 1 + pick(random, extent);
+        add(s, {from, 0, 0}, {to, 0, 0},
+            {from, extent * std::cos(angle), extent * std::sin(angle)});
+    }
+    return {s};
+}
+
 /// n coplanar triangles, each of which contains the one before.
 std::vector<Surface> nested(int n) {
     Surface s;
@@ -160,6 +174,7 @@ std::vector<Surface> copies(int n) {
 
 constexpr std::array all{
     Family{"star", 125, star},
+    Family{"collinear", 100, collinear},
     Family{"nested", 250, nested},
     Family{"crossing-stacks", 250, crossing_stacks},
     Family{"flat-lattice", 50, flat_lattice},
