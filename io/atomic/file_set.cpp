@@ -131,9 +131,9 @@ void FileSet::then(std::function<void()> tell) {
 fs::path FileSet::where(const fs::path& path) const {
     const fs::path wanted = normal(path);
     fs::path rest;
-    for (auto p = pending_.rbegin(); p != pending_.rend(); ++p)
-        if (is_inside(wanted, normal(p->target), rest))
-            return rest.empty() ? p->temporary : p->temporary / rest;
+    for (const Pending& p : pending_) // only one can have it
+        if (is_inside(wanted, normal(p.target), rest))
+            return rest.empty() ? p.temporary : p.temporary / rest;
     return path;
 }
 
