@@ -179,7 +179,7 @@ Status check_improve(const ImproveCommand& command) {
 Status simplify(const ImproveCommand& command, const Inputs& inputs, ImproveOptions& options,
                 Arranged& arranged, Session& session, Json& statistics) {
     session.begin("simplify", Phase::computing);
-    const auto done =
+    auto done =
         simplify_to(command.resolution, options,
                     {.max_rounds = command.settings.rounds, .max_move = command.settings.max_move},
                     arranged, session.run());
