@@ -60,8 +60,8 @@ struct LocalSize {
     double length = 0; ///< > 0, unit of the mesh
 };
 
-/// Bounds ImproveOptions::layers_in_gaps: gaps are looked for so many wanted lengths from each triangle,
-/// and beyond a thousand all sheets of a model are that close, so each is compared with all others.
+/// Bounds ImproveOptions::layers_in_gaps. The search for gaps compares a triangle with the sheets
+/// within so many wanted lengths of it. With more than a thousand, these are all sheets of a model.
 inline constexpr double most_layers_in_gaps = 1000;
 
 /// Options of improve(). Lengths are in the unit of the mesh, angles in degrees.

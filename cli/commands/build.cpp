@@ -57,6 +57,13 @@ struct BuildCommand {
 constexpr const char* blocks_certificate = "certificate_blocks.json";
 constexpr const char* tetrahedra_certificate = "certificate_tetrahedra.json";
 
+/// Returns the paths of the input files, one per entry of "surfaces".
+std::vector<std::string> surface_files(const Project& project) {
+    std::vector<std::string> files;
+    for (const ProjectSurfaces& entry : project.surfaces) files.push_back(entry.file.string());
+    return files;
+}
+
 /// Runs one project, from reading its file to publishing the folder of results.
 class Build {
 public:
@@ -124,7 +131,7 @@ private:
                              "a certificate is about whole files, not about some of their objects",
                              fmt::format("{}: surfaces[{}].objects", source_, i)};
         if (project_.outputs.certificate) {
-            auto certified = files();
+            auto certified = surface_files(project_);
             if (const auto* within = std::get_if<ProjectWithin>(&project_.volume))
                 for (const fs::path& file : within->files) certified.push_back(file.string());
             if (auto named =
@@ -370,13 +377,6 @@ private:
         return write_file(to / "filled.svg", map_of(*built_.preprocessed.filled));
     }
 
-    /// Returns the paths of the input files, one per entry of "surfaces".
-    [[nodiscard]] std::vector<std::string> files() const {
-        std::vector<std::string> files;
-        for (const ProjectSurfaces& entry : project_.surfaces) files.push_back(entry.file.string());
-        return files;
-    }
-
     /// Writes a certificate of the surfaces, one of the blocks and one of the tetrahedra, as far as
     /// the project asks for their files.
     Status write_certificates(const fs::path& to) {
@@ -388,15 +388,16 @@ private:
         }
         const auto path = [&](const char* name) { return (to / name).string(); };
         const auto cut = request_of_cut();
-        const ProofFiles certified{files(), outputs_in(to, "surfaces", project_.outputs.surfaces),
-                                   true, stdout, cut};
+        const ProofFiles certified{surface_files(project_),
+                                   outputs_in(to, "surfaces", project_.outputs.surfaces), true,
+                                   stdout, cut};
         if (auto done = write_certificate(
                 to, "certificate.json",
                 certificate_text(path("certificate.json"), certified, inputs_, arranged, session_));
             !done)
             return done;
         FileOptions files_of_inputs;
-        files_of_inputs.inputs = files();
+        files_of_inputs.inputs = surface_files(project_);
         const auto proof = [&](const char* name) {
             return BlockProof{path(name), files_of_inputs, inputs_, {}, arranged, cut};
         };
@@ -460,11 +461,10 @@ Result<ExitStatus> build(const BuildCommand& command) {
     if (!project) return project.error();
     if (!command.folder.empty()) project->folder = command.folder;
     if (auto sound = check_project_files(*command.page.app, *project); !sound) return sound.error();
-    project.value().check = command.check;
-    session.use_threads(command.threads.value_or(project.value().threads));
+    project->check = command.check;
+    session.use_threads(command.threads.value_or(project->threads));
     FileOptions page_files = command.page;
-    for (const ProjectSurfaces& entry : project.value().surfaces)
-        page_files.inputs.push_back(entry.file.string());
+    page_files.inputs = surface_files(*project);
     auto page = plan_page(page_files);
     if (!page) return page.error();
     return Build(project.value(), command, std::move(*page), std::move(page_files), session)();

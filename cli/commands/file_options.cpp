@@ -67,8 +67,8 @@ bool names_file(const CLI::Option& option, const std::string& value) {
     return names_file(option) || (option.get_type_name() == "POLYGON" && is_polygon_file(value));
 }
 
-/// Tells whether a path is the file that the program has as this standard stream. The null device is
-/// none: nothing gets lost there.
+/// Tells whether a path names the file that is open as this standard stream. The null device does not
+/// count, since nothing can be lost in it.
 bool is_stream(const fs::path& path, int stream) {
     struct stat named {
     }, open{};

@@ -15,9 +15,8 @@ void add_max_move(CLI::App& command, std::optional<double>& max_move) {
                 max_move = length;
             },
             "No surface moves farther while exact points become doubles, but for slivers that "
-            "vanish; "
-            "what then still meets improperly is refused and named; in the unit of the files "
-            "(default: 1024 spacings of the doubles at the largest coordinate)")
+            "vanish; what then still meets improperly is refused and named; in the unit of the "
+            "files (default: 1024 spacings of the doubles at the largest coordinate)")
         ->type_name("LENGTH");
 }
 

@@ -38,8 +38,8 @@ void tell_when_written(std::FILE* stream, std::string text);
 /// Says that a file was written, when it has its name; nothing of standard output.
 void say_written(std::FILE* stream, const std::string& path);
 
-/// Writes text that was asked for, with the colours of its marks (styles.hpp) where the stream has
-/// colours. finish() reports a failure to write.
+/// Writes a result of the command. Marks in the text (styles.hpp) become colours where the stream
+/// has colours. finish() reports a failure to write.
 void print(std::FILE* stream, std::string_view text);
 
 /// Writes what nobody asked for: summaries, and names of files that were written. Nothing with

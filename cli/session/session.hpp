@@ -18,9 +18,9 @@
 
 namespace terrane::cli {
 
-/// Phases of a command, each with its own answer to an interrupt (Ctrl-C, SIGTERM, SIGHUP). Other
-/// signals that end a program do so after its temporary files are removed. No file
-/// has its name before the session is over, so nothing is written when the program ends in one.
+/// The phases of a command. They differ in what an interrupt (Ctrl-C, SIGTERM, SIGHUP) does. Other
+/// signals end the program after it has removed its temporary files. Files get their names after the
+/// session, so a program that ends in a phase has written nothing.
 enum class Phase {
     idle,      ///< reading, or writing to a pipe: the program ends at once
     computing, ///< the stage is asked to stop; if it has not soon, or at a second interrupt, the
@@ -40,7 +40,7 @@ public:
     Session& operator=(const Session&) = delete;
 
     [[nodiscard]] const Run& run() const { return run_; }
-    /// Changes the number of threads, where it is read after the session began; 0: all cores.
+    /// Sets the number of threads of stages that begin later; 0: all cores.
     void use_threads(unsigned threads);
     /// How long the stages took that have ended.
     [[nodiscard]] const StageTimes& times() const { return times_; }

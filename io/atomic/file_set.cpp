@@ -66,6 +66,12 @@ bool is_inside(const fs::path& path, const fs::path& folder, fs::path& rest) {
     return true;
 }
 
+/// Tells whether two paths without links are equal, or one of them is in the folder that the other is.
+bool is_one_in_other(const fs::path& a, const fs::path& b) {
+    fs::path rest;
+    return is_inside(a, b, rest) || is_inside(b, a, rest);
+}
+
 /// Removes a folder and what is in it, without operator new: memory may be what is lacking.
 void remove_folder(int above, const char* name) noexcept {
     const int folder = ::openat(above, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
@@ -100,10 +106,8 @@ FileSet* FileSet::current() {
 
 Status FileSet::add(fs::path temporary, fs::path target) {
     fs::path place = without_links(target);
-    fs::path rest;
-    const auto meets = [&](const fs::path& other) { // of hundreds of files, so only by their names
-        return is_inside(place, other, rest) || is_inside(other, place, rest);
-    };
+    // A run can add hundreds of files, so they are compared by their names only.
+    const auto meets = [&](const fs::path& other) { return is_one_in_other(place, other); };
     if (can_be_replaced(target)) {
         for (const Pending& p : pending_)
             if (meets(p.place))
@@ -131,7 +135,7 @@ void FileSet::then(std::function<void()> tell) {
 fs::path FileSet::where(const fs::path& path) const {
     const fs::path wanted = normal(path);
     fs::path rest;
-    for (const Pending& p : pending_) // only one can have it
+    for (const Pending& p : pending_) // add() lets no two of them have the path
         if (is_inside(wanted, normal(p.target), rest))
             return rest.empty() ? p.temporary : p.temporary / rest;
     return path;
@@ -180,9 +184,7 @@ bool are_same(const fs::path& a, const fs::path& b) {
 bool overlap(const fs::path& a, const fs::path& b) {
     if (are_same(a, b)) return true;
     if (!can_be_replaced(a) || !can_be_replaced(b)) return false;
-    const fs::path first = without_links(a), second = without_links(b);
-    fs::path rest;
-    return is_inside(first, second, rest) || is_inside(second, first, rest);
+    return is_one_in_other(without_links(a), without_links(b));
 }
 
 void forget_temporary(const fs::path& path) {

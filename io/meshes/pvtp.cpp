@@ -321,8 +321,10 @@ std::string name_of_piece(const fs::path& path, std::size_t piece) {
 }
 
 Result<Mesh> read_pvtp(const fs::path& path) {
-    return guard_memory(
-        "", [&] { return guard_memory(path.string(), [&] { return join_pieces(path); }); });
+    const auto join = [&] {
+        return guard_memory(path.string(), [&] { return join_pieces(path); });
+    };
+    return guard_memory("", join); // the name of the place takes memory, too
 }
 
 } // namespace terrane

@@ -23,7 +23,7 @@ namespace {
 using namespace terrane;
 namespace fs = std::filesystem;
 
-/// Texts of formats that are only read, by the names of the formats.
+/// Returns a text in each format that the library reads and does not write, after the name of the format.
 std::vector<std::pair<std::string, std::string>> only_read() {
     return {{"irap", "-996 2 1 1\n0 2 0 1\n3 0 0 0\n0 0 0 0 0 0 0\n1 2 3 4 9999900 6\n"},
             {"zmap",

@@ -176,7 +176,7 @@ private:
             member_of.resize(boxes.size(), m);
             crowds.resize(boxes.size(), fan_of_[m]);
         }
-        // Two arcs overlap in many boxes: only the first pair of boxes is taken.
+        // The boxes of two arcs can overlap in many pairs. The first of these stands for all.
         const auto is_first = [&](const CandidatePair& pair) {
             const std::uint32_t a = member_of[pair.first], b = member_of[pair.second];
             if (a == b) return false;
