@@ -151,7 +151,7 @@ STAGES = {  # the stage, and what makes its argument
     "verify": (terrane.verify, lambda: terrane.arrange(stacked(N // 2))),
     "locate": (lambda m, threads: m.block_of(np.full((100_000 if SANITIZED else 1_000_000, 3), 1.01), threads=threads),
                lambda: terrane.model(stack(), box=BOX)),
-    "tetrahedralize": (lambda m, threads: terrane.tetrahedralize(m, edge_length=1.0, threads=threads),
+    "tetrahedralize": (lambda m, threads: terrane.tetrahedralize(m, edge_length=None if SANITIZED else 1.5, threads=threads),
                        lambda: terrane.model(stack(), box=BOX)),
 }
 

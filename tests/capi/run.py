@@ -43,7 +43,8 @@ def prepare_certificates(options, folder):
             ("cut", "cut.off", ("arrange", *three, *box)),
             ("sealed", "sealed.stl", ("arrange", *three, "--seal", "20")),
             ("volumes", "volumes", ("volume", *three, *box)),
-            ("tetrahedra", "tetrahedra.vtu", ("tetrahedralize", *three, *box, "--blocks-only", "--mesher", "tetgen")),
+            ("tetrahedra", "tetrahedra.vtu", ("tetrahedralize", *three, *box, "--blocks-only", "--mesher", "tetgen",
+                            "--no-optimise")),
             ("filled", "filled.vtp", ("fill", "holed.obj")),
             ("layered", "layered.vtp", ("layer", "salt.ts", "shale.ts", "--layer", "shale=1", "--layer", "salt=2"))):
         if kind == "tetrahedra" and not options.tetrahedra:

@@ -280,6 +280,7 @@ static void test_blocks(void) {
     terrane_tetrahedra_options options;
     CHECK(terrane_tetrahedra_options_init(&options, sizeof options) == TERRANE_OK);
     options.skip_outside = 1;
+    options.keep_shapes = 1; // as in run.py
     options.helper = TERRANE_TETGEN_HELPER;
     WORKS(terrane_tetrahedralize(model, &options, NULL, &tetrahedra, &error));
     s.certified.tetrahedra = tetrahedra;
