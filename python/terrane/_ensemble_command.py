@@ -11,6 +11,7 @@ import signal
 import sys
 import threading
 import time
+import warnings
 from typing import Any, Callable, List, NoReturn, Optional, Tuple
 
 from . import _core
@@ -95,6 +96,14 @@ def _fail(arguments: Any, text: str) -> None:
     print(start, _visible(text), file=sys.stderr)
 
 
+def _say_warnings() -> None:
+    """Print warnings as the program does, without the lines of Python that gave them."""
+    def show(message: Any, *_: Any) -> None:
+        print("terrane: warning:", _visible(str(message)), file=sys.stderr)
+
+    setattr(warnings, "showwarning", show)
+
+
 def _folder_of(arguments: Any) -> str:
     if arguments.output:
         return str(arguments.output)
@@ -164,8 +173,7 @@ def _all(arguments: Any, folder: str) -> int:
         print(f"computed {computed} of them in {seconds:.1f} s")
         _print(f"wrote {folder}:\n" + "\n".join("  " + n for n in names))
     if "ensemble.h5" not in names:
-        print("terrane: warning: ensemble.h5 is left out: the Python module h5py is missing; install python3-h5py",
-              file=sys.stderr)
+        warnings.warn("ensemble.h5 is left out: the Python module h5py is missing; install python3-h5py")
     for failure in made.failures:
         _fail(arguments, f"realisation {failure.number} can't be built: {failure.reason}")
     return _NEGATIVE if made.failures else 0
@@ -212,6 +220,7 @@ def main(given: List[str]) -> int:
     """Run the command; return its exit status."""
     arguments = _parser().parse_args(given)
     _core.keep_freed_memory()  # as the program terrane does
+    _say_warnings()
     logging.disable(logging.CRITICAL)  # Dask logs tracebacks of errors that are also raised
     # After an interrupt, a process of Python's removes what killed workers have left, and says so.
     os.environ["PYTHONWARNINGS"] = ",".join(

@@ -15,8 +15,10 @@ import multiprocessing
 import shutil
 import signal
 import tempfile
+import warnings
 from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
+from . import _core
 from ._ensemble_work import Task, run_one
 from ._errors import Error
 
@@ -103,6 +105,8 @@ def _by_dask(engine: Engine, task: Task, numbers: List[int]) -> Iterator[Outcome
     distributed = _module("distributed", "python3-distributed", "engine")
     with contextlib.ExitStack() as stack:
         client = _client(distributed, engine, task, stack)
+        if engine.scheduler:
+            _check_workers(client, engine.scheduler)
         workers = max(1, len(client.scheduler_info()["workers"]), engine.workers if not engine.scheduler else 1)
         waiting = iter(numbers)
 
@@ -129,8 +133,7 @@ def _by_dask(engine: Engine, task: Task, numbers: List[int]) -> Iterator[Outcome
                     raise ConnectionError
                 data, seconds = future.result() if error is None else (None, 0.0)
             except (OSError, concurrent.futures.CancelledError):  # of the connection: tasks' own errors are not raised here
-                raise Error("cannot_open", "the scheduler is gone, or has cancelled realisations",
-                            engine.scheduler or "") from None
+                raise _scheduler_is_gone(engine.scheduler or "") from None
             future.release()
             for other in sent(1):
                 done.add(other)
@@ -154,6 +157,33 @@ def _client(distributed: Any, engine: Engine, task: Task, stack: contextlib.Exit
             n_workers=engine.workers, threads_per_worker=1, processes=True, memory_limit=0, local_directory=folder,
             dashboard_address=engine.dashboard or "127.0.0.1:0", silence_logs=50))
         return stack.enter_context(distributed.Client(cluster, set_as_default=False))
+
+
+def _scheduler_is_gone(scheduler: str) -> Error:
+    return Error("cannot_open", "the scheduler is gone, or has cancelled realisations", scheduler)
+
+
+def _check_workers(client: Any, scheduler: str) -> None:
+    """See that the workers of a scheduler have this version of the package: else each realisation would fail."""
+
+    def version() -> str:  # Dask sends this function itself, as workers may not have this module
+        import terrane
+        return terrane.__version__
+
+    try:
+        found = client.run(version, on_error="return")
+    except (OSError, concurrent.futures.CancelledError):
+        raise _scheduler_is_gone(scheduler) from None
+    if not found:  # it may start some when there is work
+        warnings.warn(f"{scheduler}: the scheduler has no workers yet; realisations wait for them", RuntimeWarning,
+                      stacklevel=2)
+    for worker, answer in sorted(found.items()):
+        if isinstance(answer, ImportError):
+            raise Error("unsupported", f"the worker {worker} cannot import the Python package terrane: {answer}", scheduler)
+        if isinstance(answer, str) and answer != str(_core.version):
+            raise Error("unsupported", f"the worker {worker} has terrane {answer}, this is {_core.version}; all need the "
+                        "same version", scheduler)
+        # Other answers are of workers that are gone.
 
 
 def abandon() -> None:

@@ -89,14 +89,21 @@ def test_one_and_two_workers_and_a_killed_one_give_the_same():
     assert killed and not killed[0].is_running()
 
 
-def start_scheduler(workers):
-    """Start a scheduler and workers as a cluster has them; return the processes, the scheduler first."""
-    def start(command, *options):
-        return subprocess.Popen([sys.executable, "-m", f"distributed.cli.{command}", *options, "--no-dashboard",
-                                 "--scheduler-file", "scheduler.json"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+def start_of_cluster(command, *options, packages=None):
+    """Start a scheduler or a worker as a cluster has them; `packages` is where it looks for Python packages."""
+    return subprocess.Popen([sys.executable, "-m", f"distributed.cli.{command}", *options, "--no-dashboard",
+                             "--scheduler-file", "scheduler.json"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                            env={**os.environ, **({"PYTHONPATH": packages} if packages else {})})
 
-    return [start("dask_scheduler", "--host", "127.0.0.1", "--port", "0")] + [
-        start("dask_worker", "--nthreads", "1", "--no-nanny") for _ in range(workers)]
+
+def start_worker(packages=None):
+    return start_of_cluster("dask_worker", "--nthreads", "1", "--no-nanny", packages=packages)
+
+
+def start_scheduler(workers, packages=None):
+    """Return the processes, the scheduler first."""
+    scheduler = start_of_cluster("dask_scheduler", "--host", "127.0.0.1", "--port", "0")
+    return [scheduler] + [start_worker(packages) for _ in range(workers)]
 
 
 def scheduler_s_address():
@@ -107,6 +114,12 @@ def scheduler_s_address():
         except (OSError, ValueError):
             time.sleep(0.05)
     raise AssertionError("the scheduler has written no address")
+
+
+def wait_for_worker(address):
+    import distributed
+    with distributed.Client(address, set_as_default=False) as client:
+        client.wait_for_workers(1, timeout=60)
 
 
 def wait_for_realisations(folder, count):
@@ -163,6 +176,46 @@ def test_a_scheduler_that_does_not_answer_or_ends_is_an_error():
     kept = len(list(pathlib.Path(".").glob("run.realisations/*/*.npz")))
     status, out, err = run_program("ensemble", "p.json", "-o", "run", "--realisations", "60", "--engine", "serial")
     assert (status, err) == (0, "") and f"computed {60 - kept} of" in out
+
+
+@needs_dask
+def test_workers_without_this_version_are_an_error_before_the_first_realisation():
+    write_stack()
+    os.makedirs("empty")
+    os.makedirs("other/terrane")
+    pathlib.Path("other/terrane/__init__.py").write_text('__version__ = "0.0.1"\n')
+    for packages, words in (("empty", "cannot import the Python package terrane: No module named 'terrane'"),
+                            ("other", f"has terrane 0.0.1, this is {terrane.__version__}; all need the same version")):
+        processes = start_scheduler(1, os.path.abspath(packages))
+        try:
+            address = scheduler_s_address()
+            wait_for_worker(address)
+            status, out, err = run_program("ensemble", "p.json", "-o", "run", "--realisations", "3", "--scheduler", address)
+        finally:
+            for p in processes:
+                p.kill()
+            os.remove("scheduler.json")
+        assert (status, out) == (2, "")
+        assert re.fullmatch(rf"terrane: {address}: the worker tcp://\S+ {re.escape(words)}\n", err), err
+        assert not os.path.exists("run")
+
+
+@needs_dask
+def test_a_scheduler_without_workers_is_waited_for_with_a_warning():
+    write_stack()
+    processes = start_scheduler(0)
+    try:
+        address = scheduler_s_address()
+        running = subprocess.Popen([PROGRAM, "ensemble", "p.json", "-o", "run", "--realisations", "3", "--scheduler", address],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        line = running.stderr.readline()
+        assert line == f"terrane: warning: {address}: the scheduler has no workers yet; realisations wait for them\n"
+        processes.append(start_worker())
+        out, err = running.communicate(timeout=60)
+    finally:
+        for p in processes:
+            p.kill()
+    assert (running.returncode, err) == (0, "") and out.startswith("3 realisations, seed 1: all built\n")
 
 
 def test_a_stopped_call_goes_on_from_what_is_kept(monkeypatch):
