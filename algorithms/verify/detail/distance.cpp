@@ -129,6 +129,8 @@ struct Stop {
 constexpr std::uint32_t no_corner = UINT32_MAX;
 
 class NearSegment {
+    using Triangles = std::vector<Triangle>;
+
 public:
     NearSegment(const std::array<const Vector4*, 2>& segment, std::span<const Vector4> points,
                 std::span<const Triangle> triangles, const mpz_class& bound) :
@@ -164,29 +166,53 @@ private:
         return stops;
     }
 
-    [[nodiscard]] Vector4 point_at(const Stop& stop) const {
+    /// The point at the fraction above / (length * 2^halvings) of the way.
+    [[nodiscard]] Vector4 point_at(const mpz_class& above, unsigned halvings) const {
+        const mpz_class whole = length_ << halvings;
         Vector4 point;
-        for (std::size_t i = 0; i < 3; ++i) point[i] = start_[i] * length_ + along_[i] * stop.above;
-        point[3] = length_;
+        for (std::size_t i = 0; i < 3; ++i) point[i] = start_[i] * whole + along_[i] * above;
+        point[3] = whole;
         return point;
+    }
+
+    [[nodiscard]] bool is_near(const Vector4& point, const Triangle& t) const {
+        return within(point, {&points_[t[0]], &points_[t[1]], &points_[t[2]]}, bound_);
     }
 
     [[nodiscard]] bool piece_is_near(const Stop& from, const Stop& to) const {
         if (from.above == to.above) return true;
-        const Vector4 first = point_at(from), last = point_at(to);
-        const auto near = [&](const Triangle& t) {
-            const std::array<const Vector4*, 3> corners{&points_[t[0]], &points_[t[1]],
-                                                        &points_[t[2]]};
-            return within(first, corners, bound_) && within(last, corners, bound_);
-        };
+        const Vector4 first = point_at(from.above, 0), last = point_at(to.above, 0);
         const auto at_stop = [&](const Triangle& t) {
             return std::ranges::any_of(
                 t, [&](std::uint32_t v) { return v == from.corner || v == to.corner; });
         };
         for (const bool beside : {true, false}) // mostly a triangle at one of the stops will do
             for (const Triangle& t : triangles_)
-                if (at_stop(t) == beside && near(t)) return true;
-        return false;
+                if (at_stop(t) == beside && is_near(first, t) && is_near(last, t)) return true;
+        return is_near_by_halves(from.above, to.above, 0);
+    }
+
+    /// Whether a piece that is not near one triangle is near several, one after the other. Both ends
+    /// of each half must be near one triangle, so halving goes on at the place where the next one
+    /// takes over, until both are near there.
+    [[nodiscard]] bool is_near_by_halves(const mpz_class& from, const mpz_class& to,
+                                         unsigned halvings) const {
+        constexpr unsigned most_halvings = 64; // bounds are doubles, with a slack of some spacings
+        if (halvings == most_halvings) return false;
+        const mpz_class first = 2 * from, middle = from + to, last = 2 * to;
+        const Vector4 point = point_at(middle, halvings + 1);
+        Triangles near;
+        for (const Triangle& t : triangles_)
+            if (is_near(point, t)) near.push_back(t);
+        if (near.empty()) return false;
+        const auto half_is_near = [&](const mpz_class& a, const mpz_class& b,
+                                      const mpz_class& end) {
+            const Vector4 other = point_at(end, halvings + 1);
+            return std::ranges::any_of(near,
+                                       [&](const Triangle& t) { return is_near(other, t); }) ||
+                   is_near_by_halves(a, b, halvings + 1);
+        };
+        return half_is_near(first, middle, first) && half_is_near(middle, last, last);
     }
 
     const Vector4& start_;

@@ -58,7 +58,8 @@ bool within(const Vector4& point, const std::array<const Vector4*, 3>& triangle,
 
 /// Tells whether each point of a segment is shown to be at most `bound` away from some triangle.
 /// The distance to one triangle is convex, so a piece of the segment is near it if both its ends
-/// are. The segment is divided at the corners of triangles that are near it.
+/// are. The segment is divided at the corners of triangles that are near it, and pieces are halved
+/// where one triangle takes over from another.
 /// Precondition: all points have w = 1, and the ends of the segment differ.
 bool segment_is_near(const std::array<const Vector4*, 2>& segment, std::span<const Vector4> points,
                      std::span<const Triangle> triangles, const mpz_class& bound);

@@ -63,3 +63,23 @@ TEST_CASE("verifier: distance to a triangle, compared with a fine grid of its po
         if (below >= 0) CHECK_FALSE(within(p, {&a, &b, &c}, mpz_class(below)));
     }
 }
+
+TEST_CASE("verifier: a segment near triangles, one after the other") {
+    const std::vector<Vector4> points{point(0, 0, 0),   point(-9, 0, 0),  point(-9, 9, 0),   // 0
+                                      point(100, 0, 0), point(109, 0, 0), point(109, 9, 0),  // 3
+                                      point(50, 31, 0), point(50, 40, 0), point(51, 40, 0)}; // 6
+    const Vector4 start = point(0, 0, 0), end = point(100, 0, 0);
+    const auto is_near = [&](const std::vector<Triangle>& triangles, int bound) {
+        return segment_is_near({&start, &end}, points, triangles, bound);
+    };
+    const Triangle left{0, 1, 2}, right{3, 4, 5}, middle{6, 7, 8};
+    CHECK(is_near({left, right}, 50)); // the middle is just so far from both
+    CHECK_FALSE(is_near({left, right}, 49));
+    CHECK_FALSE(is_near({left}, 99));
+    CHECK(is_near({left}, 100));
+    // With 35, the left one is near up to 35, and the middle one from 50 - sqrt(35^2 - 31^2) = 33.8
+    // on; with 34, up to 34 and from 36.04 on.
+    CHECK(is_near({left, middle, right}, 35));
+    CHECK_FALSE(is_near({left, middle, right}, 34));
+    CHECK_FALSE(is_near({left, middle}, 50));
+}
