@@ -82,7 +82,8 @@ public:
     };
 
     /// Of the last face, until the next call: its triangles with their neighbours, the point of
-    /// each Local, and the edges on each segment, along it. The edges are kept for framed faces.
+    /// each Local, and the edges on each segment, along it (segments in any order). The edges are kept for framed
+    /// faces.
     [[nodiscard]] std::span<const Cell> cells() const { return cells_; }
     [[nodiscard]] std::span<const PointIndex> points() const { return points_; }
     [[nodiscard]] std::span<const SegmentEdge> segment_edges() const { return segment_edges_; }
@@ -108,6 +109,7 @@ private:
     [[nodiscard]] bool on_one_line(Local a, Local b, Local c) const;
     void insert_edge_points(const FaceInput& face);
     void insert_inner_points(const FaceInput& face);
+    void order_segments();
     void insert_segment(std::uint32_t segment);
     bool advance(Local u, Local v, Local& reached);
     void collect_crossed(Local u, Local v, Side first, Local& reached);
@@ -143,10 +145,11 @@ private:
     const Frame* frame_ = nullptr;
     std::span<const std::uint32_t> rank_;
     Axis axis_ = Axis::z;
-    std::vector<PointIndex> points_;        ///< corners, edge points, inner points as inserted
-    std::vector<ApproximatePoint> flat_;    ///< per point, in the projection
-    std::vector<Local> slots_;              ///< open addressing: points by hash of their index
-    std::vector<Segment> segments_;         ///< those of the face, as local points
+    std::vector<PointIndex> points_;           ///< corners, edge points, inner points as inserted
+    std::vector<ApproximatePoint> flat_;       ///< per point, in the projection
+    std::vector<Local> slots_;                 ///< open addressing: points by hash of their index
+    std::vector<Segment> segments_;            ///< those of the face, as local points
+    std::vector<std::uint32_t> segment_order_; ///< in which they are inserted
     std::vector<std::uint32_t> first_line_; ///< per point, and the end: its first entry in lines_
     std::vector<std::uint32_t> lines_;
     std::vector<std::uint32_t> line_end_; ///< per point, while lines_ is filled: the next entry

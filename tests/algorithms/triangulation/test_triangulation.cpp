@@ -268,7 +268,8 @@ void for_faces(std::uint64_t seed, int count, const Visit& visit) {
     for (int i = 0; i < cases(count); ++i) {
         const Sheet sheet(random, random_int(random, 3, i % 50 == 0 ? 16 : 8));
         const int percent = std::array{15, 40, 100}[static_cast<std::size_t>(i % 3)];
-        visit(random, sheet, random_face(random, sheet, percent, random_int(random, 0, 40)));
+        const int segments = random_int(random, 0, i % 20 == 0 ? 400 : 40);
+        visit(random, sheet, random_face(random, sheet, percent, segments));
     }
 }
 
