@@ -45,9 +45,10 @@ public:
         for (std::size_t e = 0; e < adjacency.edges.size(); ++e) {
             const auto sides = adjacency.triangles_at[e];
             while (stop != stops_.end() && *stop < adjacency.edges[e]) ++stop;
-            if (stop != stops_.end() && *stop == adjacency.edges[e])
+            if (stop != stops_.end() && *stop == adjacency.edges[e]) {
                 at_stop_.push_back(sides);
-            else if (sides.size() == 2)
+                edge_of_stop_.push_back(*stop);
+            } else if (sides.size() == 2)
                 join(sides[0], sides[1]);
         }
     }
@@ -169,42 +170,116 @@ private:
             }));
     }
 
+    /// Lists the regions at a stop, ascending.
+    void find_regions_at(std::size_t stop, const Regions& out,
+                         std::vector<std::uint32_t>& here) const {
+        here.clear();
+        for (const std::uint32_t t : at_stop_[stop]) {
+            const auto regions = out.regions_of[t];
+            here.insert(here.end(), regions.begin(), regions.end());
+        }
+        sort_unique(here);
+    }
+
+    static constexpr std::size_t few = 4;
+    [[nodiscard]] bool is_crowded(std::size_t stop) const {
+        std::size_t regions = 0;
+        for (const std::uint32_t t : at_stop_[stop]) regions += surfaces_of_[t].size();
+        return regions > few;
+    }
+
+    /// A stop where more than a few regions meet.
+    struct CrowdedStop {
+        std::uint32_t stop;
+        std::uint32_t before; ///< one that is listed before and shares a vertex, or no_index
+    };
+
+    /// Lists the crowded stops along the curves that they form.
+    [[nodiscard]] std::vector<CrowdedStop> crowded_stops() const {
+        std::vector<std::array<std::uint32_t, 2>> at_vertex; // {vertex, stop}
+        for (std::uint32_t e = 0; e < at_stop_.size(); ++e)
+            if (is_crowded(e))
+                for (const std::uint32_t v : edge_of_stop_[e]) at_vertex.push_back({v, e});
+        std::sort(at_vertex.begin(), at_vertex.end());
+        std::vector<CrowdedStop> list;
+        std::vector<bool> listed(at_stop_.size(), false);
+        const auto append = [&](std::uint32_t stop, std::uint32_t before) {
+            if (!listed[stop]) list.push_back({stop, before});
+            listed[stop] = true;
+        };
+        std::vector<bool> visited(at_vertex.size(),
+                                  false); // entries that are the first of a vertex
+        for (const auto& [vertex, stop] : at_vertex) {
+            const std::size_t first = list.size();
+            append(stop, no_index);
+            for (std::size_t k = first; k < list.size(); ++k)
+                for (const std::uint32_t v : edge_of_stop_[list[k].stop]) {
+                    auto at = std::lower_bound(at_vertex.begin(), at_vertex.end(),
+                                               std::array{v, std::uint32_t{0}});
+                    const auto entry = static_cast<std::size_t>(at - at_vertex.begin());
+                    if (visited[entry]) continue;
+                    visited[entry] = true;
+                    for (; at != at_vertex.end() && (*at)[0] == v; ++at)
+                        append((*at)[1], list[k].stop);
+                }
+        }
+        return list;
+    }
+
     /// Calls visit(r, q) for all pairs of regions that meet at a stop; a pair may be repeated.
     template <class Visit>
-    void for_neighbours(const Regions& out, const Visit& visit) const {
+    void for_neighbours(const Regions& out, std::span<const CrowdedStop> crowded,
+                        const Visit& visit) const {
         // Along a curve the same few regions meet at each edge; sets that were seen last are
         // skipped.
-        std::array<std::array<std::uint32_t, 4>, 256> seen{};
-        std::set<std::vector<std::uint32_t>> seen_large; // where many surfaces coincide
+        std::array<std::array<std::uint32_t, few>, 256> seen{};
         std::vector<std::uint32_t> here;
         for (std::size_t e = 0; e < at_stop_.size(); ++e) {
-            here.clear();
-            for (const std::uint32_t t : at_stop_[e]) {
-                const auto regions = out.regions_of[t];
-                here.insert(here.end(), regions.begin(), regions.end());
-            }
-            sort_unique(here);
-            std::array<std::uint32_t, 4> key{no_index, no_index, no_index, no_index};
-            if (here.size() <= key.size()) {
-                std::copy(here.begin(), here.end(), key.begin());
-                auto& last = seen[(key[0] * 31 + key[1] * 7 + key[2] * 3 + key[3]) % seen.size()];
-                if (last == key) continue;
-                last = key;
-            } else if (!seen_large.insert(here).second) {
-                continue;
-            }
+            if (is_crowded(e)) continue;
+            find_regions_at(e, out, here);
+            std::array<std::uint32_t, few> key{no_index, no_index, no_index, no_index};
+            std::copy(here.begin(), here.end(), key.begin());
+            auto& last = seen[(key[0] * 31 + key[1] * 7 + key[2] * 3 + key[3]) % seen.size()];
+            if (last == key) continue;
+            last = key;
             for (const std::uint32_t r : here)
                 for (const std::uint32_t q : here)
                     if (q != r) visit(r, q);
         }
+        // Along a line where many surfaces coincide, few begin or end at a vertex. Only their pairs
+        // are new: all pairs at all edges of the line are far more than there are neighbours.
+        std::set<std::vector<std::uint32_t>> seen_first; // of different curves
+        std::vector<std::uint32_t> before, fresh, old;
+        for (const CrowdedStop& stop : crowded) {
+            find_regions_at(stop.stop, out, here);
+            before.clear();
+            if (stop.before != no_index)
+                find_regions_at(stop.before, out, before);
+            else if (!seen_first.insert(here).second)
+                continue;
+            fresh.clear();
+            old.clear();
+            std::ranges::set_difference(here, before, std::back_inserter(fresh));
+            std::ranges::set_intersection(here, before, std::back_inserter(old));
+            for (const std::uint32_t r : fresh) {
+                for (const std::uint32_t q : fresh)
+                    if (q != r) visit(r, q);
+                for (const std::uint32_t q : old) {
+                    visit(r, q);
+                    visit(q, r);
+                }
+            }
+        }
     }
 
     void find_neighbours(Regions& out) const {
+        const auto crowded = crowded_stops();
         std::vector<std::size_t> end(out.regions.size() + 1, 0); // the count of r is at r + 1
-        for_neighbours(out, [&](std::uint32_t r, std::uint32_t) { ++end[r + 1]; });
+        for_neighbours(out, crowded, [&](std::uint32_t r, std::uint32_t) { ++end[r + 1]; });
         std::partial_sum(end.begin(), end.end(), end.begin());
         std::vector<std::uint32_t> found(end.back());
-        for_neighbours(out, [&](std::uint32_t r, std::uint32_t q) { found[end[r]++] = q; });
+        for_neighbours(out, crowded,
+                       [&](std::uint32_t r, std::uint32_t q) { found[end[r]++] = q; });
         for_ranges(out.regions.size(), run_, [&](std::size_t first, std::size_t last) {
             for (std::size_t r = first; r < last; ++r) {
                 const auto at = [&](std::size_t k) {
@@ -223,6 +298,7 @@ private:
     const Run& run_;
     DisjointSets sets_;
     IndexLists<std::uint32_t> at_stop_; ///< per stop: its triangles
+    std::vector<Edge> edge_of_stop_;
 };
 
 } // namespace

@@ -2,6 +2,8 @@
 //
 // Tests the regions of models for which they are known.
 #include "support/claim.hpp"
+#include "support/effort.hpp"
+#include "support/points.hpp"
 #include "support/rounded.hpp"
 #include "support/shapes.hpp"
 
@@ -11,6 +13,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 namespace {
 
@@ -91,6 +95,31 @@ void check_order(const Regions& r) {
               std::pair{region.surface, region.first_triangle});
     }
     CHECK(slots == r.regions_of.values.size());
+}
+
+/// Returns the neighbours of each region by the sentence in the header: those that share an
+/// intersection edge with it.
+std::vector<std::set<std::uint32_t>> neighbours_by_edges(const Arrangement& a, const Regions& r) {
+    std::map<Edge, std::set<std::uint32_t>> at_edge;
+    for (std::size_t t = 0; t < a.triangles.size(); ++t)
+        for (unsigned i = 0; i < 3; ++i) {
+            const auto [low, high] = std::minmax(a.triangles[t][i], a.triangles[t][(i + 1) % 3]);
+            at_edge[{low, high}].insert(r.regions_of[t].begin(), r.regions_of[t].end());
+        }
+    std::vector<std::set<std::uint32_t>> neighbours(r.regions.size());
+    for (const Edge& e : a.intersection_edges)
+        for (const std::uint32_t q : at_edge.at(e))
+            for (const std::uint32_t p : at_edge.at(e))
+                if (p != q) neighbours[p].insert(q);
+    return neighbours;
+}
+
+void check_neighbours(const std::vector<Surface>& surfaces) {
+    const Regions r = regions(surfaces);
+    check_order(r);
+    const auto expected = neighbours_by_edges(arranged(surfaces), r);
+    for (std::size_t i = 0; i < r.regions.size(); ++i)
+        REQUIRE(std::ranges::equal(r.regions[i].neighbours, expected[i]));
 }
 
 } // namespace
@@ -177,4 +206,29 @@ TEST_CASE("regions: numbers do not depend on the run") {
     const std::vector<Surface> model{horizon(), wall(1.5, -1, 1.5, 5), wall(-1, 0.5, 5, 0.5)};
     const Regions a = regions(model), b = regions(model);
     CHECK(a.regions_of == b.regions_of);
+}
+
+TEST_CASE("regions: neighbours along a line on which many triangles begin and end") {
+    Random random(77);
+    for (int k = 0; k < cases(20); ++k) {
+        Surface s; // triangles with a side on one of three lines that meet
+        const int count = random_int(random, 3, 30);
+        for (int i = 0; i < count; ++i) {
+            const double from = random_int(random, -9, 8),
+                         to = random_int(random, int(from) + 1, 9);
+            const double y = random_int(random, -3, 3), z = random_int(random, 1, 3);
+            const auto on_line = [&, line = random_int(random, 0, 2)](double x) {
+                return line == 0 ? Point3{x, 0, 0} : line == 1 ? Point3{0, x, 0} : Point3{x, x, 0};
+            };
+            const auto first = static_cast<std::uint32_t>(s.vertices.size());
+            s.vertices.insert(s.vertices.end(), {on_line(from), on_line(to), {from, y, z}});
+            s.triangles.push_back({first, first + 1, first + 2});
+        }
+        check_neighbours({s});
+    }
+}
+
+TEST_CASE("regions: neighbours where surfaces coincide") {
+    check_neighbours({horizon(), horizon(2), wall(1.5, -1, 1.5, 5), wall(1.5, 1, 1.5, 7),
+                      wall(-1, 0.5, 5, 0.5), horizon(1), wall(1.5, 0, 1.5, 3)});
 }
