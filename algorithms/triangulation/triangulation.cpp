@@ -147,19 +147,23 @@ FaceTriangulation::Local FaceTriangulation::local(PointIndex p) const {
     return slots_[s];
 }
 
-// Many segments are inserted in an order that has nothing to do with where they are: each then
-// crosses few edges, as those before it lie on all sides. Nested triangles, one after the other, would
-// each cross all edges that the next ones need. The triangles do not depend on the order.
-// Source: Shewchuk and Brown (2015), Fast segment insertion and incremental construction of constrained
-// Delaunay triangulations.
+// Inserts some random segments first, then twice as many, and so on: each segment then crosses few
+// edges, as those before it lie on all sides. Nested triangles, one after the other, would each cross all
+// edges that the next ones need. Within a round the segments stay in their order, in which
+// neighbours are close in memory. The triangles do not depend on the order. Sources: Shewchuk and
+// Brown (2015); Amenta, Choi and Rote (2003).
 void FaceTriangulation::order_segments() {
-    constexpr std::size_t few = 32;
-    segment_order_.resize(segments_.size());
-    std::iota(segment_order_.begin(), segment_order_.end(), 0u);
-    if (segments_.size() <= few) return;
-    const auto key = [](std::uint32_t s) { return s * 0x9e3779b1u; };
-    std::sort(segment_order_.begin(), segment_order_.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    // Only planes in which many triangles coincide have that many in few points. Elsewhere segments
+    // are best inserted as they come, unless they are very many.
+    const std::uint32_t few = frame_ != nullptr ? 32 : 512;
+    const auto count = static_cast<std::uint32_t>(segments_.size());
+    const int rounds = std::bit_width(count / few);
+    segment_order_.clear();
+    for (int round = rounds; round >= 0; --round)
+        for (std::uint32_t s = 0; s < count; ++s) {
+            const std::uint32_t random = (s + 1) * 0x9e3779b1u;
+            if (std::min(std::countl_zero(random), rounds) == round) segment_order_.push_back(s);
+        }
 }
 
 // Cuts each edge from its start to its end, so that the rest is always the edge of one known cell.
