@@ -25,10 +25,10 @@
 
 #include <terrane/algorithms/tetgen/detail/protocol.hpp>
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define TERRANE_HELPER_SANITIZED 1
 #elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #define TERRANE_HELPER_SANITIZED 1
 #endif
 #endif
@@ -160,7 +160,7 @@ inline void be_confined() {
     prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     lower_limit(RLIMIT_FSIZE, 0);
     std::signal(SIGXFSZ, SIG_IGN); // Gmsh's user interface tries to keep preferences
-#ifndef TERRANE_HELPER_SANITIZED   // AddressSanitizer reserves terabytes
+#ifndef TERRANE_HELPER_SANITIZED   // sanitizers reserve terabytes
     struct sysinfo machine {};
     if (sysinfo(&machine) == 0)
         lower_limit(RLIMIT_AS, (rlim_t{machine.totalram} + machine.totalswap) * machine.mem_unit);
