@@ -3,7 +3,8 @@
 #
 # Runs the stages that use threads under ThreadSanitizer: scripts/thread_sanitizer.sh [FOLDER]
 # TBB is built for it from Debian's source package, as ThreadSanitizer takes what it does not see of TBB's
-# synchronisation for races. The folder (default: build/thread) keeps that and the build.
+# synchronisation for races. Ranges of loops are short there, so that small models are shared out as well.
+# The folder (default: build/thread) keeps that and the build.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 folder=$(mkdir -p "${1:-build/thread}" && cd "${1:-build/thread}" && pwd)
@@ -37,7 +38,7 @@ fi
 
 # ---- Terrane ------------------------------------------------------------------------------------
 cmake -G Ninja -S . -B "$folder/terrane" -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_BUILD_TYPE=None \
-    -DCMAKE_CXX_FLAGS="$flags" -DTBB_DIR="$folder/tbb/lib/cmake/TBB" -DTERRANE_UNITY=ON \
+    -DCMAKE_CXX_FLAGS="$flags -DTERRANE_LEAST_RANGE=16" -DTBB_DIR="$folder/tbb/lib/cmake/TBB" -DTERRANE_UNITY=ON \
     -DTERRANE_UNITY_FACTOR=3 -DTERRANE_HARDEN=OFF >/dev/null
 cmake --build "$folder/terrane" --target terrane_tests soak
 ldd "$folder/terrane/tests/terrane_tests" | grep -q "libtbb.*$folder/tbb" ||

@@ -57,7 +57,7 @@ private:
     // Each thread handles classes of its own; points at one place have one class.
     void name_first(const std::vector<Point3>& points, const std::vector<std::uint32_t>& others,
                     std::vector<std::uint32_t>& first) {
-        constexpr std::size_t few = 8192; // points
+        constexpr std::size_t few = least_range; // points
         const std::size_t shares =
             std::clamp<std::size_t>(others.size() / few, 1, std::max(run_.threads, 1U));
         for_ranges(

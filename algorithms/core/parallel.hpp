@@ -89,12 +89,20 @@ std::vector<Block> for_reported_blocks(std::size_t count, std::size_t block_size
     return all;
 }
 
+/// So many elements are worth a range of their own. ThreadSanitizer's build sets a few, so that small models
+/// share out their work as large ones do.
+#ifdef TERRANE_LEAST_RANGE
+inline constexpr std::size_t least_range = TERRANE_LEAST_RANGE;
+#else
+inline constexpr std::size_t least_range = 8192;
+#endif
+
 /// Calls work(first, last) for ranges that partition [0, count), several at a time. The results
 /// must not depend on the limits of the ranges. The rounding mode is the default one. `least` is
 /// the number of elements below which another range costs more than it saves.
 template <class Work>
 void for_ranges(std::size_t count, const Run& run, const Work& work,
-                std::size_t ranges_per_thread = 4, std::size_t least = 8192) {
+                std::size_t ranges_per_thread = 4, std::size_t least = least_range) {
     const std::size_t ranges =
         run.threads <= 1 ? 1 : std::min(ranges_per_thread * run.threads, count / least + 1);
     if (ranges == 1) return work(std::size_t{0}, count);

@@ -44,7 +44,7 @@ EdgeSides group_edges(std::span<const Triangle> triangles, std::size_t vertex_co
     // This is a counting sort. Each share of the triangles has its own counts, which become the
     // positions of its sides, after those of the shares before it. The number of shares is limited
     // because their counts take memory.
-    constexpr std::size_t least = 8192, most_shares = 8; // triangles in a share; shares
+    constexpr std::size_t least = least_range, most_shares = 8; // triangles in a share; shares
     const std::size_t shares = std::clamp<std::size_t>(
         triangles.size() / least, 1, std::min<std::size_t>(std::max(run.threads, 1U), most_shares));
     std::vector<std::vector<std::uint32_t>> places(shares);
