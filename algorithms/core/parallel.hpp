@@ -89,8 +89,8 @@ std::vector<Block> for_reported_blocks(std::size_t count, std::size_t block_size
     return all;
 }
 
-/// So many elements are worth a range of their own. ThreadSanitizer's build sets a few, so that small models
-/// share out their work as large ones do.
+/// Least number of elements that are worth a range of their own. The build for ThreadSanitizer
+/// lowers it, so that several threads work on small models, too.
 #ifdef TERRANE_LEAST_RANGE
 inline constexpr std::size_t least_range = TERRANE_LEAST_RANGE;
 #else

@@ -181,7 +181,9 @@ private:
         sort_unique(here);
     }
 
+    /// Most regions that meet at an edge of a curve where two surfaces cross.
     static constexpr std::size_t few = 4;
+
     [[nodiscard]] bool is_crowded(std::size_t stop) const {
         std::size_t regions = 0;
         for (const std::uint32_t t : at_stop_[stop]) regions += surfaces_of_[t].size();
@@ -246,8 +248,9 @@ private:
                 for (const std::uint32_t q : here)
                     if (q != r) visit(r, q);
         }
-        // Along a line where many surfaces coincide, few begin or end at a vertex. Only their pairs
-        // are new: all pairs at all edges of the line are far more than there are neighbours.
+        // Two edges of a curve that share a vertex have most of their regions in common. Only pairs
+        // with a region that the edge before did not have are visited: visiting all pairs at all edges
+        // of a line on which many surfaces meet is cubic.
         std::set<std::vector<std::uint32_t>> seen_first; // of different curves
         std::vector<std::uint32_t> before, fresh, old;
         for (const CrowdedStop& stop : crowded) {

@@ -147,14 +147,15 @@ FaceTriangulation::Local FaceTriangulation::local(PointIndex p) const {
     return slots_[s];
 }
 
-// Inserts some random segments first, then twice as many, and so on: each segment then crosses few
-// edges, as those before it lie on all sides. Nested triangles, one after the other, would each cross all
-// edges that the next ones need. Within a round the segments stay in their order, in which
-// neighbours are close in memory. The triangles do not depend on the order. Sources: Shewchuk and
-// Brown (2015); Amenta, Choi and Rote (2003).
+// Divides the segments into rounds at random, each with twice as many as the one before. A segment
+// then crosses few edges of the triangulation, since the rounds before it have divided the face. The
+// segments of nested triangles, inserted by size, would each cross the edges between all larger ones.
+// A round keeps the order of its segments, so that consecutive ones are close in memory. The
+// triangles do not depend on the order. Sources: Shewchuk and Brown (2015) for random insertion;
+// Amenta, Choi and Rote (2003) for rounds.
 void FaceTriangulation::order_segments() {
-    // Only planes in which many triangles coincide have that many in few points. Elsewhere segments
-    // are best inserted as they come, unless they are very many.
+    // The pool of a plane can have nested triangles. Other faces are divided faster in the given order,
+    // unless they have very many segments (measured: rectangles that cross).
     const std::uint32_t few = frame_ != nullptr ? 32 : 512;
     const auto count = static_cast<std::uint32_t>(segments_.size());
     const int rounds = std::bit_width(count / few);

@@ -82,8 +82,8 @@ public:
     };
 
     /// Of the last face, until the next call: its triangles with their neighbours, the point of
-    /// each Local, and the edges on each segment, along it (segments in any order). The edges are kept for framed
-    /// faces.
+    /// each Local, and the edges on each segment. The edges of one segment are consecutive and lie
+    /// along it; the segments are in any order. Edges are kept for framed faces only.
     [[nodiscard]] std::span<const Cell> cells() const { return cells_; }
     [[nodiscard]] std::span<const PointIndex> points() const { return points_; }
     [[nodiscard]] std::span<const SegmentEdge> segment_edges() const { return segment_edges_; }

@@ -123,7 +123,7 @@ def test_a_filled_surface_has_the_page_of_the_program(method):
 @needs_pages
 @pytest.mark.tetgen
 def test_tetrahedra_have_the_page_of_the_program():
-    # Under the sanitizers the optimisation takes ten seconds, and other tests run it.
+    # Other tests run the optimisation under the sanitizers, where it takes ten seconds.
     cells = terrane.model(terrane.read(FILES), box=CORNERS).tetrahedra(optimise=not SANITIZED)
     cells.report("python.html")
     words = ["--no-optimise"] if SANITIZED else []

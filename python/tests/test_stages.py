@@ -110,7 +110,7 @@ def test_improve_refuses(rounded, options, words):
 # --- A resolution
 
 
-EDGE = 2.0 if SANITIZED else 1.0  # fewer triangles where each takes longer
+EDGE = 2.0 if SANITIZED else 1.0  # the sanitizers take longer for each triangle
 
 
 def two_levels(gap):

@@ -166,7 +166,7 @@ private:
         return stops;
     }
 
-    /// The point at the fraction above / (length * 2^halvings) of the way.
+    /// Returns the point that divides the segment at the fraction above / (length * 2^halvings).
     [[nodiscard]] Vector4 point_at(const mpz_class& above, unsigned halvings) const {
         const mpz_class whole = length_ << halvings;
         Vector4 point;
@@ -192,9 +192,9 @@ private:
         return is_near_by_halves(from.above, to.above, 0);
     }
 
-    /// Whether a piece that is not near one triangle is near several, one after the other. Both ends
-    /// of each half must be near one triangle, so halving goes on at the place where the next one
-    /// takes over, until both are near there.
+    /// Tells whether a piece can be divided into parts each of which is near one triangle. Halving
+    /// finds the places where one triangle takes over from another: a half without such a place is
+    /// near a triangle that its middle is near, so that few halves are divided further.
     [[nodiscard]] bool is_near_by_halves(const mpz_class& from, const mpz_class& to,
                                          unsigned halvings) const {
         constexpr unsigned most_halvings = 64; // bounds are doubles, with a slack of some spacings

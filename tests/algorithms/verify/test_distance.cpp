@@ -77,8 +77,8 @@ TEST_CASE("verifier: a segment near triangles, one after the other") {
     CHECK_FALSE(is_near({left, right}, 49));
     CHECK_FALSE(is_near({left}, 99));
     CHECK(is_near({left}, 100));
-    // With 35, the left one is near up to 35, and the middle one from 50 - sqrt(35^2 - 31^2) = 33.8
-    // on; with 34, up to 34 and from 36.04 on.
+    // The bound 35 reaches from the left triangle to x = 35, and from the middle triangle to
+    // x = 33.8, which is 50 - sqrt(35^2 - 31^2). The bound 34 reaches to 34 and to 36.04.
     CHECK(is_near({left, middle, right}, 35));
     CHECK_FALSE(is_near({left, middle, right}, 34));
     CHECK_FALSE(is_near({left, middle}, 50));
