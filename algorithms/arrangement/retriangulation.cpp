@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <string_view>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -30,49 +31,6 @@ struct Part {
                                     ///< face is the first of them
 };
 
-/// Starts each part that is not the whole face with its lowest corner, and sorts the parts of a face by
-/// their corners. The triangles of a face depend on its points alone; so does their order then, and not
-/// on the order of work.
-class PartOrder {
-public:
-    PartOrder(const TriangleSoup& soup, const PointOrder& order) : soup_(soup), order_(order) {}
-
-    void operator()(std::span<Part> parts);
-
-private:
-    struct Ranked {
-        std::uint64_t first_two; ///< ranks of two corners, the first one above
-        std::uint32_t third;
-        Part part;
-    };
-
-    const TriangleSoup& soup_;
-    const PointOrder& order_;
-    std::vector<Ranked> ranked_;
-};
-
-void PartOrder::operator()(std::span<Part> parts) {
-    const auto rank = [&](PointIndex p) { return order_.rank[p]; };
-    if (parts.size() == 1) { // the whole face, or what a pool has left of it
-        const Triangle& whole = soup_.triangles[parts[0].face];
-        if (std::is_permutation(whole.begin(), whole.end(), parts[0].corners.begin())) return;
-    }
-    ranked_.clear();
-    for (Part& p : parts) {
-        auto& [a, b, c] = p.corners;
-        if (rank(b) < rank(a) && rank(b) < rank(c))
-            p.corners = {b, c, a};
-        else if (rank(c) < rank(a))
-            p.corners = {c, a, b};
-        ranked_.push_back({(std::uint64_t{rank(a)} << 32) | rank(b), rank(c), p});
-    }
-    if (parts.size() == 1) return;
-    std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& a, const Ranked& b) {
-        return a.first_two != b.first_two ? a.first_two < b.first_two : a.third < b.third;
-    });
-    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] = ranked_[k].part;
-}
-
 /// Parts by face.
 struct PartBlock {
     std::vector<Part> parts;
@@ -86,8 +44,7 @@ public:
     Divider(UpwardWitness upward, const TriangleSoup& soup, const Contacts& contacts,
             const PointOrder& order, const Run& run) :
         upward_(upward),
-        soup_(soup), contacts_(contacts), order_(order), run_(run), triangulate_(upward),
-        put_in_order_(soup, order) {}
+        soup_(soup), contacts_(contacts), order_(order), run_(run), triangulate_(upward) {}
 
     /// Divides one face or pool, given its pieces and crossings.
     void operator()(std::span<const FaceConstraint> pieces, std::uint32_t first_piece,
@@ -111,10 +68,8 @@ public:
         finish_points();
         const std::uint32_t pool = contacts_.pools.led_by(f);
         if (pool != no_group) return divide_pool(contacts_.pools.faces[pool], out);
-        const std::size_t first = out.parts.size();
         for (const auto& part : triangulate_(contacts_.points, order_.rank, face_))
             out.parts.push_back({f, part});
-        put_in_order_(std::span(out.parts).subspan(first));
     }
 
 private:
@@ -177,7 +132,6 @@ private:
     FaceInput face_;
     std::vector<std::vector<PointIndex>> chains_;
     FaceTriangulation triangulate_;
-    PartOrder put_in_order_;
 };
 
 /// The pieces and crossings of one face.
@@ -203,16 +157,21 @@ std::vector<FaceRange> faces_with_contacts(const Contacts& contacts) {
     return faces;
 }
 
-/// Sorts parts by face, and those of one face as PartOrder does.
+/// Starts each part of a pool with its lowest corner, except a triangle that is undivided, and sorts
+/// all parts by face and corners, as FaceTriangulation sorts those of a face.
 void put_pooled_in_order(const TriangleSoup& soup, const PointOrder& order,
                          std::vector<Part>& parts) {
-    std::stable_sort(parts.begin(), parts.end(),
-                     [](const Part& a, const Part& b) { return a.face < b.face; });
-    PartOrder put_in_order(soup, order);
-    for (std::size_t first = 0, end = 0; first < parts.size(); first = end) {
-        while (end < parts.size() && parts[end].face == parts[first].face) ++end;
-        put_in_order(std::span(parts).subspan(first, end - first));
+    const auto rank = [&](PointIndex p) { return order.rank[p]; };
+    for (Part& p : parts) {
+        const Triangle& whole = soup.triangles[p.face];
+        if (std::is_permutation(whole.begin(), whole.end(), p.corners.begin())) continue;
+        std::rotate(p.corners.begin(), std::ranges::min_element(p.corners, {}, rank),
+                    p.corners.end());
     }
+    const auto key = [&](const Part& p) {
+        return std::tuple(p.face, rank(p.corners[0]), rank(p.corners[1]), rank(p.corners[2]));
+    };
+    std::ranges::sort(parts, {}, key);
 }
 
 PartBlock divide_faces(const TriangleSoup& soup, const Contacts& contacts, const PointOrder& order,
@@ -245,6 +204,9 @@ PartBlock divide_faces(const TriangleSoup& soup, const Contacts& contacts, const
         report_part(run, "triangulate", 0, 1, start + some.size(), faces.size());
     }
     PartBlock all;
+    std::size_t count = 0;
+    for (const PartBlock& b : blocks) count += b.parts.size();
+    all.parts.reserve(count);
     for (const PartBlock& b : blocks) {
         const auto start = all.parts.size();
         const auto first = static_cast<std::uint32_t>(all.covers.size());

@@ -45,12 +45,44 @@ FaceTriangulation::operator()(const PointStore& points, std::span<const std::uin
         insert_segment(segment_order_[k]);
     }
 
-    for (const Cell& c : cells_) {
-        std::array<PointIndex, 3> t{points_[c.v[0]], points_[c.v[1]], points_[c.v[2]]};
-        if (reversed) std::swap(t[1], t[2]);
-        result_.push_back(t);
-    }
+    if (cells_.size() == 1)
+        result_.push_back(face.corners);
+    else
+        list_triangles(reversed);
     return result_;
+}
+
+// Sorts by counting, as each point is the lowest corner of few triangles. That is several times
+// faster than comparing all triangles by the ranks of their corners.
+void FaceTriangulation::list_triangles(bool reversed) {
+    const auto count = static_cast<Local>(points_.size());
+    order_.clear();
+    for (Local p = 0; p < count; ++p) order_.emplace_back(rank_of(p), p);
+    std::sort(order_.begin(), order_.end());
+    place_.resize(count);
+    for (Local k = 0; k < count; ++k) place_[order_[k].second] = k;
+
+    placed_.clear();
+    next_of_.assign(count + 1, 0);
+    for (const Cell& cell : cells_) {
+        std::array<Local, 3> t{place_[cell.v[0]], place_[cell.v[1]], place_[cell.v[2]]};
+        if (reversed) std::swap(t[1], t[2]);
+        auto& [a, b, c] = t;
+        if (b < a && b < c)
+            t = {b, c, a};
+        else if (c < a)
+            t = {c, a, b};
+        placed_.push_back(t);
+        ++next_of_[t[0] + 1];
+    }
+    std::partial_sum(next_of_.begin(), next_of_.end(), next_of_.begin());
+    result_.resize(placed_.size());
+    for (const auto& t : placed_) result_[next_of_[t[0]]++] = t;
+    for (Local a = 0, first = 0; a < count; first = next_of_[a++])
+        if (next_of_[a] - first > 1)
+            std::sort(&result_[first], &result_[first] + (next_of_[a] - first));
+    for (auto& t : result_)
+        for (PointIndex& corner : t) corner = points_[order_[corner].second];
 }
 
 // Starts with one cell, whose edges are the border and therefore fixed.

@@ -59,8 +59,11 @@ public:
     explicit FaceTriangulation(UpwardWitness upward) : upward_(upward) {}
 
     /// Returns the triangles of a face, oriented as its corners; valid until the next call. rank[p]
-    /// is the position of p in the lexicographic order of all points in use. Expected cost:
-    /// n^(4/3) for n points, plus the number of edges that segments cross.
+    /// is the position of p in the lexicographic order of all points in use. An undivided face is
+    /// returned as it is. Otherwise each triangle starts with its lowest corner, and the triangles are
+    /// sorted by their corners. They depend on the points alone; so does their order then, and not on
+    /// the order of work. Expected cost: n^(4/3) for n points, plus the number of edges that segments
+    /// cross.
     std::span<const std::array<PointIndex, 3>> operator()(const PointStore& points,
                                                           std::span<const std::uint32_t> rank,
                                                           const FaceInput& face);
@@ -100,6 +103,7 @@ private:
     };
 
     void start(const FaceInput& face);
+    void list_triangles(bool reversed);
     void take_points(const FaceInput& face);
     void order_inner_points(const FaceInput& face);
     static void sort_into_strips(std::span<Inner> level);
@@ -157,9 +161,15 @@ private:
     std::vector<Cell> cells_;
     std::vector<Side> todo_;
     std::vector<std::array<Local, 2>> crossed_;
-    std::vector<std::pair<std::uint64_t, PointIndex>> order_; ///< inner points by level and rank
-    std::vector<Inner> inner_;                                ///< inner points as inserted
+    std::vector<std::pair<std::uint64_t, PointIndex>>
+        order_;                ///< inner points by level and rank; in
+                               ///< the end, each Local by rank
+    std::vector<Inner> inner_; ///< inner points as inserted
     std::vector<SegmentEdge> segment_edges_;
+    std::vector<Local> place_;                 ///< per point: its place in the order of ranks
+    std::vector<std::array<Local, 3>> placed_; ///< triangles as places of their corners
+    std::vector<std::uint32_t> next_of_; ///< per place: where the next triangle goes whose lowest
+                                         ///< corner this is
     std::vector<std::array<PointIndex, 3>> result_;
 };
 
