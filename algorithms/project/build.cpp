@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -128,8 +129,8 @@ private:
         return *built_.arranged.rounded.conforming;
     }
 
-    /// Improves the mesh; again, with smaller triangles where tetrahedra are bad, as often as the
-    /// project says. The best round counts: then blocks and tetrahedra are there, too.
+    /// Improves the mesh; again, with smaller triangles where tetrahedra are bad or misshapen, as
+    /// often as the project says. The best round counts: then blocks and tetrahedra are there, too.
     Status improve_in_rounds() {
         if (auto done = improve_mesh(); !done) return done;
         const unsigned rounds =
@@ -143,7 +144,7 @@ private:
                 bad_places(built_.filled->tetrahedra, project_.improve->smallest.value_or(0));
             built_.rounds.push_back({built_.improved->improved.mesh->triangles.size(),
                                      built_.filled->tetrahedra.tetrahedra.size(), places.bad,
-                                     places.apart});
+                                     places.apart, places.misshapen});
             Round now = take_round(round);
             if (!best || is_better(round, best->number)) best = std::move(now);
             if (round == rounds || places.sizes.empty()) break;
@@ -159,7 +160,8 @@ private:
 
     [[nodiscard]] bool is_better(unsigned round, unsigned than) const {
         const auto badness = [&](unsigned r) {
-            return std::pair(built_.rounds[r].apart, built_.rounds[r].bad);
+            const RefinementRound& of = built_.rounds[r];
+            return std::tuple(of.apart, of.bad, of.misshapen);
         };
         return badness(round) < badness(than);
     }

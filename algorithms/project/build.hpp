@@ -49,6 +49,8 @@ struct RefinementRound {
     std::size_t bad = 0;        ///< of these: with a dihedral angle below bad_angle
     std::size_t apart = 0;      ///< of these: apart from such angles of the surfaces, see
                                 ///< BadTetrahedron::is_at_input_angle
+    std::size_t misshapen = 0;  ///< others, with a mean ratio below misshapen_ratio, see
+                                ///< misshapen_tetrahedra()
 };
 
 /// The model of a project, and the result of each stage.

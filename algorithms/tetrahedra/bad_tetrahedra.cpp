@@ -77,6 +77,37 @@ void mark_sharp_corners(const TetrahedralMesh& mesh, std::vector<bool>& at_input
         }
 }
 
+std::array<Point3, 4> corners_of(const TetrahedralMesh& mesh, std::uint32_t number) {
+    std::array<Point3, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.vertices[mesh.tetrahedra[number][k]];
+    return corners;
+}
+
+/// The bad tetrahedra by their index, and per node whether it is at a bad angle of the surfaces.
+struct Found {
+    std::vector<BadTetrahedron> bad;
+    std::vector<bool> at_input_angle;
+};
+
+Found find_bad(const TetrahedralMesh& mesh) {
+    const BadCauses causes(mesh);
+    Found found{{}, std::vector<bool>(mesh.vertices.size(), false)};
+    for (std::uint32_t number = 0; number < mesh.tetrahedra.size(); ++number) {
+        const auto& t = mesh.tetrahedra[number];
+        const auto corners = corners_of(mesh, number);
+        const auto angles = dihedral_angles(corners);
+        const double least = *std::min_element(angles.begin(), angles.end());
+        if (least >= bad_angle) continue;
+        found.bad.push_back({number, causes.of(t, corners, angles), least, false});
+        for (std::size_t i = 0; i < angles.size(); ++i)
+            if (angles[i] < bad_angle && causes.is_between_surfaces(t, i))
+                for (const std::size_t end : {0U, 1U})
+                    found.at_input_angle[t[edges_of_tetrahedron[i][end]]] = true;
+    }
+    mark_sharp_corners(mesh, found.at_input_angle);
+    return found;
+}
+
 } // namespace
 
 BadCauses::BadCauses(const TetrahedralMesh& mesh) : on_surface_(mesh.vertices.size(), false) {
@@ -111,29 +142,32 @@ BadCause BadCauses::of(const std::array<std::uint32_t, 4>& t, const std::array<P
 
 std::vector<BadTetrahedron> bad_tetrahedra(const TetrahedralMesh& mesh) {
     const StandardArithmetic guard;
-    const BadCauses causes(mesh);
-    std::vector<BadTetrahedron> bad;
-    std::vector<bool> at_input_angle(mesh.vertices.size(), false);
-    for (std::uint32_t number = 0; number < mesh.tetrahedra.size(); ++number) {
-        const auto& t = mesh.tetrahedra[number];
-        std::array<Point3, 4> corners;
-        for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.vertices[t[k]];
-        const auto angles = dihedral_angles(corners);
-        const double least = *std::min_element(angles.begin(), angles.end());
-        if (least >= bad_angle) continue;
-        bad.push_back({number, causes.of(t, corners, angles), least, false});
-        for (std::size_t i = 0; i < angles.size(); ++i)
-            if (angles[i] < bad_angle && causes.is_between_surfaces(t, i))
-                for (const std::size_t end : {0U, 1U})
-                    at_input_angle[t[edges_of_tetrahedron[i][end]]] = true;
-    }
-    if (!bad.empty()) mark_sharp_corners(mesh, at_input_angle);
-    for (BadTetrahedron& b : bad) {
+    Found found = find_bad(mesh);
+    for (BadTetrahedron& b : found.bad) {
         const auto& t = mesh.tetrahedra[b.number];
-        b.is_at_input_angle =
-            std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return at_input_angle[v]; });
+        b.is_at_input_angle = std::any_of(t.begin(), t.end(),
+                                          [&](std::uint32_t v) { return found.at_input_angle[v]; });
     }
-    return bad;
+    return std::move(found.bad);
+}
+
+std::vector<std::uint32_t> misshapen_tetrahedra(const TetrahedralMesh& mesh, double least) {
+    const StandardArithmetic guard;
+    const Found found = find_bad(mesh);
+    std::vector<std::uint32_t> misshapen;
+    auto bad = found.bad.begin();
+    for (std::uint32_t number = 0; number < mesh.tetrahedra.size(); ++number) {
+        if (bad != found.bad.end() && bad->number == number) {
+            ++bad;
+            continue;
+        }
+        const auto& t = mesh.tetrahedra[number];
+        if (mean_ratio(corners_of(mesh, number)) < least &&
+            std::none_of(t.begin(), t.end(),
+                         [&](std::uint32_t v) { return found.at_input_angle[v]; }))
+            misshapen.push_back(number);
+    }
+    return misshapen;
 }
 
 } // namespace terrane

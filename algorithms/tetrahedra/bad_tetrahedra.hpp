@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Finds tetrahedra with small dihedral angles, and why they have them.
+// Finds tetrahedra with small dihedral angles, and why they have them, and other misshapen ones.
 #pragma once
 
 #include <array>
@@ -46,5 +46,9 @@ struct BadTetrahedron {
 /// Lists the bad tetrahedra of a mesh by their index. Curves are edges with other than two faces,
 /// or with two of different surfaces. The values are computed in doubles.
 std::vector<BadTetrahedron> bad_tetrahedra(const TetrahedralMesh& mesh);
+
+/// Lists tetrahedra by their index that are not bad, but whose mean_ratio() is below `least`. Those
+/// with a corner at a bad angle of the surfaces are left out, see BadTetrahedron::is_at_input_angle.
+std::vector<std::uint32_t> misshapen_tetrahedra(const TetrahedralMesh& mesh, double least);
 
 } // namespace terrane

@@ -38,6 +38,9 @@ enum class BadCause : std::uint8_t {
 inline constexpr std::size_t bad_causes = 4;
 /// Below this angle, in degrees, a tetrahedron is bad.
 inline constexpr double bad_angle = 10;
+/// Triangles become smaller also at tetrahedra of a lower mean ratio, where that is asked for:
+/// simulators take 0.2, and the next triangles have some other tetrahedra that are a little worse.
+inline constexpr double misshapen_ratio = 0.25;
 
 /// The bad tetrahedra of one cause.
 struct BadTetrahedra {

@@ -263,9 +263,10 @@ std::string rounds_text(const Built& built) {
         const RefinementRound& round = built.rounds[k];
         text +=
             fmt::format("  round {:<3} {:>9} triangles {:>9} tetrahedra {:>6} below {} degrees, "
-                        "{} of them apart from such angles of the surfaces{}\n",
+                        "{} of them apart from such angles of the surfaces, {} others "
+                        "misshapen{}\n",
                         k, round.triangles, round.tetrahedra, round.bad, bad_angle, round.apart,
-                        k == built.kept_round ? "; taken" : "");
+                        round.misshapen, k == built.kept_round ? "; taken" : "");
     }
     return text.empty() ? text : "smaller triangles where tetrahedra were bad:\n" + text;
 }
@@ -277,7 +278,8 @@ void add_rounds(Json& json, const Built& built) {
         rounds.push_back({{"triangles", round.triangles},
                           {"tetrahedra", round.tetrahedra},
                           {"bad", round.bad},
-                          {"apart", round.apart}});
+                          {"apart", round.apart},
+                          {"misshapen", round.misshapen}});
     json["tetrahedra"]["rounds"] = rounds;
     json["tetrahedra"]["taken_round"] = built.kept_round;
 }

@@ -10,7 +10,7 @@ shapes   Dihedral angles, ratios of circumradius to shortest edge, SICN and mean
 causes   Each tetrahedron with an angle below 10 degrees counts for the first cause that applies; the least angle of each
          cause and its place are those of the file.
 rounds   With tetrahedra.refine_bad, no round has fewer bad tetrahedra apart from sharp angles of the surfaces than the one that was
-         taken, and the counts stated of that are those of the file.
+         taken, nor as few and fewer misshapen ones; and the counts stated of that are those of the file.
 
 Status 1, with a line for each statement that is wrong.
 """
@@ -25,6 +25,8 @@ import tempfile
 import numpy
 
 BAD = 10
+MISSHAPEN = 0.25
+KEYS = ("apart", "bad", "misshapen")  # what makes one round better than another, the first key first
 EDGES = list(itertools.combinations(range(4), 2))
 RATIOS = [0, .75, 1, 1.25, 1.5, 2, 3, 5, 10, 20, 50, 100, numpy.inf]
 
@@ -147,7 +149,7 @@ def least_corner(points, face):
 
 
 def apart(points, tetrahedra, faces, surface_of, angles, cause):
-    """How many bad tetrahedra touch no sharp angle of the surfaces."""
+    """How many bad tetrahedra touch no sharp angle of the surfaces, and how many others of a low mean ratio do not."""
     at_edge = {}
     for f, face in enumerate(faces.tolist()):
         for i, j in itertools.combinations(sorted(face), 2):
@@ -159,7 +161,8 @@ def apart(points, tetrahedra, faces, surface_of, angles, cause):
             if angle(points[b] - points[a], points[c] - points[a]) < BAD and all(
                     len(at_edge[min(a, v), max(a, v)]) != 2 or len(set(at_edge[min(a, v), max(a, v)])) == 2 for v in (b, c)):
                 sharp.add(a)
-    return sum(not sharp.intersection(tetrahedra[t].tolist()) for t in cause)
+    low = set(numpy.flatnonzero(mean_ratio(points[tetrahedra]) < MISSHAPEN).tolist()) - set(cause)
+    return [sum(not sharp.intersection(tetrahedra[t].tolist()) for t in which) for which in (cause, low)]
 
 
 def faces_of(faces, kept={}):
@@ -187,11 +190,11 @@ def judge_bad(judge, stated, points, tetrahedra, cause, angles):
         judge.expect(f"bad.{key}.place", any(numpy.allclose(of_key["place"], p, rtol=0, atol=1e-6) for p in places), of_key["place"])
 
 
-def judge_rounds(judge, stated, count, bad, clear):
+def judge_rounds(judge, stated, count, bad, clear, misshapen):
     rounds, taken = stated["rounds"], stated["taken_round"]
     judge.expect("number of rounds", len(rounds) >= 1 and taken < len(rounds), rounds, taken)
-    judge.expect("taken round", all((rounds[taken]["apart"], rounds[taken]["bad"]) <= (r["apart"], r["bad"]) for r in rounds), rounds)
-    of_file = {"tetrahedra": count, "bad": bad, "apart": clear}
+    judge.expect("taken round", all([rounds[taken][k] for k in KEYS] <= [r[k] for k in KEYS] for r in rounds), rounds)
+    of_file = {"tetrahedra": count, **dict(zip(KEYS, (clear, bad, misshapen)))}
     for key, value in of_file.items():
         judge.expect(f"rounds[{taken}].{key}", rounds[taken][key] == value, rounds[taken][key], value)
 
@@ -212,11 +215,11 @@ def main():
     judge.spread("mean_ratio", check["mean_ratio"], mean_ratio(p), numpy.arange(11) / 10)
     cause = causes(points, tetrahedra, faces, angles)
     judge_bad(judge, check["bad"], points, tetrahedra, cause, angles)
-    clear = apart(points, tetrahedra, faces, surface_of, angles, cause)
+    clear, misshapen = apart(points, tetrahedra, faces, surface_of, angles, cause)
     if options.rounds:
-        judge_rounds(judge, stated, len(tetrahedra), len(cause), clear)
-    print(f"{len(tetrahedra)} tetrahedra, {len(cause)} below {BAD} degrees, {clear} of them apart from such angles of the surfaces: "
-          f"{judge.wrong} statements are wrong")
+        judge_rounds(judge, stated, len(tetrahedra), len(cause), clear, misshapen)
+    print(f"{len(tetrahedra)} tetrahedra, {len(cause)} below {BAD} degrees, {clear} of them apart from such angles of the surfaces, "
+          f"{misshapen} others misshapen: {judge.wrong} statements are wrong")
     return 1 if judge.wrong or not cause else 0
 
 

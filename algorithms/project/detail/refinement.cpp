@@ -33,6 +33,17 @@ double wanted_length(const std::array<Point3, 4>& p) {
     return std::clamp(edges_per_height * height, least_share * longest, largest_share * longest);
 }
 
+/// Returns the length that is wanted at the centre of a tetrahedron.
+LocalSize size_at(const TetrahedralMesh& mesh, std::uint32_t number, double smallest) {
+    std::array<Point3, 4> corners;
+    Point3 centre;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Point3& p = corners[k] = mesh.vertices[mesh.tetrahedra[number][k]];
+        centre = {centre.x + p.x / 4, centre.y + p.y / 4, centre.z + p.z / 4};
+    }
+    return {centre, std::max(smallest, wanted_length(corners))};
+}
+
 } // namespace
 
 BadPlaces bad_places(const TetrahedralMesh& mesh, double smallest) {
@@ -41,13 +52,11 @@ BadPlaces bad_places(const TetrahedralMesh& mesh, double smallest) {
         ++found.bad;
         if (bad.is_at_input_angle) continue;
         ++found.apart;
-        std::array<Point3, 4> corners;
-        Point3 centre;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const Point3& p = corners[k] = mesh.vertices[mesh.tetrahedra[bad.number][k]];
-            centre = {centre.x + p.x / 4, centre.y + p.y / 4, centre.z + p.z / 4};
-        }
-        found.sizes.push_back({centre, std::max(smallest, wanted_length(corners))});
+        found.sizes.push_back(size_at(mesh, bad.number, smallest));
+    }
+    for (const std::uint32_t number : misshapen_tetrahedra(mesh, misshapen_ratio)) {
+        ++found.misshapen;
+        found.sizes.push_back(size_at(mesh, number, smallest));
     }
     return found;
 }

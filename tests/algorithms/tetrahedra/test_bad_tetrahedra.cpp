@@ -112,3 +112,28 @@ TEST_CASE("bad tetrahedra: one beside an input angle is told from one that is ap
     CHECK(bad[1].is_at_input_angle);
     CHECK_FALSE(bad[2].is_at_input_angle);
 }
+
+TEST_CASE("misshapen tetrahedra: a low mean ratio without a bad angle", "[tetrahedra]") {
+    // Over an equilateral triangle with sides of 1: all angles are 60 degrees and more.
+    const double y = std::sqrt(3.) / 2;
+    TetrahedralMesh mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {.5, y, 0}, {.5, y / 3, 9}};
+    mesh.tetrahedra = {{0, 1, 2, 3}};
+    const double volume = y * 9 / 6, squares = 3 + 3 * (81 + 1 / 3.);
+    const double ratio = 12 * std::pow(3 * volume, 2 / 3.) / squares;
+    CHECK(bad_tetrahedra(mesh).empty());
+    CHECK(misshapen_tetrahedra(mesh, ratio * (1 - 1e-9)).empty());
+    CHECK(misshapen_tetrahedra(mesh, ratio * (1 + 1e-9)) == std::vector<std::uint32_t>{0});
+    SECTION("a bad one does not count twice") {
+        mesh.vertices.insert(mesh.vertices.end(),
+                             {{20, 0, 0}, {22, 0, 0}, {21, 2, 0}, {21, .8, .01}});
+        mesh.tetrahedra.insert(mesh.tetrahedra.begin(), {4, 5, 6, 7});
+        CHECK(bad_tetrahedra(mesh).size() == 1);
+        CHECK(misshapen_tetrahedra(mesh, .25) == std::vector<std::uint32_t>{1});
+    }
+    SECTION("one at a bad angle of the surfaces does not count") {
+        mesh.vertices.insert(mesh.vertices.end(), {{-2, .05, 0}, {-2, 0, 0}});
+        add_face(mesh, {0, 4, 5}); // its sides are curves
+        CHECK(misshapen_tetrahedra(mesh, .25).empty());
+    }
+}
