@@ -7,7 +7,7 @@ usage: tetrahedra_table.py [--terrane PROGRAM] [--remesh PROGRAM] [--data FOLDER
 Each model's triangles are improved by Terrane, and then all meshers get the same ones: Terrane itself (`build`, with all
 that it does by default), TetGen (Debian: tetgen), Gmsh's HXT (python3-gmsh), and CGAL's tetrahedral remeshing of what Terrane's
 mesher made before its shapes are improved, with borders fixed (tests/bench, terrane_bench_remesh). One more row has
-smaller triangles where tetrahedra were bad (tetrahedra.refine_bad). All figures are measured from the files, by NumPy; times are processor seconds of one thread: of Terrane's
+smaller triangles where tetrahedra were bad (tetrahedra.refine_bad), and for A2 one more has a resolution. All figures are measured from the files, by NumPy; times are processor seconds of one thread: of Terrane's
 whole run from the input files, of the others from the improved triangles.
 
 A mesher has S processor seconds (default 300). What is not installed, and models whose data are not in FOLDER (default: ../shared/data
@@ -47,12 +47,16 @@ class Model:
     rounds: int  # of tetrahedra.refine_bad, for a row of its own; 0: none
     goals: dict = dataclasses.field(default_factory=dict)  # of Terrane with its defaults
     part: str = ""  # of an archive: files whose path contains it
+    resolution: float = 0  # of improve, for a row of its own; 0: none
+    blocks: int = 0  # that the row of the resolution must have
 
 
 ROUNDS = 2
+RESOLVED_ROUNDS = 8  # of tetrahedra.refine_bad, with a resolution
+RESOLVED = {"least": 8, "share": .1, "mean_ratio": .2}  # goals there: at least, at most, at least
 ALL_MODELS = (
     Model("A1", ("ringmesh/modelA1.ml",), 400, True, ROUNDS, {"share": .1, "greatest": 166}),
-    Model("A2", ("ringmesh/modelA2.ml",), 400, True, ROUNDS, {"share": .3, "greatest": 166}),
+    Model("A2", ("ringmesh/modelA2.ml",), 400, True, ROUNDS, {"share": .3, "greatest": 166}, resolution=60, blocks=10),
     Model("A4", ("ringmesh+RINGMesh/modelA4.ml.xz",), 400, True, ROUNDS, {"share": .4, "greatest": 172}),
     Model("faults + topography", ("arch-platform/faults.ts", "arch-platform/mnt.ts"), .02, False, 0),
     Model("CFM CRFA", ("SCECcode+CFM_web/CFM7-native-dev.tar.xz",), 1500, False, 0, part="/native/CRFA-"),
@@ -262,6 +266,7 @@ def row(model, mesher, make, volume=None):
         volume = float((mesh.points.max(axis=0) - mesh.points.min(axis=0)).prod())
     figures = measures.judge(mesh, surfaces[0], surfaces[1], volume)
     figures["seconds"] = used
+    figures["blocks"] = len(numpy.unique(mesh.regions))
     line = f"| {model} | {mesher} | {told(mesh, figures, surfaces, used)} |"
     if figures["inverted"] or figures["unfilled"] > 1e-9:
         line += f" {figures['inverted']} inverted, {figures['unfilled']:.1g} of the volume wrong"
@@ -294,6 +299,9 @@ def rows_of(model, options, notes):
         if model.rounds:
             own.append(row(model.name, f"Terrane, refine_bad {model.rounds}",
                            lambda: meshers.terrane("refined", {}, {"refine_bad": model.rounds})))
+        if model.resolution:
+            own.append(row(model.name, f"Terrane, resolution {model.resolution:g}, refine_bad {RESOLVED_ROUNDS}",
+                           lambda: meshers.terrane("resolved", {"resolution": model.resolution}, {"refine_bad": RESOLVED_ROUNDS})))
         peers = {"TetGen -pAYq1.4O9/7": lambda: meshers.tetgen("-pAYq1.4O9/7"),
                  "TetGen -pAYq1.2/18O9/7": lambda: meshers.tetgen("-pAYq1.2/18O9/7"), "Gmsh": meshers.gmsh,
                  "CGAL remeshing": meshers.cgal}
@@ -301,6 +309,8 @@ def rows_of(model, options, notes):
         wedge = measures.least_forced(*meshers.surfaces[:2], measures.BAD)
         notes.append(forced(meshers, wedge))
         notes.extend(missed(model, own[0], found["Gmsh"], wedge))
+        if model.resolution:
+            notes.extend(missed_at_resolution(model, own[-1]))
         return all(f and not f["inverted"] and f["unfilled"] < 1e-9 and not f["divided"] for f in own)
 
 
@@ -317,6 +327,17 @@ def missed(model, own, gmsh, wedge):
         found.append(f"{model.name}: more than twice the tetrahedra of Gmsh.")
     if model.goals and own["seconds"] > 10:
         found.append(f"{model.name}: {own['seconds']:.1f} s, the goal is 10.")
+    return found
+
+
+def missed_at_resolution(model, own):
+    """What of the goals the row of a resolution misses."""
+    if own is None:
+        return [f"{model.name}: no mesh at the resolution {model.resolution:g}."]
+    found = [f"{model.name} at the resolution {model.resolution:g}: {key} is {own[key]:.2f}, the goal {goal:g}."
+             for key, goal in RESOLVED.items() if (own[key] > goal if key == "share" else own[key] < goal)]
+    if own["blocks"] != model.blocks:
+        found.append(f"{model.name} at the resolution {model.resolution:g}: {own['blocks']} blocks, not {model.blocks}.")
     return found
 
 

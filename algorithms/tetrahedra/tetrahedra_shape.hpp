@@ -38,9 +38,8 @@ enum class BadCause : std::uint8_t {
 inline constexpr std::size_t bad_causes = 4;
 /// Below this angle, in degrees, a tetrahedron is bad.
 inline constexpr double bad_angle = 10;
-/// Triangles become smaller also at tetrahedra of a lower mean ratio, where that is asked for:
-/// simulators take 0.2, and the next triangles have some other tetrahedra that are a little worse.
-inline constexpr double misshapen_ratio = 0.25;
+/// A tetrahedron of a lower mean ratio is misshapen. Source: Verdict's range of acceptable shapes.
+inline constexpr double misshapen_ratio = 0.3;
 
 /// The bad tetrahedra of one cause.
 struct BadTetrahedra {

@@ -25,7 +25,7 @@ import tempfile
 import numpy
 
 BAD = 10
-MISSHAPEN = 0.25
+MISSHAPEN = 0.3
 KEYS = ("apart", "bad", "misshapen")  # what makes one round better than another, the first key first
 EDGES = list(itertools.combinations(range(4), 2))
 RATIOS = [0, .75, 1, 1.25, 1.5, 2, 3, 5, 10, 20, 50, 100, numpy.inf]

@@ -56,7 +56,7 @@ BadPlaces bad_places(const TetrahedralMesh& mesh, double smallest) {
     }
     for (const std::uint32_t number : misshapen_tetrahedra(mesh, misshapen_ratio)) {
         ++found.misshapen;
-        found.sizes.push_back(size_at(mesh, number, smallest));
+        if (found.apart == 0) found.sizes.push_back(size_at(mesh, number, smallest));
     }
     return found;
 }

@@ -15,13 +15,14 @@ struct BadPlaces {
     std::size_t bad = 0;          ///< tetrahedra with an angle below bad_angle
     std::size_t apart = 0;        ///< of these: no corner is at such an angle of the surfaces
     std::size_t misshapen = 0;    ///< others, see misshapen_tetrahedra()
-    std::vector<LocalSize> sizes; ///< edge lengths for the last two, at their centres; none is
-                                  ///< below `smallest`
+    std::vector<LocalSize> sizes; ///< edge lengths for those apart, or if there is none for the
+                                  ///< misshapen ones, at their centres; none is below `smallest`
 };
 
 /// Finds the bad tetrahedra and those of a mean ratio below misshapen_ratio. Near one that is apart
-/// from bad angles of the surfaces, edges are to be as short as a tetrahedron of its least height needs, between a quarter and three fifths of
-/// its longest edge.
+/// from bad angles of the surfaces, edges are to be as short as a tetrahedron of its least height
+/// needs, between a quarter and three fifths of its longest edge. Small angles go first: smaller
+/// triangles for the other ones were measured to make new small angles.
 BadPlaces bad_places(const TetrahedralMesh& mesh, double smallest);
 
 } // namespace terrane::project::detail

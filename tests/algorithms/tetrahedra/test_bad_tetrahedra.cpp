@@ -7,6 +7,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <terrane/algorithms/project/detail/refinement.hpp>
+
 using namespace terrane;
 
 namespace {
@@ -136,4 +138,25 @@ TEST_CASE("misshapen tetrahedra: a low mean ratio without a bad angle", "[tetrah
         add_face(mesh, {0, 4, 5}); // its sides are curves
         CHECK(misshapen_tetrahedra(mesh, .25).empty());
     }
+}
+
+TEST_CASE("places for smaller triangles: small angles first, then low mean ratios",
+          "[tetrahedra]") {
+    using terrane::project::detail::bad_places;
+    const double y = std::sqrt(3.) / 2;
+    TetrahedralMesh mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {.5, y, 0}, {.5, y / 3, 9}};
+    mesh.tetrahedra = {{0, 1, 2, 3}};
+    auto found = bad_places(mesh, 0);
+    CHECK(found.bad == 0);
+    CHECK(found.misshapen == 1);
+    REQUIRE(found.sizes.size() == 1);
+    CHECK(found.sizes[0].place.z == Approx(2.25)); // its centre
+    mesh.vertices.insert(mesh.vertices.end(), {{20, 0, 0}, {22, 0, 0}, {21, 2, 0}, {21, .8, .01}});
+    mesh.tetrahedra.push_back({4, 5, 6, 7});
+    found = bad_places(mesh, 0);
+    CHECK(found.apart == 1);
+    CHECK(found.misshapen == 1);
+    REQUIRE(found.sizes.size() == 1);
+    CHECK(found.sizes[0].place.x == Approx(21));
 }
