@@ -68,8 +68,8 @@ public:
         finish_points();
         const std::uint32_t pool = contacts_.pools.led_by(f);
         if (pool != no_group) return divide_pool(contacts_.pools.faces[pool], out);
-        for (const auto& part : triangulate_(contacts_.points, order_.rank, face_))
-            out.parts.push_back({f, part});
+        triangulate_(contacts_.points, order_.rank, face_);
+        for (const auto& part : triangulate_.in_order()) out.parts.push_back({f, part});
     }
 
 private:
@@ -158,7 +158,7 @@ std::vector<FaceRange> faces_with_contacts(const Contacts& contacts) {
 }
 
 /// Starts each part of a pool with its lowest corner, except a triangle that is undivided, and sorts
-/// all parts by face and corners, as FaceTriangulation sorts those of a face.
+/// all parts by face and corners, as FaceTriangulation::in_order does.
 void put_pooled_in_order(const TriangleSoup& soup, const PointOrder& order,
                          std::vector<Part>& parts) {
     const auto rank = [&](PointIndex p) { return order.rank[p]; };

@@ -33,7 +33,7 @@ FaceTriangulation::operator()(const PointStore& points, std::span<const std::uin
     result_.clear();
     segment_edges_.clear();
     start(face);
-    const bool reversed = cells_[0].v[1] != 1;
+    is_reversed_ = cells_[0].v[1] != 1;
     insert_edge_points(face);
     legalise();
     insert_inner_points(face);
@@ -45,16 +45,18 @@ FaceTriangulation::operator()(const PointStore& points, std::span<const std::uin
         insert_segment(segment_order_[k]);
     }
 
-    if (cells_.size() == 1)
-        result_.push_back(face.corners);
-    else
-        list_triangles(reversed);
+    for (const Cell& c : cells_) {
+        std::array<PointIndex, 3> t{points_[c.v[0]], points_[c.v[1]], points_[c.v[2]]};
+        if (is_reversed_) std::swap(t[1], t[2]);
+        result_.push_back(t);
+    }
     return result_;
 }
 
 // Sorts by counting, as each point is the lowest corner of few triangles. That is several times
 // faster than comparing all triangles by the ranks of their corners.
-void FaceTriangulation::list_triangles(bool reversed) {
+std::span<const std::array<PointIndex, 3>> FaceTriangulation::in_order() {
+    if (result_.size() < 2) return result_;
     const auto count = static_cast<Local>(points_.size());
     order_.clear();
     for (Local p = 0; p < count; ++p) order_.emplace_back(rank_of(p), p);
@@ -66,7 +68,7 @@ void FaceTriangulation::list_triangles(bool reversed) {
     next_of_.assign(count + 1, 0);
     for (const Cell& cell : cells_) {
         std::array<Local, 3> t{place_[cell.v[0]], place_[cell.v[1]], place_[cell.v[2]]};
-        if (reversed) std::swap(t[1], t[2]);
+        if (is_reversed_) std::swap(t[1], t[2]);
         auto& [a, b, c] = t;
         if (b < a && b < c)
             t = {b, c, a};
@@ -83,6 +85,7 @@ void FaceTriangulation::list_triangles(bool reversed) {
             std::sort(&result_[first], &result_[first] + (next_of_[a] - first));
     for (auto& t : result_)
         for (PointIndex& corner : t) corner = points_[order_[corner].second];
+    return result_;
 }
 
 // Starts with one cell, whose edges are the border and therefore fixed.

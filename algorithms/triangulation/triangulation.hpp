@@ -59,14 +59,16 @@ public:
     explicit FaceTriangulation(UpwardWitness upward) : upward_(upward) {}
 
     /// Returns the triangles of a face, oriented as its corners; valid until the next call. rank[p]
-    /// is the position of p in the lexicographic order of all points in use. An undivided face is
-    /// returned as it is. Otherwise each triangle starts with its lowest corner, and the triangles are
-    /// sorted by their corners. They depend on the points alone; so does their order then, and not on
-    /// the order of work. Expected cost: n^(4/3) for n points, plus the number of edges that segments
-    /// cross.
+    /// is the position of p in the lexicographic order of all points in use. Expected cost:
+    /// n^(4/3) for n points, plus the number of edges that segments cross.
     std::span<const std::array<PointIndex, 3>> operator()(const PointStore& points,
                                                           std::span<const std::uint32_t> rank,
                                                           const FaceInput& face);
+
+    /// Returns the same triangles of the last face again, in an order that depends on its points alone
+    /// and not on the order of work: each starts with its lowest corner, and they are sorted by their
+    /// corners. A face of one triangle is returned as it is. Valid until the next call.
+    std::span<const std::array<PointIndex, 3>> in_order();
 
     using Local = std::uint32_t; ///< index into points_ or cells_
     static constexpr Local none = UINT32_MAX;
@@ -103,7 +105,6 @@ private:
     };
 
     void start(const FaceInput& face);
-    void list_triangles(bool reversed);
     void take_points(const FaceInput& face);
     void order_inner_points(const FaceInput& face);
     static void sort_into_strips(std::span<Inner> level);
@@ -171,6 +172,7 @@ private:
     std::vector<std::uint32_t> next_of_; ///< per place: where the next triangle goes whose lowest
                                          ///< corner this is
     std::vector<std::array<PointIndex, 3>> result_;
+    bool is_reversed_ = false; ///< the corners are clockwise in the projection
 };
 
 } // namespace terrane
