@@ -52,7 +52,7 @@ class Model:
 
 
 ROUNDS = 2
-RESOLVED_ROUNDS = 8  # of tetrahedra.refine_bad, with a resolution
+RESOLVED_ROUNDS = 8  # tetrahedra.refine_bad of the row with a resolution
 RESOLVED = {"least": 8, "share": .1, "mean_ratio": .2}  # goals there: at least, at most, at least
 ALL_MODELS = (
     Model("A1", ("ringmesh/modelA1.ml",), 400, True, ROUNDS, {"share": .1, "greatest": 166}),

@@ -53,8 +53,8 @@ FaceTriangulation::operator()(const PointStore& points, std::span<const std::uin
     return result_;
 }
 
-// Sorts by counting, as each point is the lowest corner of few triangles. That is several times
-// faster than comparing all triangles by the ranks of their corners.
+// Sorts the triangles by counting how many have each point as their lowest corner: few have the same
+// one. The rank of each point is looked up once, not for each triangle.
 std::span<const std::array<PointIndex, 3>> FaceTriangulation::in_order() {
     if (result_.size() < 2) return result_;
     const auto count = static_cast<Local>(points_.size());

@@ -133,7 +133,7 @@ TEST_CASE("misshapen tetrahedra: a low mean ratio without a bad angle", "[tetrah
         CHECK(bad_tetrahedra(mesh).size() == 1);
         CHECK(misshapen_tetrahedra(mesh, .25) == std::vector<std::uint32_t>{1});
     }
-    SECTION("one at a bad angle of the surfaces does not count") {
+    SECTION("a tetrahedron at a bad angle of the surfaces does not count") {
         mesh.vertices.insert(mesh.vertices.end(), {{-2, .05, 0}, {-2, 0, 0}});
         add_face(mesh, {0, 4, 5}); // its sides are curves
         CHECK(misshapen_tetrahedra(mesh, .25).empty());
@@ -151,7 +151,7 @@ TEST_CASE("places for smaller triangles: small angles first, then low mean ratio
     CHECK(found.bad == 0);
     CHECK(found.misshapen == 1);
     REQUIRE(found.sizes.size() == 1);
-    CHECK(found.sizes[0].place.z == Approx(2.25)); // its centre
+    CHECK(found.sizes[0].place.z == Approx(2.25)); // the height of the tetrahedron's centre
     mesh.vertices.insert(mesh.vertices.end(), {{20, 0, 0}, {22, 0, 0}, {21, 2, 0}, {21, .8, .01}});
     mesh.tetrahedra.push_back({4, 5, 6, 7});
     found = bad_places(mesh, 0);
