@@ -10,6 +10,7 @@
 #include <terrane/algorithms/arrangement/intersection_edges.hpp>
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/invariants.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
@@ -95,16 +96,68 @@ std::vector<char> divided_faces(const Soup& soup, const Retriangulation& divisio
     return has_constructed;
 }
 
+/// Returns the sets of triangles within which the search for candidates leaves pairs out: those at
+/// crowded vertices, and the pencils.
+IndexLists<std::uint32_t> sets_with_pairs_left_out(const Soup& soup,
+                                                   const std::vector<bool>& crowded,
+                                                   const Pencils& pencils) {
+    std::vector<std::vector<std::uint32_t>> at(crowded.size());
+    if (!crowded.empty())
+        for (std::uint32_t f = 0; f < soup.triangles.size(); ++f)
+            for (const std::uint32_t v : soup.triangles[f])
+                if (crowded[v]) at[v].push_back(f);
+    IndexLists<std::uint32_t> sets;
+    for (const auto& set : at)
+        if (!set.empty()) sets.push_back(set);
+    for (const Pencil& p : pencils.list) sets.push_back(p.triangles);
+    return sets;
+}
+
+/// Adds the pairs of these sets to state.neighbours if they are few for a mesh of this size. Returns
+/// whether they are.
+bool add_pairs_of_sets(const IndexLists<std::uint32_t>& sets, const Soup& soup,
+                       const Retriangulation& division, std::span<const std::uint32_t> patch_of,
+                       std::span<const char> has_constructed, ExactState& state) {
+    constexpr std::uint64_t most_per_triangle = 4;
+    std::uint64_t sum = 0;
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+        const std::uint64_t n = sets[s].size();
+        sum += n * (n - 1) / 2;
+    }
+    if (sum > most_per_triangle * division.triangles.size()) return false;
+    const BoxSource boxes(division.points.inputs(), soup.triangles);
+    const auto in_one = [](std::span<const std::uint32_t> groups, std::uint32_t f,
+                           std::uint32_t g) {
+        return !groups.empty() && groups[f] != no_group && groups[f] == groups[g];
+    };
+    for (std::size_t s = 0; s < sets.size(); ++s)
+        for (std::size_t i = 0; i < sets[s].size(); ++i) {
+            const std::uint32_t f = sets[s][i];
+            const Box box = boxes[f];
+            for (const std::uint32_t g : sets[s].subspan(i + 1))
+                if ((has_constructed[f] != 0 || has_constructed[g] != 0) &&
+                    !in_one(patch_of, f, g) && !in_one(division.pools, f, g) &&
+                    box.overlaps(boxes[g]))
+                    state.neighbours.push_back({soup.input_of[f], soup.input_of[g]});
+        }
+    sort_unique(state.neighbours);
+    return true;
+}
+
 /// Finds the near pairs of which at least one triangle has a constructed point, as input triangles,
-/// and the triangles of which the search for candidates leaves pairs out.
+/// and the triangles of which pairs are left out.
 void find_neighbours_of_divided(const Soup& soup, const Retriangulation& division,
-                                const Pencils& pencils, ExactState& state) {
+                                const Pencils& pencils, std::span<const std::uint32_t> patch_of,
+                                ExactState& state) {
     const auto has_constructed = divided_faces(soup, division);
     for (const CandidatePair& p : division.near)
         if (has_constructed[p.first] != 0 || has_constructed[p.second] != 0)
             state.neighbours.push_back({soup.input_of[p.first], soup.input_of[p.second]});
     const auto crowded = crowded_vertices(division.points.input_count(), soup.triangles);
     if (crowded.empty() && pencils.of.empty()) return;
+    if (add_pairs_of_sets(sets_with_pairs_left_out(soup, crowded, pencils), soup, division,
+                          patch_of, has_constructed, state))
+        return;
     const auto is_crowded = [&](std::uint32_t f) {
         const Triangle& t = soup.triangles[f];
         return (!pencils.of.empty() && pencils.of[f] != no_group) ||
@@ -210,8 +263,12 @@ void assemble(Arrangement& a, Soup soup, InjectivePatches patches, Retriangulati
     const auto state = std::make_shared<ExactState>();
     a.state = state;
     state->corners = std::move(soup.input_corners);
-    find_neighbours_of_divided(soup, division, pencils, *state);
-    state->has_pools = division.has_pools;
+    find_neighbours_of_divided(soup, division, pencils, patches.of, *state);
+    if (!division.pools.empty()) {
+        state->pools.assign(state->corners.size(), no_group);
+        for (std::size_t f = 0; f < division.pools.size(); ++f)
+            state->pools[soup.input_of[f]] = division.pools[f];
+    }
     const Labels labels = labels_of(soup, patches, run);
     std::vector<std::uint32_t> vertex_of;
     both(

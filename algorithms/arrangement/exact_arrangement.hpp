@@ -31,12 +31,14 @@ struct ExactState {
                                            ///< has constructed points; they are not both in one
                                            ///< patch. No duplicates; sorted
     std::vector<std::uint32_t> crowded;    ///< input triangles of which `neighbours` leaves pairs
-                                           ///< out: those with constructed points at a vertex
-                                           ///< that very many share; ascending
+                                           ///< out: those with constructed points at a vertex or
+                                           ///< in a pencil of so many that a list of all pairs
+                                           ///< would be long for the size of the mesh; ascending
+    std::vector<std::uint32_t> pools;      ///< per input triangle: its pool, or no_group; empty
+                                           ///< without pools. The triangles of a pool lie in one
+                                           ///< plane, and `neighbours` leaves their pairs out
     Adjacency adjacency;                   ///< that of the triangles
     bool whole = true;                     ///< false if triangles were removed, see restricted.hpp
-    bool has_pools = false;                ///< whether `neighbours` leaves pairs out, since many
-                                           ///< coplanar triangles overlap
     /// Removes the same part from an arrangement of the same surfaces after a small move of their
     /// vertices. Rounding needs it if it arranges again. Empty if `whole`, or if unknown.
     std::function<Result<Arrangement>(Arrangement, const Run&)> restrict_again{};

@@ -2,10 +2,11 @@
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
+#include <numeric>
 #include <string_view>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 #include <terrane/algorithms/arrangement/detail/pool_covers.hpp>
@@ -258,12 +259,30 @@ private:
         }
     };
 
-    struct Hash {
-        std::size_t operator()(const Triangle& c) const {
-            const std::uint64_t h = (c[0] * 0x9e3779b97f4a7c15u ^ c[1]) * 0x9e3779b97f4a7c15u;
-            return (h ^ c[2]) * 0x9e3779b97f4a7c15u >> 7;
+    static std::size_t hash(const Triangle& c) {
+        const std::uint64_t h = (c[0] * 0x9e3779b97f4a7c15u ^ c[1]) * 0x9e3779b97f4a7c15u;
+        return (h ^ c[2]) * 0x9e3779b97f4a7c15u >> 7;
+    }
+
+    /// Numbers distinct triangles from 0 in the order of their first occurrence.
+    static std::vector<std::uint32_t> numbers_of(std::span<const Triangle> triangles) {
+        const std::size_t mask = std::bit_ceil(2 * triangles.size() + 1) - 1;
+        std::vector<std::uint32_t> first_at(mask + 1, none); // by hash: an index of a triangle
+        std::vector<std::uint32_t> numbers(triangles.size());
+        std::uint32_t next = 0;
+        for (std::uint32_t k = 0; k < triangles.size(); ++k) {
+            std::size_t place = hash(triangles[k]) & mask;
+            while (first_at[place] != none && triangles[first_at[place]] != triangles[k])
+                place = (place + 1) & mask;
+            if (first_at[place] == none) {
+                first_at[place] = k;
+                numbers[k] = next++;
+            } else {
+                numbers[k] = numbers[first_at[place]];
+            }
         }
-    };
+        return numbers;
+    }
 
     static Triangle sorted(Triangle c) {
         std::sort(c.begin(), c.end());
@@ -288,17 +307,32 @@ private:
         return !contacts_.pools.of.empty() && contacts_.pools.of[f] != no_group;
     }
 
-    // Lists the faces of each part that may be repeated. Only triangles with a coplanar overlap can
-    // share a part with another triangle.
+    /// Lists the faces of each part that may be repeated. Only triangles with a coplanar overlap can
+    /// share a part with another triangle.
     void collect_repeated() {
         any_overlapped_ = std::find(contacts_.overlapped.begin(), contacts_.overlapped.end(),
                                     true) != contacts_.overlapped.end();
         const bool any_in_faces = any_overlapped_;
         any_overlapped_ |= !contacts_.pools.of.empty();
         if (!any_in_faces) return;
+        std::vector<Triangle> corners;
+        std::vector<std::uint32_t> faces;
         for_each_part(0, soup_.triangles.size(), [&](const Part& p) {
-            if (contacts_.overlapped[p.face]) faces_of_[sorted(p.corners)].push_back(p.face);
+            if (!contacts_.overlapped[p.face]) return;
+            corners.push_back(sorted(p.corners));
+            faces.push_back(p.face);
         });
+        number_of_ = numbers_of(corners);
+        const std::uint32_t distinct =
+            number_of_.empty() ? 0 : *std::max_element(number_of_.begin(), number_of_.end()) + 1;
+        faces_of_.offsets.assign(distinct + 1, 0);
+        for (const std::uint32_t n : number_of_) ++faces_of_.offsets[n + 1];
+        std::partial_sum(faces_of_.offsets.begin(), faces_of_.offsets.end(),
+                         faces_of_.offsets.begin());
+        faces_of_.values.resize(faces.size());
+        std::vector<std::uint32_t> place(faces_of_.offsets.begin(), faces_of_.offsets.end() - 1);
+        for (std::size_t k = 0; k < faces.size(); ++k)
+            faces_of_.values[place[number_of_[k]]++] = faces[k];
     }
 
     /// Returns the number of triangles that result from the faces before this one, if no part is
@@ -356,11 +390,9 @@ private:
 
     void add_part(const Part& part, Block& block) {
         const std::span<const std::uint32_t> alone(&part.face, 1);
-        const auto faces =
-            contacts_.overlapped[part.face]
-                ? std::span<const std::uint32_t>(faces_of_.find(sorted(part.corners))->second)
-            : part.cover != no_cover ? covers_[part.cover]
-                                     : alone;
+        const auto faces = contacts_.overlapped[part.face] ? faces_of_[number_of_[next_repeated_++]]
+                           : part.cover != no_cover        ? covers_[part.cover]
+                                                           : alone;
         if (faces.front() != part.face) return;
         const Triangle& whole = soup_.triangles[part.face];
         const bool is_whole = part.corners[0] == whole[0] && part.corners[1] == whole[1] &&
@@ -393,7 +425,10 @@ private:
     const Run& run_;
     Retriangulation& out_;
     std::vector<Block> blocks_;
-    std::unordered_map<Triangle, std::vector<std::uint32_t>, Hash> faces_of_;
+    // Parts that may be repeated, in the order of the soup:
+    std::vector<std::uint32_t> number_of_; ///< equal for equal parts
+    std::size_t next_repeated_ = 0;        ///< the next one to be stitched
+    IndexLists<std::uint32_t> faces_of_;   ///< per number: the faces, ascending
     bool any_overlapped_ = false;
 };
 
@@ -427,7 +462,7 @@ Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triang
     out.points = std::move(contacts.points);
     out.ascending = std::move(order.ascending);
     out.near = std::move(contacts.near);
-    out.has_pools = !contacts.pools.of.empty();
+    out.pools = std::move(contacts.pools.of);
     return out;
 }
 

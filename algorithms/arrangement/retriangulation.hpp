@@ -35,12 +35,13 @@ struct Retriangulation {
     IndexLists<std::uint32_t> faces_of; ///< per triangle: triangles of the soup that contain it,
                                         ///< ascending, >= 1
     std::vector<std::uint32_t>
-        unchanged_as;                ///< per triangle of the soup: its index in triangles if it is
-                                     ///< undivided and the only face there; else UINT32_MAX
-    std::vector<CandidatePair> near; ///< candidates whose parts may meet when their points are
-                                     ///< rounded to nearest doubles; the others stay apart, but
-                                     ///< for those within a pool or a pencil
-    bool has_pools = false;          ///< whether there are pools, whose pairs `near` leaves out
+        unchanged_as;                 ///< per triangle of the soup: its index in triangles if it is
+                                      ///< undivided and the only face there; else UINT32_MAX
+    std::vector<CandidatePair> near;  ///< candidates whose parts may meet when their points are
+                                      ///< rounded to nearest doubles; the others stay apart, but
+                                      ///< for those within a pool or a pencil
+    std::vector<std::uint32_t> pools; ///< per triangle of the soup: its pool, or no_group; empty
+                                      ///< without pools
     RetriangulationStatistics statistics;
 };
 

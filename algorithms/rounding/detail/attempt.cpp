@@ -211,10 +211,6 @@ std::vector<CandidatePair> Rounding::first_contacts(const Run& run) {
                                               dirty, state_.is_dirty, turn, a.state->patches);
         },
         [&] {
-            if (a.state->has_pools) { // not all pairs are known, and they would be too many
-                unproven.parts = dirty;
-                return;
-            }
             unproven = find_unproven({a.state->points.inputs(), a.state->corners, a.vertices,
                                       state_.points, state_.move, state_.triangles, a.parents_of},
                                      a.state->neighbours, run_);
@@ -232,21 +228,73 @@ std::vector<CandidatePair> Rounding::first_contacts(const Run& run) {
     };
     for (const std::uint32_t t : dirty)
         if (patch_of(t) != a.state->patches.of[t]) unproven.parts.push_back(t);
+    const Pools pools = find_pools(unproven.ill_conditioned);
     for (const std::uint32_t t : unproven.ill_conditioned) // parts of one patch meet properly
-        if (patch_of(t) == no_group) unproven.parts.push_back(t);
+        if (patch_of(t) == no_group && !pools.has(t)) unproven.parts.push_back(t);
     add_crowded_parts(a, dirty, unproven.parts);
     const bool counts = options_.check.most_counted(arrangement_.triangles.size()) > 0;
-    if (unproven.parts.empty() && !counts) return pairs;
+    if (unproven.parts.empty() && pools.of.empty() && !counts) return pairs;
     sort_unique(unproven.parts);
     std::vector<std::uint32_t> patches(state_.triangles.size());
     for (std::uint32_t t = 0; t < patches.size(); ++t) patches[t] = patch_of(t);
-    if (counts) first_search_ = {unproven.pairs, unproven.parts, dirty, patches};
-    if (unproven.parts.empty()) return pairs;
-    const auto more = candidate_pairs_of({state_.points, state_.triangles}, unproven.parts, patches,
-                                         improper, run);
+    if (counts) first_search_ = {unproven.pairs, unproven.parts, dirty, patches, pools};
+    if (!unproven.parts.empty()) {
+        const auto more = candidate_pairs_of({state_.points, state_.triangles}, unproven.parts,
+                                             patches, improper, run);
+        pairs.insert(pairs.end(), more.begin(), more.end());
+    }
+    const auto more = contacts_in_pools(pools, patches, quiet_);
     pairs.insert(pairs.end(), more.begin(), more.end());
     sort_unique(pairs);
     return pairs;
+}
+
+/// Returns the pools of the triangles.
+Pools Rounding::find_pools(std::span<const std::uint32_t> ill_conditioned) const {
+    Pools pools;
+    const auto& of_parents = arrangement_.state->pools;
+    if (of_parents.empty()) return pools;
+    pools.parents_of = &arrangement_.parents_of;
+    pools.of.resize(state_.triangles.size());
+    for (std::uint32_t t = 0; t < pools.of.size(); ++t)
+        pools.of[t] = of_parents[arrangement_.parents_of[t][0]];
+    pools.is_ill_conditioned.resize(pools.of.size(), false);
+    for (const std::uint32_t t : ill_conditioned) pools.is_ill_conditioned[t] = true;
+    return pools;
+}
+
+/// Finds the pairs within pools that meet improperly right after rounding to nearest.
+std::vector<CandidatePair> Rounding::contacts_in_pools(const Pools& pools, std::span<const std::uint32_t> patches,
+                            const Run& run) const {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> parts; // with their pools
+    for (std::uint32_t t = 0; t < pools.of.size(); ++t)
+        if (pools.has(t)) parts.emplace_back(pools.of[t], t);
+    std::sort(parts.begin(), parts.end());
+    std::vector<CandidatePair> found;
+    for (std::size_t first = 0, last = 0; first < parts.size(); first = last) {
+        std::vector<std::uint32_t> active, groups;
+        std::vector<Triangle> triangles;
+        for (; last < parts.size() && parts[last].first == parts[first].first; ++last) {
+            const std::uint32_t t = parts[last].second;
+            const Triangle& c = state_.triangles[t];
+            if (state_.is_dirty[c[0]] || state_.is_dirty[c[1]] || state_.is_dirty[c[2]])
+                active.push_back(static_cast<std::uint32_t>(last - first));
+            triangles.push_back(c);
+            groups.push_back(patches[t]);
+        }
+        const auto of_mesh = [&](const CandidatePair& p) -> CandidatePair {
+            return {parts[first + p.first].second, parts[first + p.second].second};
+        };
+        const auto improper = [&](const CandidatePair& p) {
+            return pools.need_test(of_mesh(p)) &&
+                   improper_contact(state_.points, triangles[p.first], triangles[p.second])
+                       .has_value();
+        };
+        const auto pairs =
+            candidate_pairs_of({state_.points, triangles}, active, groups, improper, run);
+        for (const CandidatePair& p : pairs) found.push_back(of_mesh(p));
+    }
+    return found;
 }
 
 /// Performs one round. Returns false if snapping multiplied the contacts so much that dividing them

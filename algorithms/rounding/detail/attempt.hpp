@@ -77,6 +77,10 @@ private:
     [[nodiscard]] Error too_far() const;
     [[nodiscard]] PairFilter is_improper() const;
     std::vector<CandidatePair> first_contacts(const Run& run);
+    [[nodiscard]] Pools find_pools(std::span<const std::uint32_t> ill_conditioned) const;
+    [[nodiscard]] std::vector<CandidatePair>
+    contacts_in_pools(const Pools& pools, std::span<const std::uint32_t> patches,
+                      const Run& run) const;
     std::vector<CandidatePair> contacts(const Run& run);
     bool snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid);
     void snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid);

@@ -42,11 +42,22 @@ std::vector<std::uint32_t> origins_of(const RoundingState& state,
 
 } // namespace
 
+bool Pools::need_test(const CandidatePair& pair) const {
+    const auto [s, t] = pair;
+    if (!has(s) || of[s] != of[t]) return false;
+    if (is_ill_conditioned[s] && is_ill_conditioned[t]) return true;
+    const auto faces_of_s = (*parents_of)[s], faces_of_t = (*parents_of)[t];
+    const auto is_of_t = [&](std::uint32_t f) {
+        return std::binary_search(faces_of_t.begin(), faces_of_t.end(), f);
+    };
+    return std::none_of(faces_of_s.begin(), faces_of_s.end(), is_of_t);
+}
+
 FirstSearch::FirstSearch(std::vector<CandidatePair> tested_pairs,
                          std::span<const std::uint32_t> parts, std::span<const std::uint32_t> dirty,
-                         std::vector<std::uint32_t> patches_of) :
+                         std::vector<std::uint32_t> patches_of, Pools pools_of) :
     pairs(std::move(tested_pairs)),
-    flags(patches_of.size(), 0), patches(std::move(patches_of)) {
+    flags(patches_of.size(), 0), patches(std::move(patches_of)), pools(std::move(pools_of)) {
     for (const std::uint32_t t : parts) flags[t] |= is_part;
     for (const std::uint32_t t : dirty) flags[t] |= is_dirty;
     for (const CandidatePair& pair : pairs)
@@ -64,7 +75,8 @@ DecidedBy FirstSearch::decided_by(const CandidatePair& pair) const {
         ((both & in_tested_pair) != 0 && std::binary_search(pairs.begin(), pairs.end(), pair)))
         return DecidedBy::test;
     if ((either & is_dirty) == 0) return DecidedBy::exact_mesh;
-    return in_one_patch ? DecidedBy::patch : DecidedBy::separation;
+    if (in_one_patch) return DecidedBy::patch;
+    return pools.need_test(pair) ? DecidedBy::test : DecidedBy::separation;
 }
 
 std::optional<PairCounts> count_decisions(const RoundingState& state,

@@ -16,10 +16,23 @@
 #include <vector>
 
 #include <terrane/algorithms/check/count_pairs.hpp>
+#include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
 
 namespace terrane::rounding::detail {
+
+/// The pools of an arrangement's triangles: the separation of faces says nothing of pairs within one.
+struct Pools {
+    std::vector<std::uint32_t> of; ///< per triangle: its pool, or no_group; empty without pools
+    std::vector<bool> is_ill_conditioned; ///< per triangle; empty without pools
+    const IndexLists<std::uint32_t>* parents_of = nullptr;
+
+    [[nodiscard]] bool has(std::uint32_t t) const { return !of.empty() && of[t] != no_group; }
+    /// Whether two triangles are in one pool, and may meet improperly after a small move: those of
+    /// one face do not if one of them is well conditioned.
+    [[nodiscard]] bool need_test(const CandidatePair& pair) const;
+};
 
 /// How the first search decided pairs of triangles of the arrangement. Empty lists: it had nothing
 /// to decide, since no corner had moved.
@@ -27,11 +40,13 @@ struct FirstSearch {
     FirstSearch() = default;
     /// The lists are of triangles; `tested` is sorted.
     FirstSearch(std::vector<CandidatePair> tested, std::span<const std::uint32_t> parts,
-                std::span<const std::uint32_t> dirty, std::vector<std::uint32_t> patches_of);
+                std::span<const std::uint32_t> dirty, std::vector<std::uint32_t> patches_of,
+                Pools pools_of);
 
     std::vector<CandidatePair> pairs;   ///< tested; sorted
     std::vector<std::uint8_t> flags;    ///< per triangle: see pair_decisions.cpp
     std::vector<std::uint32_t> patches; ///< per triangle: its patch, if that still holds; no_group
+    Pools pools;
 
     [[nodiscard]] DecidedBy decided_by(const CandidatePair& pair) const;
 };

@@ -31,11 +31,33 @@ struct Common {
     Sizes sizes;
 };
 
+/// The vertices of one face by their points, so that each is found at once.
+class MarkedFace {
+public:
+    void mark(const Faces& faces, std::uint32_t slot) {
+        if (slot == slot_) return;
+        slot_ = slot;
+        at_.resize(faces.at.size(), {none, none});
+        const Face& f = faces.faces[slot];
+        for (std::uint32_t v = f.vertex; v < f.vertex_end; ++v) at_[faces.vertices[v]] = {slot, v};
+    }
+    [[nodiscard]] std::uint32_t slot() const { return slot_; }
+    /// Returns the vertex of the face at a point, or none.
+    [[nodiscard]] std::uint32_t find(std::uint32_t point) const {
+        return at_[point].face == slot_ ? at_[point].vertex : none;
+    }
+
+private:
+    std::uint32_t slot_ = none;
+    std::vector<VertexOfFace> at_; ///< per point: the face that was marked last there
+};
+
 struct Scratch {
-    std::vector<Common> common;                 ///< per face: with the first face of a group
+    MarkedFace marked;
     std::vector<std::uint8_t> sides;            ///< per vertex of a face
     std::vector<std::uint8_t> beyond;           ///< per vertex: see edges_before, or unknown
     std::vector<std::uint32_t> low;             ///< vertices that are not clearly above or below
+    std::vector<std::uint32_t> far;             ///< clusters of vertices clear of the plane
     std::vector<std::uint32_t> left, left_back; ///< entries of Faces::parts without proof
     std::vector<Box> boxes;                     ///< per entry of left_back
 };
@@ -83,8 +105,20 @@ private:
     void find_common(std::uint32_t g_slot, std::vector<Common>& common) const;
     [[nodiscard]] bool is_clear_as_a_whole(std::uint32_t f_slot, std::uint32_t g_slot,
                                            const Common& common) const;
-    void test_group(std::size_t first, std::size_t last, Scratch& scratch, Found& found) const;
-    [[nodiscard]] bool is_clear(const Pair& pair, const Triangle& part) const;
+    [[nodiscard]] std::vector<CandidatePair> find_doubtful(const Run& run) const;
+    [[nodiscard]] bool is_affordable(std::span<const CandidatePair> doubtful) const;
+    void add_all_parts(std::span<const CandidatePair> doubtful,
+                       std::vector<std::uint32_t>& parts) const;
+    void cluster_faces(std::span<const CandidatePair> doubtful, const Run& run);
+    void test_pair(const CandidatePair& slots, Scratch& scratch, Found& found) const;
+    [[nodiscard]] std::uint32_t vertex_of_g(const Pair& pair, std::uint32_t v,
+                                            const MarkedFace& marked) const;
+    [[nodiscard]] bool is_part_of_g(const Pair& pair, std::uint32_t e) const;
+    [[nodiscard]] bool is_clear(const Pair& pair, const Triangle& part,
+                                const MarkedFace& marked) const;
+    [[nodiscard]] const FaceClusters* clusters_of(const Face& f) const {
+        return f.clusters == none ? nullptr : &faces_.clusters[f.clusters];
+    }
     bool find_sides(const Pair& pair, Scratch& scratch) const;
     void find_left(const Pair& pair, Scratch& scratch, std::vector<std::uint32_t>& left) const;
     void add_pairs(Scratch& scratch, Found& found) const;
@@ -220,15 +254,29 @@ bool leaves_turned(const std::array<double, 3>& e, const std::array<double, 3>& 
     return false;
 }
 
+/// Returns the vertex of g at a vertex of f, or none.
+std::uint32_t Prover::vertex_of_g(const Pair& pair, std::uint32_t v,
+                                  const MarkedFace& marked) const {
+    const std::uint32_t point = faces_.vertices[v];
+    return pair.g_slot == marked.slot() ? marked.find(point) : faces_.find(pair.g_slot, point);
+}
+
+/// Whether a part of f is one of g, too. Of two parts of g, statement (5) tells.
+bool Prover::is_part_of_g(const Pair& pair, std::uint32_t e) const {
+    const auto faces = moved_.faces_of[faces_.parts[e]];
+    return faces.size() > 1 &&
+           std::binary_search(faces.begin(), faces.end(), faces_.names[pair.g_slot]);
+}
+
 /// Tests statements (3) and (4) for a part of f with all functionals.
-bool Prover::is_clear(const Pair& pair, const Triangle& part) const {
+bool Prover::is_clear(const Pair& pair, const Triangle& part, const MarkedFace& marked) const {
     const double d = pair.d;
     std::array<Point3, 3> at;
     std::array<bool, 3> on{}; // whether the corner is a vertex of g
     std::array<std::uint32_t, 3> there{};
     double longest = infinity;
     for (unsigned i = 0; i < 3; ++i) {
-        there[i] = faces_.find(pair.g_slot, faces_.vertices[part[i]]);
+        there[i] = vertex_of_g(pair, part[i], marked);
         on[i] = there[i] != none;
         at[i] = faces_.places[part[i]];
         longest = std::min(longest, faces_.sizes[part[i]].longest); // >= the part's longest edge
@@ -258,35 +306,63 @@ bool Prover::is_clear(const Pair& pair, const Triangle& part) const {
     return false;
 }
 
+/// Whether a ball is so far from a plane that the computed heights of its points exceed d. They and
+/// that of the centre err by less than d / 16: see margin.
+bool is_far(const Ball& ball, double lift, double d) {
+    return lift - ball.radius > 2 * d;
+}
+
 /// Classifies the vertices of f: above the plane of g, below it, resting on a vertex of g, or
-/// neither. Returns true if every vertex that rises rises enough for all vertices that rest.
+/// neither. Those of clusters that are far from the plane stay unknown. Returns true if every
+/// vertex that rises rises enough for all vertices that rest.
 bool Prover::find_sides(const Pair& pair, Scratch& scratch) const {
     const std::uint32_t first = pair.f.vertex, count = pair.f.vertex_end - first;
     auto& sides = scratch.sides;
     auto& low = scratch.low;
-    sides.resize(count);
     low.resize(count);
     const Point3* place = faces_.places.data() + first;
     const Functional height = pair.height;
     const double d = pair.d;
     double least_lift = infinity, most_rise = 0;
-    std::uint32_t lows = 0; // the loop avoids branches, which would be mispredicted
-    for (std::uint32_t k = 0; k < count; ++k) {
+    std::uint32_t lows = 0;
+    const auto classify = [&](std::uint32_t k) { // avoids branches, which would be mispredicted
         const double u = height(place[k]), lift = std::fabs(u);
         sides[k] = static_cast<std::uint8_t>(neither - (u > d ? below : 0) - (u < -d ? above : 0));
         least_lift = std::min(least_lift, lift > d ? lift : least_lift);
         low[lows] = k;
         lows += lift > d ? 0 : 1;
+    };
+    const FaceClusters* const clusters = clusters_of(pair.f);
+    scratch.far.clear();
+    if (clusters == nullptr) {
+        sides.resize(count);
+        for (std::uint32_t k = 0; k < count; ++k) classify(k);
+    } else {
+        sides.assign(count, unknown);
+        const auto& [members, balls] = clusters->vertices;
+        for (std::uint32_t c = 0; c < balls.size(); ++c) {
+            if (is_far(balls[c], std::fabs(height(balls[c].centre)), d))
+                scratch.far.push_back(c);
+            else
+                for (const std::uint32_t v : members[c]) classify(v - first);
+        }
     }
     for (std::uint32_t n = 0; n < lows; ++n) {
         const std::uint32_t k = low[n];
-        const std::uint32_t there = faces_.find(pair.g_slot, faces_.vertices[first + k]);
+        const std::uint32_t there = vertex_of_g(pair, first + k, scratch.marked);
         if (there == none || !(std::fabs(height(place[k])) <= d / 2)) continue;
         sides[k] = rests;
         most_rise = std::max(most_rise,
                              least_rise(faces_.sizes[there], faces_.sizes[first + k].longest, d));
     }
-    return least_lift > most_rise;
+    if (!(least_lift > most_rise)) return false;
+    for (const std::uint32_t c : scratch.far) {
+        const Ball& ball = clusters->vertices.balls[c];
+        if (std::fabs(height(ball.centre)) - ball.radius - d > most_rise) continue;
+        for (const std::uint32_t v : clusters->vertices.members[c])
+            if (!(std::fabs(height(faces_.places[v])) > most_rise)) return false;
+    }
+    return true;
 }
 
 /// Returns one bit for each edge of g, set if p lies beyond the edge by more than d.
@@ -303,9 +379,14 @@ void Prover::find_left(const Pair& pair, Scratch& scratch, std::vector<std::uint
     left.clear();
     const bool all_leave = find_sides(pair, scratch);
     const std::uint32_t first = pair.f.vertex;
-    const auto& sides = scratch.sides;
+    auto& sides = scratch.sides;
+    const auto side = [&](std::uint32_t v) -> unsigned {
+        std::uint8_t& s = sides[v - first];
+        if (s == unknown) s = pair.height(faces_.places[v]) > 0 ? above : below;
+        return s;
+    };
     const auto is_doubtful = [&](const Triangle& c) {
-        const unsigned i = sides[c[0] - first], j = sides[c[1] - first], k = sides[c[2] - first];
+        const unsigned i = side(c[0]), j = side(c[1]), k = side(c[2]);
         const unsigned together = i | j | k;
         const bool both_sides = together == neither || together == rests;
         const bool any_rests = i == rests || j == rests || k == rests;
@@ -317,12 +398,21 @@ void Prover::find_left(const Pair& pair, Scratch& scratch, std::vector<std::uint
         if (edges == unknown) edges = edges_before(pair.beyond, faces_.places[v], pair.d);
         return edges;
     };
-    for (std::uint32_t e = pair.f.part; e < pair.f.part_end; ++e) {
+    const auto test = [&](std::uint32_t e) {
         const Triangle& c = faces_.corners[e];
         if (is_doubtful(c) && (beyond(c[0]) & beyond(c[1]) & beyond(c[2])) == 0 &&
-            !is_clear(pair, c))
+            !is_part_of_g(pair, e) && !is_clear(pair, c, scratch.marked))
             left.push_back(e);
+    };
+    const FaceClusters* const clusters = clusters_of(pair.f);
+    if (clusters == nullptr) {
+        for (std::uint32_t e = pair.f.part; e < pair.f.part_end; ++e) test(e);
+        return;
     }
+    const auto& [members, balls] = clusters->parts;
+    for (std::size_t c = 0; c < balls.size(); ++c)
+        if (!is_far(balls[c], std::fabs(pair.height(balls[c].centre)), pair.d))
+            for (const std::uint32_t e : members[c]) test(e);
 }
 
 /// Adds the pairs whose boxes overlap if they are few; else the parts of the face with fewer parts
@@ -355,43 +445,94 @@ void Prover::find_common(std::uint32_t g_slot, std::vector<Common>& common) cons
     common.resize(faces_.faces.size());
     const Face& g = faces_.faces[g_slot];
     for (std::uint32_t v = g.vertex; v < g.vertex_end; ++v)
-        for (std::uint32_t w = faces_.last_at[faces_.vertices[v]]; w != none;
-             w = faces_.before[w]) {
-            Common& c = common[faces_.face_at[w]];
+        for (const VertexOfFace& other : faces_.at[faces_.vertices[v]]) {
+            Common& c = common[other.face];
             if (c.first != g_slot) c = {g_slot, {}};
             c.sizes.add(faces_.sizes[v]);
-            c.sizes.add(faces_.sizes[w]);
+            c.sizes.add(faces_.sizes[other.vertex]);
         }
 }
 
-/// Tests a group of pairs with the same first face.
-void Prover::test_group(std::size_t first, std::size_t last, Scratch& scratch, Found& found) const {
-    const std::uint32_t g = faces_.slot_of[meeting_[first].first];
-    find_common(g, scratch.common);
-    for (std::size_t i = first; i < last; ++i) {
-        const std::uint32_t f = faces_.slot_of[meeting_[i].second];
-        if (is_clear_as_a_whole(f, g, scratch.common[f])) continue;
-        find_left(pair_of(f, g), scratch, scratch.left);
-        if (scratch.left.empty()) continue;
-        find_left(pair_of(g, f), scratch, scratch.left_back);
-        add_pairs(scratch, found);
-    }
-}
-
-Unproven Prover::operator()(const Run& run) {
-    std::vector<std::size_t> groups; // the first pair of each group, and the end
+/// Returns the pairs that are not clear as a whole, as indices into Faces::faces.
+std::vector<CandidatePair> Prover::find_doubtful(const Run& run) const {
+    std::vector<std::size_t> groups; // the first pair of each with the same first face, and the end
     for (std::size_t i = 0; i < meeting_.size(); ++i)
         if (i == 0 || meeting_[i].first != meeting_[i - 1].first) groups.push_back(i);
     groups.push_back(meeting_.size());
+    tbb::enumerable_thread_specific<std::vector<Common>> scratch;
+    return concatenated(for_blocks<std::vector<CandidatePair>>(
+        groups.size() - 1, 16, run, [&](std::size_t first, std::size_t last) {
+            std::vector<CandidatePair> doubtful;
+            std::vector<Common>& common = scratch.local();
+            for (std::size_t n = first; n < last; ++n) {
+                const std::uint32_t g = faces_.slot_of[meeting_[groups[n]].first];
+                find_common(g, common);
+                for (std::size_t i = groups[n]; i < groups[n + 1]; ++i) {
+                    const std::uint32_t f = faces_.slot_of[meeting_[i].second];
+                    if (!is_clear_as_a_whole(f, g, common[f])) doubtful.push_back({g, f});
+                }
+            }
+            return doubtful;
+        }));
+}
+
+/// Whether the parts of the faces are few enough for a test of each pair. Many faces with many
+/// parts, each in doubt with each, would cost more than the size of the mesh warrants.
+bool Prover::is_affordable(std::span<const CandidatePair> doubtful) const {
+    constexpr std::uint64_t most_per_part = 4096, few_parts = 128;
+    std::uint64_t sum = 0;
+    for (const CandidatePair& p : doubtful)
+        if (const std::uint64_t n = faces_.part_count(p.second); n > few_parts) sum += n;
+    return sum <= most_per_part * faces_.parts.size();
+}
+
+/// Adds the parts of the second faces.
+void Prover::add_all_parts(std::span<const CandidatePair> doubtful,
+                           std::vector<std::uint32_t>& parts) const {
+    std::vector<bool> added(faces_.faces.size(), false);
+    for (const CandidatePair& p : doubtful) {
+        if (added[p.second]) continue;
+        added[p.second] = true;
+        const Face& f = faces_.faces[p.second];
+        parts.insert(parts.end(), faces_.parts.begin() + f.part, faces_.parts.begin() + f.part_end);
+    }
+}
+
+/// Clusters the faces of many pairs, where that pays.
+void Prover::cluster_faces(std::span<const CandidatePair> doubtful, const Run& run) {
+    constexpr std::uint32_t many_pairs = 8;
+    std::vector<std::uint32_t> pairs(faces_.faces.size(), 0), slots;
+    for (const CandidatePair& p : doubtful)
+        for (const std::uint32_t s : {p.first, p.second})
+            if (++pairs[s] == many_pairs) slots.push_back(s);
+    faces_.cluster(slots, run);
+}
+
+void Prover::test_pair(const CandidatePair& slots, Scratch& scratch, Found& found) const {
+    const auto [g, f] = slots;
+    scratch.marked.mark(faces_, g);
+    find_left(pair_of(f, g), scratch, scratch.left);
+    if (scratch.left.empty()) return;
+    find_left(pair_of(g, f), scratch, scratch.left_back);
+    add_pairs(scratch, found);
+}
+
+Unproven Prover::operator()(const Run& run) {
+    auto doubtful = find_doubtful(run);
+    Unproven all;
+    if (!is_affordable(doubtful)) {
+        add_all_parts(doubtful, all.parts);
+        doubtful.clear();
+    }
+    cluster_faces(doubtful, run);
     tbb::enumerable_thread_specific<Scratch> scratch;
     const auto blocks =
-        for_blocks<Found>(groups.size() - 1, 16, run, [&](std::size_t first, std::size_t last) {
+        for_blocks<Found>(doubtful.size(), 64, run, [&](std::size_t first, std::size_t last) {
             Found found;
             for (std::size_t i = first; i < last; ++i)
-                test_group(groups[i], groups[i + 1], scratch.local(), found);
+                test_pair(doubtful[i], scratch.local(), found);
             return found;
         });
-    Unproven all;
     for (const Found& b : blocks) {
         all.pairs.insert(all.pairs.end(), b.pairs.begin(), b.pairs.end());
         all.parts.insert(all.parts.end(), b.parts.begin(), b.parts.end());

@@ -37,8 +37,8 @@ struct MovedParts {
 };
 
 /// Everything that may meet improperly after the move. Two parts of different faces (a pair of
-/// `meeting`): the pair is in `pairs`, or one of them is in `parts`. Two parts of one face: one of
-/// them is in `ill_conditioned`.
+/// `meeting`): the pair is in `pairs`, or one of them is in `parts`. Two parts of one face, whatever
+/// other faces they are parts of: both are in `ill_conditioned`.
 struct Unproven {
     std::vector<CandidatePair> pairs;           ///< pairs of parts; sorted, unique
     std::vector<std::uint32_t> parts;           ///< ascending
@@ -47,7 +47,8 @@ struct Unproven {
 
 /// Finds the parts for which no condition proves that they meet properly. `meeting`: the pairs of
 /// faces of which one is divided; sorted. Cost: linear in the parts of the mesh, in the common
-/// vertices of pairs and, for pairs that are not clear as a whole, in the parts of their faces.
+/// vertices of pairs and, for pairs that are not clear as a whole, in the parts of one face that are
+/// near the plane of the other; at most some thousand steps per part of a face.
 Unproven find_unproven(const MovedParts& moved, std::span<const CandidatePair> meeting,
                        const Run& run);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <terrane/algorithms/core/parallel.hpp>
@@ -65,6 +66,98 @@ void for_several(std::size_t count, const Run& run, const Visit& visit) {
         4, least);
 }
 
+/// The smallest ball about the centre of a box of points that contains them.
+class BallMaker {
+public:
+    void add(const Point3& p) {
+        low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
+        high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y), std::max(high_.z, p.z)};
+    }
+    /// The radius has room for the rounding errors of its computation.
+    [[nodiscard]] Ball ball() const {
+        const Point3 centre{low_.x + (high_.x - low_.x) / 2, low_.y + (high_.y - low_.y) / 2,
+                            low_.z + (high_.z - low_.z) / 2};
+        const Point3 up = minus(high_, centre), down = minus(centre, low_);
+        const Point3 most{std::max(up.x, down.x), std::max(up.y, down.y), std::max(up.z, down.z)};
+        return {centre, length(most) * (1 + size_share)};
+    }
+
+private:
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+    Point3 low_{infinity, infinity, infinity}, high_{-infinity, -infinity, -infinity};
+};
+
+/// A grid of squares over a face, seen along the axis that its normal is closest to.
+class FaceGrid {
+public:
+    /// Makes about one cell for so many of `count` items.
+    FaceGrid(const Face& f, std::size_t count, std::size_t per_cell) {
+        const std::array<double, 3> n{std::fabs(f.normal.x), std::fabs(f.normal.y),
+                                      std::fabs(f.normal.z)};
+        const auto away = static_cast<unsigned>(std::max_element(n.begin(), n.end()) - n.begin());
+        std::array<double, 2> size{};
+        for (unsigned i = 0; i < 2; ++i) {
+            axes_[i] = (away + 1 + i) % 3;
+            const auto [low, high] =
+                std::minmax({at(f.corners[0], i), at(f.corners[1], i), at(f.corners[2], i)});
+            low_[i] = low;
+            size[i] = high - low;
+        }
+        const double wanted = 2 * static_cast<double>(count / per_cell); // a face fills half of it
+        const double side = std::sqrt(size[0] * size[1] / wanted);
+        for (unsigned i = 0; i < 2; ++i) {
+            per_length_[i] = 0;
+            if (!(side > shortest_length && side < longest_length)) continue;
+            cells_[i] =
+                static_cast<std::uint32_t>(std::clamp(std::ceil(size[i] / side), 1.0, wanted));
+            per_length_[i] = cells_[i] / size[i];
+        }
+    }
+    [[nodiscard]] std::size_t size() const { return std::size_t{cells_[0]} * cells_[1]; }
+    [[nodiscard]] std::size_t cell(const Point3& p) const {
+        return index(p, 1) * cells_[0] + index(p, 0);
+    }
+
+private:
+    [[nodiscard]] double at(const Point3& p, unsigned i) const {
+        return axes_[i] == 0 ? p.x : axes_[i] == 1 ? p.y : p.z;
+    }
+    [[nodiscard]] std::size_t index(const Point3& p, unsigned i) const {
+        const double place = (at(p, i) - low_[i]) * per_length_[i];
+        return place > 0 ? static_cast<std::size_t>(std::min(place, cells_[i] - 1.0)) : 0;
+    }
+
+    std::array<unsigned, 2> axes_{};
+    std::array<std::uint32_t, 2> cells_{1, 1};
+    std::array<double, 2> low_{}, per_length_{};
+};
+
+/// Clusters the indices in [first, last) by the cells of place_of(index).
+template <class PlaceOf, class AddAll>
+Clusters clusters_in(const FaceGrid& grid, std::uint32_t first, std::uint32_t last,
+                     const PlaceOf& place_of, const AddAll& add_all) {
+    std::vector<std::uint32_t> cells(last - first), ends(grid.size() + 1, 0);
+    for (std::uint32_t k = first; k < last; ++k) {
+        cells[k - first] = static_cast<std::uint32_t>(grid.cell(place_of(k)));
+        ++ends[cells[k - first] + 1];
+    }
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    Clusters c;
+    c.members.values.resize(last - first);
+    std::vector<std::uint32_t> next(ends.begin(), ends.end() - 1);
+    for (std::uint32_t k = first; k < last; ++k) c.members.values[next[cells[k - first]]++] = k;
+    c.members.offsets.clear();
+    c.members.offsets.push_back(0);
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        if (ends[i] == ends[i + 1]) continue;
+        BallMaker ball;
+        for (std::uint32_t m = ends[i]; m < ends[i + 1]; ++m) add_all(c.members.values[m], ball);
+        c.balls.push_back(ball.ball());
+        c.members.offsets.push_back(ends[i + 1]);
+    }
+    return c;
+}
+
 } // namespace
 
 Functional Face::beyond(unsigned j) const {
@@ -91,9 +184,37 @@ Faces::Faces(const MovedParts& moved, std::span<const CandidatePair> pairs, doub
 }
 
 std::uint32_t Faces::find(std::uint32_t face, std::uint32_t point) const {
-    std::uint32_t v = last_at[point];
-    while (v != none && face_at[v] > face) v = before[v];
-    return v != none && face_at[v] == face ? v : none;
+    const auto there = at[point];
+    const auto found = std::lower_bound(
+        there.begin(), there.end(), face,
+        [](const VertexOfFace& v, std::uint32_t wanted) { return v.face < wanted; });
+    return found != there.end() && found->face == face ? found->vertex : none;
+}
+
+FaceClusters Faces::clusters_of(const Face& f) const {
+    constexpr std::size_t per_cluster = 8;
+    const auto place_of_part = [&](std::uint32_t e) { return places[corners[e][0]]; };
+    return {clusters_in(
+                FaceGrid(f, f.vertex_end - f.vertex, per_cluster), f.vertex, f.vertex_end,
+                [&](std::uint32_t v) { return places[v]; },
+                [&](std::uint32_t v, BallMaker& ball) { ball.add(places[v]); }),
+            clusters_in(FaceGrid(f, f.part_end - f.part, per_cluster), f.part, f.part_end,
+                        place_of_part, [&](std::uint32_t e, BallMaker& ball) {
+                            for (const std::uint32_t v : corners[e]) ball.add(places[v]);
+                        })};
+}
+
+void Faces::cluster(std::span<const std::uint32_t> slots, const Run& run) {
+    constexpr std::uint32_t many_parts = 128;
+    std::vector<std::uint32_t> large;
+    for (const std::uint32_t s : slots) {
+        if (part_count(s) < many_parts) continue;
+        faces[s].clusters = static_cast<std::uint32_t>(large.size());
+        large.push_back(s);
+    }
+    clusters.resize(large.size());
+    for_several(large.size(), run,
+                [&](std::size_t k) { clusters[k] = clusters_of(faces[large[k]]); });
 }
 
 void Faces::measure_faces(const MovedParts& moved, std::span<const CandidatePair> pairs,
@@ -132,13 +253,11 @@ void Faces::collect_parts(const MovedParts& moved, const Run& run) {
 }
 
 void Faces::number_vertices(const MovedParts& moved) {
-    last_at.assign(moved.points.size(), none);
+    std::vector<std::uint32_t> last_at(moved.points.size(), none); // the last vertex at each point
     corners.resize(parts.size());
     const std::size_t most = parts.size() + 2 * faces.size(); // the parts of a face form a disk
     vertices.reserve(most);
     places.reserve(most);
-    face_at.reserve(most);
-    before.reserve(most);
     for (std::uint32_t s = 0; s < faces.size(); ++s) {
         Face& f = faces[s];
         f.vertex = static_cast<std::uint32_t>(vertices.size());
@@ -147,10 +266,8 @@ void Faces::number_vertices(const MovedParts& moved) {
                 const std::uint32_t point = moved.parts[parts[e]][i];
                 std::uint32_t& last = last_at[point];
                 if (last == none || last < f.vertex) {
-                    before.push_back(last);
                     last = static_cast<std::uint32_t>(vertices.size());
                     vertices.push_back(point);
-                    face_at.push_back(s);
                     places.push_back(moved.points[point]);
                 }
                 corners[e][i] = last;
@@ -158,6 +275,18 @@ void Faces::number_vertices(const MovedParts& moved) {
         f.vertex_end = static_cast<std::uint32_t>(vertices.size());
     }
     sizes.resize(vertices.size());
+    list_vertices(moved.points.size());
+}
+
+void Faces::list_vertices(std::size_t points) {
+    at.offsets.assign(points + 1, 0);
+    for (const std::uint32_t p : vertices) ++at.offsets[p + 1];
+    std::partial_sum(at.offsets.begin(), at.offsets.end(), at.offsets.begin());
+    at.values.resize(vertices.size());
+    std::vector<std::uint32_t> next(at.offsets.begin(), at.offsets.end() - 1);
+    for (std::uint32_t f = 0; f < faces.size(); ++f)
+        for (std::uint32_t v = faces[f].vertex; v < faces[f].vertex_end; ++v)
+            at.values[next[vertices[v]]++] = {f, v};
 }
 
 void Faces::name_corners(const MovedParts& moved, std::uint32_t face) {

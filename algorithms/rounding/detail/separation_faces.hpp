@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
@@ -43,6 +44,7 @@ struct Face {
     std::uint32_t vertex = 0, vertex_end = 0; ///< range in Faces::vertices
     std::array<std::uint32_t, 3> corner_at{none, none, none}; ///< corners, as indices into
                                                               ///< Faces::vertices
+    std::uint32_t clusters = none;                            ///< index into Faces::clusters
 
     /// Returns the height above the plane.
     [[nodiscard]] Functional height() const { return {corners[0], normal}; }
@@ -58,6 +60,28 @@ struct Sizes {
     void add(const Sizes& other);
 };
 
+/// A vertex of a face, as an index into Faces::vertices.
+struct VertexOfFace {
+    std::uint32_t face, vertex;
+};
+
+/// A ball that contains the members of a cluster.
+struct Ball {
+    Point3 centre;
+    double radius = 0;
+};
+
+/// Clusters of neighbouring vertices, or of neighbouring parts, of one face.
+struct Clusters {
+    IndexLists<std::uint32_t> members; ///< as indices into Faces::vertices or Faces::parts
+    std::vector<Ball> balls;           ///< per cluster
+};
+
+/// The clusters of a face with many parts. A plane passes few of them.
+struct FaceClusters {
+    Clusters vertices, parts;
+};
+
 /// The faces in pairs and their parts. Cost: linear in all parts of the mesh and of the faces.
 struct Faces {
     Faces(const MovedParts& moved, std::span<const CandidatePair> pairs, double move,
@@ -69,6 +93,11 @@ struct Faces {
     }
     /// Returns the vertex of a face at a point, or none.
     [[nodiscard]] std::uint32_t find(std::uint32_t face, std::uint32_t point) const;
+    [[nodiscard]] std::uint32_t part_count(std::uint32_t face) const {
+        return faces[face].part_end - faces[face].part;
+    }
+    /// Clusters these faces, each named once, but for those with few parts. Cost: linear.
+    void cluster(std::span<const std::uint32_t> slots, const Run& run);
 
     std::vector<std::uint32_t> slot_of; ///< per face of the mesh: index into faces, or none
     std::vector<std::uint32_t> names;   ///< per entry of faces: its face of the mesh
@@ -79,18 +108,19 @@ struct Faces {
     std::vector<std::uint32_t> vertices; ///< its point
     std::vector<Point3> places;          ///< the coordinates of that point
     std::vector<Sizes> sizes;
-    std::vector<std::uint32_t> face_at; ///< index into faces
-    std::vector<std::uint32_t> before;  ///< the previous face's vertex at the same point, or none
 
-    std::vector<std::uint32_t> last_at; ///< per point: the last vertex at it, or none
+    IndexLists<VertexOfFace> at; ///< per point: the vertices at it, ascending
+    std::vector<FaceClusters> clusters;
 
 private:
     void measure_faces(const MovedParts& moved, std::span<const CandidatePair> pairs,
                        const Run& run);
     void collect_parts(const MovedParts& moved, const Run& run);
     void number_vertices(const MovedParts& moved);
+    void list_vertices(std::size_t points);
     void name_corners(const MovedParts& moved, std::uint32_t face);
     void measure_parts(const Face& face, double move);
+    [[nodiscard]] FaceClusters clusters_of(const Face& face) const;
 };
 
 } // namespace terrane::rounding::detail

@@ -5,6 +5,7 @@
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/check/conforming.hpp>
 #include <terrane/algorithms/check/pair_check.hpp>
+#include <terrane/algorithms/rounding/detail/pair_decisions.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 
 #include <catch2/catch.hpp>
@@ -94,6 +95,43 @@ std::vector<Surface> nearly_coplanar_soup(std::mt19937& random) {
     return model;
 }
 
+/// Two planes, each with so many triangles upon each other that they are pooled.
+std::vector<Surface> pooled_soup(std::mt19937& random) {
+    std::uniform_real_distribution<double> at(0, 1);
+    std::vector<Surface> model(2);
+    for (std::size_t s = 0; s < model.size(); ++s)
+        for (std::uint32_t k = 0; k < 48; ++k) {
+            for (int i = 0; i < 3; ++i) {
+                const double x = at(random), y = at(random);
+                model[s].vertices.push_back({x, y, s == 0 ? x : y});
+            }
+            model[s].triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+        }
+    return model;
+}
+
+/// So many triangles at one vertex that it is crowded, nearly in one plane; the others hardly cross
+/// them if they are few.
+std::vector<Surface> crowded_soup(std::mt19937& random, bool overlapping) {
+    const double flat = std::ldexp(1, -30 - static_cast<int>(random() % 20));
+    std::uniform_real_distribution<double> at(0.1, 1), off(-flat, flat);
+    std::vector<Surface> model(1);
+    model[0].vertices.push_back({0, 0, 0});
+    const auto add = [&](double x, double y) {
+        model[0].vertices.push_back({x, y, 0.3 * x + 0.2 * y + off(random)});
+    };
+    for (std::uint32_t k = 0; k < 130; ++k) {
+        const double x = at(random), y = at(random);
+        add(x, y);
+        if (overlapping)
+            add(y, at(random));
+        else
+            add(x + 1e-4, y);
+        model[0].triangles.push_back({0, 2 * k + 1, 2 * k + 2});
+    }
+    return model;
+}
+
 using Pairs = std::vector<std::array<std::uint32_t, 2>>;
 
 Pairs pairs_of(const RoundingReport& report) {
@@ -128,6 +166,53 @@ TEST_CASE("pair check: a full check gives the same mesh and verdict as proven bo
         for (const unsigned n : {3U, 8U, 16U}) same_verdict(arranged(nearly_coplanar(n)), rounds);
     std::mt19937 random(7);
     for (int k = 0; k < 20; ++k) same_verdict(arranged(random_soup(random)), k % 2 == 0 ? 8 : 0);
+}
+
+TEST_CASE("pair check: the same where triangles are pooled, or share a vertex with very many") {
+    std::mt19937 random(9);
+    const auto pooled = arranged(pooled_soup(random));
+    REQUIRE(!pooled.state->pools.empty());
+    same_verdict(pooled, 0);
+    std::size_t contacts = 0;
+    for (const bool overlapping : {false, true, true, true}) {
+        const auto a = arranged(crowded_soup(random, overlapping));
+        CHECK(a.state->crowded.empty() == overlapping); // few pairs for so large a mesh
+        const std::size_t n = a.state->corners.size();
+        if (overlapping) CHECK(a.state->neighbours.size() == n * (n - 1) / 2);
+        same_verdict(a, 0);
+        if (overlapping) contacts += rounded(a, {.max_rounds = 0}).report.contacts.size();
+    }
+    CHECK(contacts > 0);
+    // Of a pool, separation says nothing: all contacts are found by the search within it.
+    contacts = 0;
+    for (int k = 0; k < 60; ++k) {
+        auto a = arranged(nearly_coplanar_soup(random));
+        const auto sound = rounded(a, {0, full.check});
+        ExactState& state = own_state(a);
+        state.pools.assign(state.corners.size(), 0);
+        state.neighbours.clear();
+        CHECK(pairs_of(rounded(a, {.max_rounds = 0}).report) == pairs_of(sound.report));
+        contacts += sound.report.contacts.size();
+    }
+    CHECK(contacts > 0);
+}
+
+TEST_CASE(
+    "pair check: in a pool, what no face has in common, or is ill conditioned, needs a test") {
+    using rounding::detail::Pools;
+    IndexLists<std::uint32_t> parents;
+    for (const std::vector<std::uint32_t>& list :
+         {std::vector{0U}, {0U, 1U}, {1U}, {2U}, {3U}, {0U, 1U}}) // face 3 is in no pool
+        parents.push_back(list);
+    const Pools pools{{0, 0, 0, 1, no_group, 0}, {true, true, false, true, true, false}, &parents};
+    CHECK(pools.need_test({0, 1}));       // both are ill conditioned
+    CHECK_FALSE(pools.need_test({1, 2})); // parts of face 1, one of them well conditioned
+    CHECK_FALSE(pools.need_test({0, 5}));
+    CHECK(pools.need_test({0, 2}));       // parts of no common face
+    CHECK_FALSE(pools.need_test({0, 3})); // of two pools
+    CHECK_FALSE(pools.need_test({0, 4}));
+    CHECK_FALSE(pools.need_test({4, 4}));
+    CHECK_FALSE(Pools{}.need_test({0, 1}));
 }
 
 TEST_CASE("pair check: bounds clear most pairs of crossing sheets, in each of the ways") {
