@@ -132,17 +132,17 @@ private:
     std::array<double, 2> low_{}, per_length_{};
 };
 
-/// Clusters the indices in [first, last) by the cells of place_of(index).
+/// PlaceClusters the indices in [first, last) by the cells of place_of(index).
 template <class PlaceOf, class AddAll>
-Clusters clusters_in(const FaceGrid& grid, std::uint32_t first, std::uint32_t last,
-                     const PlaceOf& place_of, const AddAll& add_all) {
+PlaceClusters clusters_in(const FaceGrid& grid, std::uint32_t first, std::uint32_t last,
+                          const PlaceOf& place_of, const AddAll& add_all) {
     std::vector<std::uint32_t> cells(last - first), ends(grid.size() + 1, 0);
     for (std::uint32_t k = first; k < last; ++k) {
         cells[k - first] = static_cast<std::uint32_t>(grid.cell(place_of(k)));
         ++ends[cells[k - first] + 1];
     }
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    Clusters c;
+    PlaceClusters c;
     c.members.values.resize(last - first);
     std::vector<std::uint32_t> next(ends.begin(), ends.end() - 1);
     for (std::uint32_t k = first; k < last; ++k) c.members.values[next[cells[k - first]]++] = k;
