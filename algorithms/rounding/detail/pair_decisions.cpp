@@ -40,17 +40,23 @@ std::vector<std::uint32_t> origins_of(const RoundingState& state,
     return origins;
 }
 
+/// Whether two ascending lists have an element in common. Lists of overlapping triangles are long, but few
+/// steps from one list to the other tell.
+bool have_common(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+    while (!a.empty() && !b.empty() && a.front() != b.front()) {
+        if (b.front() < a.front()) std::swap(a, b);
+        a = {std::lower_bound(a.begin(), a.end(), b.front()), a.end()};
+    }
+    return !a.empty() && !b.empty();
+}
+
 } // namespace
 
 bool Pools::need_test(const CandidatePair& pair) const {
     const auto [s, t] = pair;
     if (!has(s) || of[s] != of[t]) return false;
     if (is_ill_conditioned[s] && is_ill_conditioned[t]) return true;
-    const auto faces_of_s = (*parents_of)[s], faces_of_t = (*parents_of)[t];
-    const auto is_of_t = [&](std::uint32_t f) {
-        return std::binary_search(faces_of_t.begin(), faces_of_t.end(), f);
-    };
-    return std::none_of(faces_of_s.begin(), faces_of_s.end(), is_of_t);
+    return !have_common((*parents_of)[s], (*parents_of)[t]);
 }
 
 FirstSearch::FirstSearch(std::vector<CandidatePair> tested_pairs,

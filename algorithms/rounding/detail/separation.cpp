@@ -106,6 +106,7 @@ private:
     [[nodiscard]] bool is_clear_as_a_whole(std::uint32_t f_slot, std::uint32_t g_slot,
                                            const Common& common) const;
     [[nodiscard]] std::vector<CandidatePair> find_doubtful(const Run& run) const;
+    [[nodiscard]] bool has_few_common() const;
     [[nodiscard]] bool is_affordable(std::span<const CandidatePair> doubtful) const;
     void add_all_parts(std::span<const CandidatePair> doubtful,
                        std::vector<std::uint32_t>& parts) const;
@@ -476,10 +477,21 @@ std::vector<CandidatePair> Prover::find_doubtful(const Run& run) const {
         }));
 }
 
+/// The steps per part of a face beyond which tests of all pairs of parts cost less.
+constexpr std::uint64_t most_per_part = 256;
+
+/// Whether vertices are common to so few faces that find_common costs little.
+bool Prover::has_few_common() const {
+    std::uint64_t sum = 0;
+    for (std::size_t p = 0; p < faces_.at.size(); ++p)
+        sum += std::uint64_t{faces_.at[p].size()} * faces_.at[p].size();
+    return sum <= most_per_part * faces_.parts.size();
+}
+
 /// Whether the parts of the faces are few enough for a test of each pair. Many faces with many
 /// parts, each in doubt with each, would cost more than the size of the mesh warrants.
 bool Prover::is_affordable(std::span<const CandidatePair> doubtful) const {
-    constexpr std::uint64_t most_per_part = 4096, few_parts = 128;
+    constexpr std::uint64_t few_parts = 128;
     std::uint64_t sum = 0;
     for (const CandidatePair& p : doubtful)
         if (const std::uint64_t n = faces_.part_count(p.second); n > few_parts) sum += n;
@@ -518,8 +530,12 @@ void Prover::test_pair(const CandidatePair& slots, Scratch& scratch, Found& foun
 }
 
 Unproven Prover::operator()(const Run& run) {
-    auto doubtful = find_doubtful(run);
     Unproven all;
+    std::vector<CandidatePair> doubtful;
+    if (has_few_common())
+        doubtful = find_doubtful(run);
+    else
+        all.parts = faces_.parts;
     if (!is_affordable(doubtful)) {
         add_all_parts(doubtful, all.parts);
         doubtful.clear();

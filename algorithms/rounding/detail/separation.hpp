@@ -48,7 +48,7 @@ struct Unproven {
 /// Finds the parts for which no condition proves that they meet properly. `meeting`: the pairs of
 /// faces of which one is divided; sorted. Cost: linear in the parts of the mesh, in the common
 /// vertices of pairs and, for pairs that are not clear as a whole, in the parts of one face that are
-/// near the plane of the other; at most some thousand steps per part of a face.
+/// near the plane of the other; at most some hundred steps per part of a face.
 Unproven find_unproven(const MovedParts& moved, std::span<const CandidatePair> meeting,
                        const Run& run);
 
