@@ -264,8 +264,9 @@ Pools Rounding::find_pools(std::span<const std::uint32_t> ill_conditioned) const
 }
 
 /// Finds the pairs within pools that meet improperly right after rounding to nearest.
-std::vector<CandidatePair> Rounding::contacts_in_pools(const Pools& pools, std::span<const std::uint32_t> patches,
-                            const Run& run) const {
+std::vector<CandidatePair> Rounding::contacts_in_pools(const Pools& pools,
+                                                       std::span<const std::uint32_t> patches,
+                                                       const Run& run) const {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> parts; // with their pools
     for (std::uint32_t t = 0; t < pools.of.size(); ++t)
         if (pools.has(t)) parts.emplace_back(pools.of[t], t);

@@ -103,7 +103,8 @@ public:
             low_[i] = low;
             size[i] = high - low;
         }
-        const double wanted = 2 * static_cast<double>(count / per_cell); // a face fills half of it
+        const double wanted = // a face fills half of it
+            2 * static_cast<double>(count) / static_cast<double>(per_cell);
         const double side = std::sqrt(size[0] * size[1] / wanted);
         for (unsigned i = 0; i < 2; ++i) {
             per_length_[i] = 0;
@@ -258,8 +259,7 @@ void Faces::number_vertices(const MovedParts& moved) {
     const std::size_t most = parts.size() + 2 * faces.size(); // the parts of a face form a disk
     vertices.reserve(most);
     places.reserve(most);
-    for (std::uint32_t s = 0; s < faces.size(); ++s) {
-        Face& f = faces[s];
+    for (Face& f : faces) {
         f.vertex = static_cast<std::uint32_t>(vertices.size());
         for (std::uint32_t e = f.part; e < f.part_end; ++e)
             for (unsigned i = 0; i < 3; ++i) {
