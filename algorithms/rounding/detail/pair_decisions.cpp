@@ -40,8 +40,8 @@ std::vector<std::uint32_t> origins_of(const RoundingState& state,
     return origins;
 }
 
-/// Whether two ascending lists have an element in common. Lists of overlapping triangles are long, but few
-/// steps from one list to the other tell.
+/// Whether two ascending lists have a common element. Each step skips in one list what is less than
+/// the first element of the other.
 bool have_common(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
     while (!a.empty() && !b.empty() && a.front() != b.front()) {
         if (b.front() < a.front()) std::swap(a, b);

@@ -510,7 +510,7 @@ void Prover::add_all_parts(std::span<const CandidatePair> doubtful,
     }
 }
 
-/// PlaceClusters the faces of many pairs, where that pays.
+/// Clusters the faces of many pairs, where that pays.
 void Prover::cluster_faces(std::span<const CandidatePair> doubtful, const Run& run) {
     constexpr std::uint32_t many_pairs = 8;
     std::vector<std::uint32_t> pairs(faces_.faces.size(), 0), slots;

@@ -38,7 +38,7 @@ struct MovedParts {
 
 /// Everything that may meet improperly after the move. Two parts of different faces (a pair of
 /// `meeting`): the pair is in `pairs`, or one of them is in `parts`. Two parts of one face, whatever
-/// other faces they are parts of: both are in `ill_conditioned`.
+/// other faces contain them: `ill_conditioned` has both.
 struct Unproven {
     std::vector<CandidatePair> pairs;           ///< pairs of parts; sorted, unique
     std::vector<std::uint32_t> parts;           ///< ascending

@@ -66,7 +66,7 @@ void for_several(std::size_t count, const Run& run, const Visit& visit) {
         4, least);
 }
 
-/// The smallest ball about the centre of a box of points that contains them.
+/// Computes a ball that contains the points. Its centre is that of their box.
 class BallMaker {
 public:
     void add(const Point3& p) {
@@ -133,7 +133,7 @@ private:
     std::array<double, 2> low_{}, per_length_{};
 };
 
-/// PlaceClusters the indices in [first, last) by the cells of place_of(index).
+/// Clusters the indices in [first, last) by the cells of place_of(index).
 template <class PlaceOf, class AddAll>
 PlaceClusters clusters_in(const FaceGrid& grid, std::uint32_t first, std::uint32_t last,
                           const PlaceOf& place_of, const AddAll& add_all) {

@@ -71,13 +71,13 @@ struct Ball {
     double radius = 0;
 };
 
-/// PlaceClusters of neighbouring vertices, or of neighbouring parts, of one face.
+/// Clusters of neighbouring vertices, or of neighbouring parts, of one face.
 struct PlaceClusters {
     IndexLists<std::uint32_t> members; ///< as indices into Faces::vertices or Faces::parts
     std::vector<Ball> balls;           ///< per cluster
 };
 
-/// The clusters of a face with many parts. A plane passes few of them.
+/// The clusters of a face with many parts. A plane crosses few of their balls.
 struct FaceClusters {
     PlaceClusters vertices, parts;
 };
@@ -96,7 +96,7 @@ struct Faces {
     [[nodiscard]] std::uint32_t part_count(std::uint32_t face) const {
         return faces[face].part_end - faces[face].part;
     }
-    /// PlaceClusters these faces, each named once, but for those with few parts. Cost: linear.
+    /// Clusters these faces, each named once, but for those with few parts. Cost: linear.
     void cluster(std::span<const std::uint32_t> slots, const Run& run);
 
     std::vector<std::uint32_t> slot_of; ///< per face of the mesh: index into faces, or none

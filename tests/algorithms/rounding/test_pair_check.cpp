@@ -95,7 +95,7 @@ std::vector<Surface> nearly_coplanar_soup(std::mt19937& random) {
     return model;
 }
 
-/// Two planes, each with so many triangles upon each other that they are pooled.
+/// Two planes. In each, so many triangles overlap that the arrangement pools them.
 std::vector<Surface> pooled_soup(std::mt19937& random) {
     std::uniform_real_distribution<double> at(0, 1);
     std::vector<Surface> model(2);
