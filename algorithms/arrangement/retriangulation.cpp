@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
-#include <numeric>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -325,14 +324,8 @@ private:
         number_of_ = numbers_of(corners);
         const std::uint32_t distinct =
             number_of_.empty() ? 0 : *std::max_element(number_of_.begin(), number_of_.end()) + 1;
-        faces_of_.offsets.assign(distinct + 1, 0);
-        for (const std::uint32_t n : number_of_) ++faces_of_.offsets[n + 1];
-        std::partial_sum(faces_of_.offsets.begin(), faces_of_.offsets.end(),
-                         faces_of_.offsets.begin());
-        faces_of_.values.resize(faces.size());
-        std::vector<std::uint32_t> place(faces_of_.offsets.begin(), faces_of_.offsets.end() - 1);
-        for (std::size_t k = 0; k < faces.size(); ++k)
-            faces_of_.values[place[number_of_[k]]++] = faces[k];
+        faces_of_ = lists_by_key<std::uint32_t>(distinct, number_of_,
+                                                [&](std::size_t k) { return faces[k]; });
     }
 
     /// Returns the number of triangles that result from the faces before this one, if no part is

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -39,5 +40,21 @@ struct IndexLists {
     }
     friend bool operator==(const IndexLists&, const IndexLists&) = default;
 };
+
+/// Sorts items into `count` lists by their keys, indices of lists: list k holds value_of(i) of all i
+/// with keys[i] == k, ascending by i. Calls value_of once for each i, in ascending order. Cost:
+/// linear.
+template <class T, class ValueOf>
+IndexLists<T> lists_by_key(std::size_t count, std::span<const std::uint32_t> keys,
+                           ValueOf value_of) {
+    IndexLists<T> lists;
+    lists.offsets.assign(count + 1, 0);
+    for (const std::uint32_t k : keys) ++lists.offsets[k + 1];
+    std::partial_sum(lists.offsets.begin(), lists.offsets.end(), lists.offsets.begin());
+    lists.values.resize(keys.size());
+    std::vector<std::uint32_t> next(lists.offsets.begin(), lists.offsets.end() - 1);
+    for (std::size_t i = 0; i < keys.size(); ++i) lists.values[next[keys[i]]++] = value_of(i);
+    return lists;
+}
 
 } // namespace terrane

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 #
-# Prover of algorithms/rounding/detail/separation.cpp: what the computed values of functionals show of
-# the true ones. See "In doubles" in docs/explanation/separation.md.
+# PairProver of algorithms/rounding/detail/separation_pairs.cpp: what the computed values of
+# functionals show of the true ones. See "In doubles" in docs/explanation/separation.md.
 #
 # d = margin_factor (move + error), with the error of a functional over the extents of both faces.
 # Here move + error is 1, error is e, and d is computed with 5 roundings: two of a sum of extents, a

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The constants that make room for rounding errors where separation.cpp evaluates the statements of
+// The constants that make room for rounding errors where separation*.cpp evaluate the statements of
 // docs/explanation/separation.md. kernel/proofs/lemma_*.g are proofs that Gappa checks with these
 // numbers.
 #pragma once

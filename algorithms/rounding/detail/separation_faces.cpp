@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include <terrane/algorithms/core/parallel.hpp>
@@ -137,24 +136,19 @@ private:
 template <class PlaceOf, class AddAll>
 PlaceClusters clusters_in(const FaceGrid& grid, std::uint32_t first, std::uint32_t last,
                           const PlaceOf& place_of, const AddAll& add_all) {
-    std::vector<std::uint32_t> cells(last - first), ends(grid.size() + 1, 0);
-    for (std::uint32_t k = first; k < last; ++k) {
-        cells[k - first] = static_cast<std::uint32_t>(grid.cell(place_of(k)));
-        ++ends[cells[k - first] + 1];
-    }
-    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<std::uint32_t> cells;
+    cells.reserve(last - first);
+    for (std::uint32_t k = first; k < last; ++k)
+        cells.push_back(static_cast<std::uint32_t>(grid.cell(place_of(k))));
     PlaceClusters c;
-    c.members.values.resize(last - first);
-    std::vector<std::uint32_t> next(ends.begin(), ends.end() - 1);
-    for (std::uint32_t k = first; k < last; ++k) c.members.values[next[cells[k - first]]++] = k;
-    c.members.offsets.clear();
-    c.members.offsets.push_back(0);
-    for (std::size_t i = 0; i < grid.size(); ++i) {
-        if (ends[i] == ends[i + 1]) continue;
+    c.members = lists_by_key<std::uint32_t>(
+        grid.size(), cells, [&](std::size_t i) { return first + static_cast<std::uint32_t>(i); });
+    auto& ends = c.members.offsets;
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end()); // empty cells are no clusters
+    for (std::size_t i = 0; i < c.members.size(); ++i) {
         BallMaker ball;
-        for (std::uint32_t m = ends[i]; m < ends[i + 1]; ++m) add_all(c.members.values[m], ball);
+        for (const std::uint32_t m : c.members[i]) add_all(m, ball);
         c.balls.push_back(ball.ball());
-        c.members.offsets.push_back(ends[i + 1]);
     }
     return c;
 }
@@ -172,15 +166,16 @@ void Sizes::add(const Sizes& other) {
     longest = std::max(longest, other.longest);
 }
 
-Faces::Faces(const MovedParts& moved, std::span<const CandidatePair> pairs, double move,
+Faces::Faces(const MovedParts& moved, std::span<const CandidatePair> pairs, double most_move,
              const Run& run) :
+    move(most_move),
     slot_of(moved.faces.size(), none) {
     measure_faces(moved, pairs, run);
     collect_parts(moved, run);
     number_vertices(moved);
     for_several(faces.size(), run, [&](std::size_t f) {
         name_corners(moved, static_cast<std::uint32_t>(f));
-        measure_parts(faces[f], move);
+        measure_parts(faces[f]);
     });
 }
 
@@ -206,7 +201,6 @@ FaceClusters Faces::clusters_of(const Face& f) const {
 }
 
 void Faces::cluster(std::span<const std::uint32_t> slots, const Run& run) {
-    constexpr std::uint32_t many_parts = 128;
     std::vector<std::uint32_t> large;
     for (const std::uint32_t s : slots) {
         if (part_count(s) < many_parts) continue;
@@ -279,14 +273,11 @@ void Faces::number_vertices(const MovedParts& moved) {
 }
 
 void Faces::list_vertices(std::size_t points) {
-    at.offsets.assign(points + 1, 0);
-    for (const std::uint32_t p : vertices) ++at.offsets[p + 1];
-    std::partial_sum(at.offsets.begin(), at.offsets.end(), at.offsets.begin());
-    at.values.resize(vertices.size());
-    std::vector<std::uint32_t> next(at.offsets.begin(), at.offsets.end() - 1);
-    for (std::uint32_t f = 0; f < faces.size(); ++f)
-        for (std::uint32_t v = faces[f].vertex; v < faces[f].vertex_end; ++v)
-            at.values[next[vertices[v]]++] = {f, v};
+    at = lists_by_key<VertexOfFace>(points, vertices,
+                                    [&, f = std::uint32_t{0}](std::size_t v) mutable {
+                                        while (v >= faces[f].vertex_end) ++f;
+                                        return VertexOfFace{f, static_cast<std::uint32_t>(v)};
+                                    });
 }
 
 void Faces::name_corners(const MovedParts& moved, std::uint32_t face) {
@@ -297,7 +288,7 @@ void Faces::name_corners(const MovedParts& moved, std::uint32_t face) {
             if (moved.names[vertices[v]] == corners_of_face[i]) f.corner_at[i] = v;
 }
 
-void Faces::measure_parts(const Face& face, double move) {
+void Faces::measure_parts(const Face& face) {
     for (std::uint32_t e = face.part; e < face.part_end; ++e) {
         const Triangle& c = corners[e];
         const Point3 &p = places[c[0]], &q = places[c[1]], &r = places[c[2]];

@@ -58,7 +58,14 @@ struct Sizes {
     double longest = 0;                                        ///< l: the longest edge
 
     void add(const Sizes& other);
+    /// Whether a^2 >= 64 d l. Returns false if anything has underflowed.
+    [[nodiscard]] bool is_well_conditioned(double d) const {
+        return altitude > smallest_area && altitude * altitude >= condition_factor * d * longest;
+    }
 };
+
+/// Faces with fewer parts are neither clustered nor counted as costly.
+constexpr std::uint32_t many_parts = 128;
 
 /// A vertex of a face, as an index into Faces::vertices.
 struct VertexOfFace {
@@ -84,7 +91,7 @@ struct FaceClusters {
 
 /// The faces in pairs and their parts. Cost: linear in all parts of the mesh and of the faces.
 struct Faces {
-    Faces(const MovedParts& moved, std::span<const CandidatePair> pairs, double move,
+    Faces(const MovedParts& moved, std::span<const CandidatePair> pairs, double most_move,
           const Run& run);
 
     /// Whether a vertex (of any face) is also a vertex of this face.
@@ -93,12 +100,18 @@ struct Faces {
     }
     /// Returns the vertex of a face at a point, or none.
     [[nodiscard]] std::uint32_t find(std::uint32_t face, std::uint32_t point) const;
+    /// Returns the d of statements (3) and (4) for parts of f and the functionals of g, with room
+    /// for errors in both directions.
+    [[nodiscard]] double margin(const Face& f, const Face& g) const {
+        return margin_factor * (move + (f.extent + g.extent) * g.functional_error);
+    }
     [[nodiscard]] std::uint32_t part_count(std::uint32_t face) const {
         return faces[face].part_end - faces[face].part;
     }
     /// Clusters these faces, each named once, but for those with few parts. Cost: linear.
     void cluster(std::span<const std::uint32_t> slots, const Run& run);
 
+    double move;                        ///< d: the largest move
     std::vector<std::uint32_t> slot_of; ///< per face of the mesh: index into faces, or none
     std::vector<std::uint32_t> names;   ///< per entry of faces: its face of the mesh
     std::vector<Face> faces;
@@ -119,7 +132,7 @@ private:
     void number_vertices(const MovedParts& moved);
     void list_vertices(std::size_t points);
     void name_corners(const MovedParts& moved, std::uint32_t face);
-    void measure_parts(const Face& face, double move);
+    void measure_parts(const Face& face);
     [[nodiscard]] FaceClusters clusters_of(const Face& face) const;
 };
 
