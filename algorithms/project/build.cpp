@@ -24,6 +24,8 @@ using project::detail::BadPlaces;
 using project::detail::bytes_of;
 using project::detail::improved_from;
 using project::detail::key_of;
+using project::detail::refinement_shares;
+using project::detail::scaled;
 using project::detail::tetrahedra_from;
 
 Error refused(std::string sentence) {
@@ -78,6 +80,8 @@ private:
     /// The results of a round of improve_in_rounds().
     struct Round {
         unsigned number = 0;
+        std::vector<std::vector<LocalSize>> refinements; ///< that led to it
+        BadPlaces places;
         std::optional<ImprovedAndMeasured> improved;
         std::optional<Model> model;
         std::optional<FilledBlocks> filled;
@@ -130,25 +134,26 @@ private:
     }
 
     /// Improves the mesh; again, with smaller triangles where tetrahedra are bad or misshapen, as
-    /// often as the project says. The best round counts: then blocks and tetrahedra are there, too.
+    /// often as the project says. Each round refines the best one so far, which counts at last: then
+    /// blocks and tetrahedra are there, too.
     Status improve_in_rounds() {
         if (auto done = improve_mesh(); !done) return done;
         const unsigned rounds =
             project_.outputs.tetrahedra.empty() ? 0 : project_.tetrahedra.refine_bad;
         if (rounds == 0) return Done{};
         std::optional<Round> best;
+        std::size_t failed = 0; // rounds since the best one
         for (unsigned round = 0;; ++round) {
             if (auto done = find_blocks(); !done) return done;
             if (auto done = fill_with_tetrahedra(); !done) return done;
-            const BadPlaces places =
-                bad_places(built_.filled->tetrahedra, project_.improve->smallest.value_or(0));
-            built_.rounds.push_back({built_.improved->improved.mesh->triangles.size(),
-                                     built_.filled->tetrahedra.tetrahedra.size(), places.bad,
-                                     places.apart, places.misshapen});
             Round now = take_round(round);
-            if (!best || is_better(round, best->number)) best = std::move(now);
-            if (round == rounds || places.sizes.empty()) break;
-            sizes_.insert(sizes_.end(), places.sizes.begin(), places.sizes.end());
+            const bool is_best = !best || is_better(round, best->number);
+            failed = is_best ? 0 : failed + 1;
+            if (is_best) best = std::move(now);
+            const auto& sizes = best->places.sizes;
+            if (round == rounds || sizes.empty() || failed == refinement_shares.size()) break;
+            refinements_ = best->refinements;
+            refinements_.push_back(scaled(sizes, refinement_shares[failed], smallest()));
             if (auto done = improve_mesh(); !done) return done;
         }
         built_.kept_round = best->number;
@@ -166,8 +171,17 @@ private:
         return badness(round) < badness(than);
     }
 
+    [[nodiscard]] double smallest() const { return project_.improve->smallest.value_or(0); }
+
     Round take_round(unsigned number) {
-        return {number, std::exchange(built_.improved, std::nullopt),
+        BadPlaces places = bad_places(built_.filled->tetrahedra, smallest());
+        built_.rounds.push_back({built_.improved->improved.mesh->triangles.size(),
+                                 built_.filled->tetrahedra.tetrahedra.size(), places.bad,
+                                 places.apart, places.misshapen});
+        return {number,
+                refinements_,
+                std::move(places),
+                std::exchange(built_.improved, std::nullopt),
                 std::exchange(built_.model, std::nullopt),
                 std::exchange(built_.filled, std::nullopt)};
     }
@@ -181,7 +195,7 @@ private:
         options.max_deviation = wanted.max_deviation.value_or(0);
         options.layers_in_gaps = wanted.layers_in_gaps.value_or(0);
         options.smallest = wanted.smallest.value_or(0);
-        options.local_sizes = sizes_;
+        options.refinements = refinements_;
         if (!wanted.edge_length_of.empty()) options.edge_length_of.resize(surfaces.size());
         for (const auto& [name, length] : wanted.edge_length_of) {
             const auto found = surfaces_called(name, surfaces, built_.labels);
@@ -285,7 +299,8 @@ private:
     const Run& run_;
     const BuildObserver& observer_;
     const StageStore& store_;
-    std::vector<LocalSize> sizes_; ///< wanted where tetrahedra were bad
+    std::vector<std::vector<LocalSize>> refinements_; ///< per round: lengths wanted where
+                                                      ///< tetrahedra were bad
     Built built_;
 };
 

@@ -48,9 +48,10 @@ Status check_options(const Mesh& mesh, const ImproveOptions& o) {
         return wrong(fmt::format("layers_in_gaps must be at most {}", most_layers_in_gaps));
     if (!o.edge_length_of.empty() && o.edge_length_of.size() != mesh.surfaces.size())
         return wrong("edge_length_of needs one length per surface");
-    for (const LocalSize& local : o.local_sizes)
-        if (!is_finite(local.place) || !is_length(local.length) || local.length == 0)
-            return wrong("local_sizes must have finite places and positive lengths");
+    for (const auto& refinement : o.refinements)
+        for (const LocalSize& local : refinement)
+            if (!is_finite(local.place) || !is_length(local.length) || local.length == 0)
+                return wrong("refinements must have finite places and positive lengths");
     for (const double l : o.edge_length_of)
         if (!is_length(l)) return wrong("lengths must be finite and not negative");
     if (!(o.turn >= 0 && o.turn <= 180)) return wrong("turn must be in [0, 180] degrees");

@@ -78,8 +78,9 @@ struct ImproveOptions {
                                ///< most_layers_in_gaps; 0: no adaptation
     double smallest = 0;       ///< layers_in_gaps asks for no shorter edges than this; 0: an eighth
                                ///< of the target length
-    std::vector<LocalSize> local_sizes{}; ///< edges are no longer near these points; each costs a
-                                          ///< distance per vertex and pass
+    std::vector<std::vector<LocalSize>>
+        refinements{}; ///< afterwards, edges near these points become no longer than this: one list
+                       ///< after the other, by passes that change triangles near its points only
     double growth = 0.3;      ///< target lengths at two points differ by at most this multiple of
                               ///< their distance; no unit
     double crease_angle = 50; ///< edges at which a surface turns by more are curves

@@ -63,7 +63,7 @@ static void fields(auto& archive, Is<LocalSize> auto& s) {
 }
 
 static void fields(auto& archive, Is<ImproveOptions> auto& o) {
-    archive(o.local_sizes, o.edge_length, o.edge_length_of, o.max_deviation, o.curve_length, o.turn,
+    archive(o.refinements, o.edge_length, o.edge_length_of, o.max_deviation, o.curve_length, o.turn,
             o.layers_in_gaps, o.smallest, o.growth, o.crease_angle, o.curve_angle, o.passes,
             o.thickness_share, o.least_quality, o.max_volume_change, o.max_triangles);
 }

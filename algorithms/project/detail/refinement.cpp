@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/tetrahedra/bad_tetrahedra.hpp>
@@ -33,18 +34,40 @@ double wanted_length(const std::array<Point3, 4>& p) {
     return std::clamp(edges_per_height * height, least_share * longest, largest_share * longest);
 }
 
+std::array<Point3, 4> corners_of(const TetrahedralMesh& mesh, std::uint32_t number) {
+    std::array<Point3, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.vertices[mesh.tetrahedra[number][k]];
+    return corners;
+}
+
 /// Returns the length that is wanted at the centre of a tetrahedron.
 LocalSize size_at(const TetrahedralMesh& mesh, std::uint32_t number, double smallest) {
-    std::array<Point3, 4> corners;
+    const auto corners = corners_of(mesh, number);
     Point3 centre;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const Point3& p = corners[k] = mesh.vertices[mesh.tetrahedra[number][k]];
+    for (const Point3& p : corners)
         centre = {centre.x + p.x / 4, centre.y + p.y / 4, centre.z + p.z / 4};
-    }
     return {centre, std::max(smallest, wanted_length(corners))};
 }
 
+/// Returns the worse of these tetrahedra: those in the lower half of the range of mean ratios.
+std::vector<std::uint32_t> worse_of(const TetrahedralMesh& mesh,
+                                    std::span<const std::uint32_t> misshapen) {
+    double least = misshapen_ratio;
+    std::vector<double> ratios;
+    for (const std::uint32_t number : misshapen)
+        least = std::min(least, ratios.emplace_back(mean_ratio(corners_of(mesh, number))));
+    std::vector<std::uint32_t> worse;
+    for (std::size_t i = 0; i < misshapen.size(); ++i)
+        if (ratios[i] <= (least + misshapen_ratio) / 2) worse.push_back(misshapen[i]);
+    return worse;
+}
+
 } // namespace
+
+std::vector<LocalSize> scaled(std::vector<LocalSize> sizes, double share, double smallest) {
+    for (LocalSize& size : sizes) size.length = std::max(smallest, share * size.length);
+    return sizes;
+}
 
 BadPlaces bad_places(const TetrahedralMesh& mesh, double smallest) {
     BadPlaces found;
@@ -54,10 +77,11 @@ BadPlaces bad_places(const TetrahedralMesh& mesh, double smallest) {
         ++found.apart;
         found.sizes.push_back(size_at(mesh, bad.number, smallest));
     }
-    for (const std::uint32_t number : misshapen_tetrahedra(mesh, misshapen_ratio)) {
-        ++found.misshapen;
-        if (found.apart == 0) found.sizes.push_back(size_at(mesh, number, smallest));
-    }
+    const auto misshapen = misshapen_tetrahedra(mesh, misshapen_ratio);
+    found.misshapen = misshapen.size();
+    if (found.apart == 0)
+        for (const std::uint32_t number : worse_of(mesh, misshapen))
+            found.sizes.push_back(size_at(mesh, number, smallest));
     return found;
 }
 

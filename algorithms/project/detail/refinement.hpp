@@ -3,6 +3,8 @@
 // Decides where the triangles of surfaces must be smaller, so that tetrahedra between them are good.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -16,8 +18,16 @@ struct BadPlaces {
     std::size_t apart = 0;        ///< of these: no corner is at such an angle of the surfaces
     std::size_t misshapen = 0;    ///< others, see misshapen_tetrahedra()
     std::vector<LocalSize> sizes; ///< edge lengths for those apart, or if there is none for the
-                                  ///< misshapen ones, at their centres; none is below `smallest`
+                                  ///< worse of the misshapen ones, at their centres; none is below
+                                  ///< `smallest`
 };
+
+/// What the lengths of BadPlaces are multiplied by: at first, and then in rounds after one that was
+/// no better. Smaller triangles are not always better, so that one share is larger.
+inline constexpr std::array<double, 5> refinement_shares{1, 0.7, 1.3, 0.5, 0.35};
+
+/// Multiplies the lengths by a share; none becomes less than `smallest`.
+std::vector<LocalSize> scaled(std::vector<LocalSize> sizes, double share, double smallest);
 
 /// Finds the bad tetrahedra and those of a mean ratio below misshapen_ratio. Near one that is apart
 /// from bad angles of the surfaces, edges are to be as short as a tetrahedron of its least height

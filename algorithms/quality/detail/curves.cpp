@@ -134,10 +134,11 @@ bool propose_curve_collapse(RemeshContext& context, std::uint32_t v, Proposal& p
                             constants.least_shape, proposal);
 }
 
-std::vector<std::uint32_t> curve_vertices(const WorkMesh& mesh) {
+std::vector<std::uint32_t> curve_vertices(const RemeshContext& context) {
     std::vector<std::uint32_t> vertices;
-    for (std::uint32_t v = 0; v < mesh.kinds.size(); ++v)
-        if (mesh.kinds[v] == VertexKind::curve) vertices.push_back(v);
+    for (std::uint32_t v = 0; v < context.mesh.kinds.size(); ++v)
+        if (context.mesh.kinds[v] == VertexKind::curve && !is_settled(context, v))
+            vertices.push_back(v);
     return vertices;
 }
 
@@ -178,7 +179,9 @@ std::size_t split_curves(RemeshContext& context) {
         std::vector<CurveEdge> edges = curve_edges(context.mesh, context.curves);
         std::erase_if(edges, [&](const CurveEdge& e) {
             const auto [from, to] = places_of(context, e);
-            return !(to - from > constants.split_ratio * context.mesh.wanted_length(e.from, e.to));
+            return !(to - from >
+                     constants.split_ratio * context.mesh.wanted_length(e.from, e.to)) ||
+                   is_settled_edge(context, e.from, e.to);
         });
         const std::size_t more = in_windows(
             context, edges,
@@ -195,7 +198,7 @@ std::size_t split_curves(RemeshContext& context) {
 
 std::size_t collapse_curves(RemeshContext& context) {
     const std::size_t count = in_windows(
-        context, curve_vertices(context.mesh),
+        context, curve_vertices(context),
         [&](std::uint32_t v, Proposal& p) { return propose_curve_collapse(context, v, p); },
         [&](std::uint32_t, const Proposal& p, bool is_made) {
             if (is_made) after_collapse(context.mesh, p);
@@ -206,7 +209,7 @@ std::size_t collapse_curves(RemeshContext& context) {
 
 std::size_t slide_curves(RemeshContext& context) {
     const std::size_t count = in_windows(
-        context, curve_vertices(context.mesh),
+        context, curve_vertices(context),
         [&](std::uint32_t v, Proposal& p) { return propose_slide(context, v, p); },
         [&](std::uint32_t v, const Proposal& p, bool is_made) {
             if (is_made) context.mesh.place_on[v] = p.at;

@@ -57,8 +57,10 @@ struct RemeshContext {
     std::uint32_t equalized_at = 0, swapped_at = 0, collapsed_at = 0;
     std::vector<std::uint32_t> smoothed_at{}; ///< per vertex: when smoothing failed last
     std::vector<std::uint32_t> improved_at{}; ///< per vertex: when improve_worst() failed last
-    std::vector<Proposal> window{};           ///< proposals of the current window
-    std::vector<std::uint32_t> touched_at{};  ///< per vertex: when it was changed last
+    std::vector<char> settled{};             ///< per vertex of the mesh at settled_at: see settle()
+    std::uint32_t settled_at = 0;            ///< when settle() was called
+    std::vector<Proposal> window{};          ///< proposals of the current window
+    std::vector<std::uint32_t> touched_at{}; ///< per vertex: when it was changed last
 };
 
 /// Tells whether the straight edge between two positions on a curve is within the curve's tolerance
@@ -78,8 +80,17 @@ inline double shape_of(const WorkMesh& mesh, const Triangle& t) {
     return shape_of(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
 }
 
+/// Makes the passes leave a finished mesh as it is, apart from vertices whose wanted lengths differ
+/// from these ones, and from what changes beside them.
+void settle(RemeshContext& context, std::span<const double> lengths);
+/// Tells whether the passes leave a vertex and its triangles as they are.
+bool is_settled(const RemeshContext& context, std::uint32_t v);
+inline bool is_settled_edge(const RemeshContext& context, std::uint32_t a, std::uint32_t b) {
+    return is_settled(context, a) && is_settled(context, b);
+}
+
 // Passes. Each returns the number of changes made. Those on curves are defined in curves.cpp,
-// smooth(), jitter(), improve_worst() and collect_star() in smooth.cpp, all others in surface.cpp.
+// smooth(), jitter(), improve_worst(), collect_star(), settle() and is_settled() in smooth.cpp, all others in surface.cpp.
 std::size_t split_curves(RemeshContext& context);
 std::size_t collapse_curves(RemeshContext& context);
 std::size_t slide_curves(RemeshContext& context);

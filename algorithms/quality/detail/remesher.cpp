@@ -66,6 +66,23 @@ void Remesher::operator()(unsigned passes, double from, double to) {
     if (stopped()) return;
     report(passes);
     finish();
+    for (const auto& places : options_.refinements) refine(places, passes);
+}
+
+/// Changes the finished mesh near places where edges are to be shorter.
+void Remesher::refine(std::span<const LocalSize> places, unsigned passes) {
+    const std::vector<double> lengths = mesh_.sizes;
+    shorten_at(places);
+    if (stopped() || mesh_.sizes == lengths) return;
+    settle(context_, lengths);
+    for (unsigned pass = 0; pass < passes && !stopped(); ++pass) {
+        ++passes_;
+        const std::size_t before = changes();
+        alternate(false);
+        if (changes() == before) break;
+        shorten_at(places); // at vertices that are new
+    }
+    if (!stopped()) finish();
 }
 
 void Remesher::regroup_if_needed() {
@@ -110,11 +127,10 @@ void Remesher::shorten_in_gaps() {
     limit_growth(mesh_.points, used, options_.growth, mesh_.sizes);
 }
 
-/// Makes wanted lengths shorter round the places that the options name. Each pass does so anew, as
-/// the vertices of the first triangles are too far from them to tell where.
-void Remesher::shorten_at_places() {
+/// Makes wanted lengths shorter round these places.
+void Remesher::shorten_at(std::span<const LocalSize> places) {
     for (std::uint32_t v = 0; v < mesh_.points.size(); ++v)
-        for (const LocalSize& local : options_.local_sizes)
+        for (const LocalSize& local : places)
             mesh_.sizes[v] = std::min(
                 mesh_.sizes[v],
                 local.length + options_.growth * length(minus(mesh_.points[v], local.place)));
@@ -127,7 +143,12 @@ bool Remesher::one_pass(bool is_first, bool with_jitter) {
         clean_first();
     else
         shorten_in_gaps();
-    shorten_at_places();
+    alternate(with_jitter);
+    return constants.pass_part * (changes() - before) > mesh_.triangles.size();
+}
+
+/// Alternates the four operations.
+void Remesher::alternate(bool with_jitter) {
     split_curves(context_);
     collapse_curves(context_);
     slide_curves(context_);
@@ -143,7 +164,6 @@ bool Remesher::one_pass(bool is_first, bool with_jitter) {
     swap_edges(context_);
     regroup_if_needed();
     smooth(context_);
-    return constants.pass_part * (changes() - before) > mesh_.triangles.size();
 }
 
 /// Improves the few remaining bad triangles one by one.
@@ -204,6 +224,7 @@ std::uint32_t Remesher::worst() {
 /// Improves the worst triangle of all as long as an operation helps.
 void Remesher::improve_worst_triangles() {
     qualities_.clear();
+    is_settled_ = false;
     for (unsigned round = 0; round < constants.worst_rounds && !stopped(); ++round) {
         const std::uint32_t t = worst();
         if (t != none && improve_triangle(context_, t) > 0) continue;

@@ -44,9 +44,11 @@ private:
     void regroup_if_needed();
     void clean_first();
     void shorten_in_gaps();
-    void shorten_at_places();
+    void shorten_at(std::span<const LocalSize> places);
+    void refine(std::span<const LocalSize> places, unsigned passes);
     [[nodiscard]] std::size_t changes() const;
     bool one_pass(bool is_first, bool with_jitter);
+    void alternate(bool with_jitter);
     void finish();
     void improve_bad_triangles();
     void improve_worst_triangles();

@@ -192,6 +192,21 @@ void collect_star(const WorkMesh& mesh, std::uint32_t v, Change& change) {
     for (const std::uint32_t t : change.removed) change.add(mesh.triangles[t], t);
 }
 
+void settle(RemeshContext& context, std::span<const double> lengths) {
+    const std::uint32_t now = ++context.mesh.now;
+    context.settled_at = context.equalized_at = context.swapped_at = context.collapsed_at = now;
+    context.smoothed_at.assign(context.mesh.kinds.size(), now);
+    context.improved_at.assign(context.mesh.kinds.size(), now);
+    context.settled.resize(lengths.size());
+    for (std::size_t v = 0; v < lengths.size(); ++v)
+        context.settled[v] = static_cast<char>(context.mesh.sizes[v] == lengths[v]);
+}
+
+bool is_settled(const RemeshContext& context, std::uint32_t v) {
+    return v < context.settled.size() && context.settled[v] != 0 &&
+           !context.mesh.changed_since(v, context.settled_at);
+}
+
 std::size_t smooth(RemeshContext& context) {
     ++context.mesh.now;
     context.smoothed_at.resize(context.mesh.kinds.size(), 0);

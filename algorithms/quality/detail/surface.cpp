@@ -361,7 +361,8 @@ std::size_t split_edges(RemeshContext& context) {
          ++round) {
         const auto classes = by_class(inner_edges(context, [&](std::uint32_t a, std::uint32_t b) {
             const double ratio = mesh.edge_length(a, b) / mesh.wanted_length(a, b);
-            return ratio > constants.split_ratio ? length_class(ratio) : 0;
+            if (!(ratio > constants.split_ratio) || is_settled_edge(context, a, b)) return 0.0;
+            return length_class(ratio);
         }));
         std::size_t more = 0;
         const std::uint32_t since = ++context.mesh.now;

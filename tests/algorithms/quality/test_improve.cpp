@@ -287,9 +287,9 @@ TEST_CASE("improve: invalid options and meshes are refused", "[improve]") {
     options.layers_in_gaps = 1001;
     CHECK(refusal(mesh, options) == ErrorCode::bad_option);
     options = {};
-    options.local_sizes = {{{0, 0, 0}, 0}};
+    options.refinements = {{{{0, 0, 0}, 0}}};
     CHECK(refusal(mesh, options) == ErrorCode::bad_option);
-    options.local_sizes = {{{0, std::numeric_limits<double>::infinity(), 0}, 1}};
+    options.refinements = {{{{0, std::numeric_limits<double>::infinity(), 0}, 1}}};
     CHECK(refusal(mesh, options) == ErrorCode::bad_option);
 
     Mesh broken = mesh;
@@ -336,7 +336,7 @@ TEST_CASE("improve: edges are short at places that ask for it, and no shorter el
     options.edge_length = 2;
     const Mesh plain = improved(mesh, options).mesh;
     const Point3 place{7, 5, .1};
-    options.local_sizes = {{place, .25}};
+    options.refinements = {{{place, .25}}};
     const Mesh local = improved(mesh, options).mesh;
     const auto edges_within = [&](const Mesh& of, double least, double most) {
         double sum = 0, count = 0, longest = 0;
@@ -360,6 +360,48 @@ TEST_CASE("improve: edges are short at places that ask for it, and no shorter el
     CHECK(mean < edges_within(plain, 0, 1).first / 2);
     // From 5.8 on, they are as long as elsewhere.
     CHECK(edges_within(local, 6, 12).first > .8 * edges_within(plain, 6, 12).first);
-    options.local_sizes = {{place, 2}};
+    options.refinements = {{{place, 2}}};
     CHECK(improved(mesh, options).mesh->vertices == plain.vertices);
+}
+
+TEST_CASE("improve: refinements follow each other and leave triangles far from them as they are",
+          "[improve]") {
+    const Mesh mesh = mesh_of({unit_grid(8, 8, [](double u, double v) {
+        return Point3{40 * u, 40 * v, std::sin(6 * u) * std::cos(4 * v)};
+    })});
+    ImproveOptions options;
+    options.edge_length = 2;
+    options.least_quality = .3; // those of the grid are as good as few others can be
+    const Point3 first{9, 9, 0}, second{31, 31, 0};
+    const auto refined = [&](std::vector<std::vector<LocalSize>> lists) -> Mesh {
+        options.refinements = std::move(lists);
+        return improved(mesh, options).mesh;
+    };
+    const auto far_from = [](const Mesh& of, const Point3& place) {
+        constexpr double reach = 10; // lengths are 2 beyond 6.7 from a place
+        std::vector<Point3> far;
+        for (const Point3& p : of.vertices)
+            if (std::hypot(p.x - place.x, p.y - place.y) > reach) far.push_back(p);
+        std::sort(far.begin(), far.end());
+        return far;
+    };
+    const Mesh plain = refined({});
+    const Mesh once = refined({{{first, .2}}});
+    const Mesh twice = refined({{{first, .2}}, {{second, .2}}});
+    CHECK(once.vertices.size() > plain.vertices.size() + 50);
+    CHECK(twice.vertices.size() > once.vertices.size() + 50);
+    const auto kept = [&](const Mesh& before, const Mesh& after, const Point3& place) {
+        std::vector<Point3> both;
+        const auto a = far_from(before, place), b = far_from(after, place);
+        std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+        CHECK(a.size() > 200);
+        CHECK(b.size() == a.size());
+        return both.size() == a.size()
+                   ? 1
+                   : static_cast<double>(both.size()) / static_cast<double>(a.size());
+    };
+    CHECK(kept(plain, once, first) == 1);
+    CHECK(kept(once, twice, second) == 1);
+    // What is asked for twice changes nothing more.
+    CHECK(refined({{{first, .2}}, {{first, .5}}}).vertices == once.vertices);
 }

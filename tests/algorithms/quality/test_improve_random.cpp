@@ -65,6 +65,12 @@ bool judge(std::uint64_t seed, Means& means, int& jumped) {
     options.edge_length = 1 + 0.5 * random_int(maker.random, 0, 4);
     options.max_deviation = random_int(maker.random, 0, 1) ? 0.3 : 0;
     options.passes = 3;
+    if (seed % 5 < 3)
+        for (int list = random_int(maker.random, 1, 2); list > 0; --list) {
+            const int vertex =
+                random_int(maker.random, 0, static_cast<int>(mesh.vertices.size()) - 1);
+            options.refinements.push_back({{mesh.vertices[static_cast<std::size_t>(vertex)], 0.4}});
+        }
     const auto improved = improve(mesh, options);
     INFO("seed " << seed << (improved ? "" : ": " + improved.error().message()));
     REQUIRE(improved);
