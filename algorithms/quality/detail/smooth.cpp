@@ -135,13 +135,14 @@ bool propose_improvement(const RemeshContext& context, std::uint32_t v, double b
     const double across = std::sqrt(dot(u, u));
     u = {u.x / across, u.y / across, u.z / across};
     const Point3 w = cross(n, u);
+    constexpr unsigned half_turn = constants.search_directions / 2;
     bool moves = false;
     Point3 p = mesh.points[v];
     CheckedChange of_p;
     double largest = badness_at(mesh, v, p).largest, step = constants.search_step * mesh.sizes[v];
     for (unsigned halving = 0; halving < constants.search_halvings; ++halving, step /= 2)
         for (unsigned k = 0; k < constants.search_directions; ++k) {
-            const double angle = k * std::acos(-1.0) / (constants.search_directions / 2);
+            const double angle = k * std::acos(-1.0) / half_turn;
             const double c = step * std::cos(angle), s = step * std::sin(angle);
             const Point3 to{p.x + c * u.x + s * w.x, p.y + c * u.y + s * w.y,
                             p.z + c * u.z + s * w.z};
