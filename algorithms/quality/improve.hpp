@@ -79,10 +79,11 @@ struct ImproveOptions {
     double smallest = 0;       ///< layers_in_gaps asks for no shorter edges than this; 0: an eighth
                                ///< of the target length
     std::vector<std::vector<LocalSize>>
-        refinements{}; ///< afterwards, edges near these points become no longer than this: one list
-                       ///< after the other, by passes that change triangles near its points only
-    double growth = 0.3;      ///< target lengths at two points differ by at most this multiple of
-                              ///< their distance; no unit
+        refinements{};   ///< lengths wanted near points. Each list in turn makes triangles of the
+                         ///< finished mesh smaller near its points, and leaves the others. Each
+                         ///< point costs a distance per vertex and pass
+    double growth = 0.3; ///< target lengths at two points differ by at most this multiple of
+                         ///< their distance; no unit
     double crease_angle = 50; ///< edges at which a surface turns by more are curves
     double curve_angle = 45;  ///< vertices at which a curve turns by more are corners
     unsigned passes = 6;      ///< rounds of the four operations, 1 to 100

@@ -77,12 +77,6 @@ void mark_sharp_corners(const TetrahedralMesh& mesh, std::vector<bool>& at_input
         }
 }
 
-std::array<Point3, 4> corners_of(const TetrahedralMesh& mesh, std::uint32_t number) {
-    std::array<Point3, 4> corners;
-    for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.vertices[mesh.tetrahedra[number][k]];
-    return corners;
-}
-
 /// The bad tetrahedra by their index, and per node whether it is at a bad angle of the surfaces.
 struct Found {
     std::vector<BadTetrahedron> bad;
@@ -138,6 +132,12 @@ BadCause BadCauses::of(const std::array<std::uint32_t, 4>& t, const std::array<P
     const bool between =
         std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return on_surface_[v]; });
     return between ? BadCause::gap : BadCause::other;
+}
+
+std::array<Point3, 4> corners_of(const TetrahedralMesh& mesh, std::uint32_t number) {
+    std::array<Point3, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.vertices[mesh.tetrahedra[number][k]];
+    return corners;
 }
 
 std::vector<BadTetrahedron> bad_tetrahedra(const TetrahedralMesh& mesh) {

@@ -12,6 +12,9 @@
 
 namespace terrane {
 
+/// Returns the corners of a tetrahedron of a mesh.
+std::array<Point3, 4> corners_of(const TetrahedralMesh& mesh, std::uint32_t number);
+
 /// Tells why tetrahedra of a mesh are bad. A face is on a surface if it is one of `mesh.faces`.
 class BadCauses {
 public:

@@ -34,12 +34,6 @@ double wanted_length(const std::array<Point3, 4>& p) {
     return std::clamp(edges_per_height * height, least_share * longest, largest_share * longest);
 }
 
-std::array<Point3, 4> corners_of(const TetrahedralMesh& mesh, std::uint32_t number) {
-    std::array<Point3, 4> corners;
-    for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.vertices[mesh.tetrahedra[number][k]];
-    return corners;
-}
-
 /// Returns the length that is wanted at the centre of a tetrahedron.
 LocalSize size_at(const TetrahedralMesh& mesh, std::uint32_t number, double smallest) {
     const auto corners = corners_of(mesh, number);

@@ -22,8 +22,9 @@ struct BadPlaces {
                                   ///< `smallest`
 };
 
-/// What the lengths of BadPlaces are multiplied by: at first, and then in rounds after one that was
-/// no better. Smaller triangles are not always better, so that one share is larger.
+/// Factors of the lengths of BadPlaces. The first is for the round after the best one, the others are
+/// for rounds after those that were no better. Smaller triangles are not always better: one factor
+/// is above 1.
 inline constexpr std::array<double, 5> refinement_shares{1, 0.7, 1.3, 0.5, 0.35};
 
 /// Multiplies the lengths by a share; none becomes less than `smallest`.

@@ -90,7 +90,8 @@ inline bool is_settled_edge(const RemeshContext& context, std::uint32_t a, std::
 }
 
 // Passes. Each returns the number of changes made. Those on curves are defined in curves.cpp,
-// smooth(), jitter(), improve_worst(), collect_star(), settle() and is_settled() in smooth.cpp, all others in surface.cpp.
+// smooth(), jitter(), improve_worst(), collect_star(), settle() and is_settled() in smooth.cpp, all
+// others in surface.cpp.
 std::size_t split_curves(RemeshContext& context);
 std::size_t collapse_curves(RemeshContext& context);
 std::size_t slide_curves(RemeshContext& context);

@@ -132,7 +132,7 @@ private:
     std::array<double, 2> low_{}, per_length_{};
 };
 
-/// Clusters the indices in [first, last) by the cells of place_of(index).
+/// Makes a cluster of the indices in [first, last) whose places are in one cell of the grid.
 template <class PlaceOf, class AddAll>
 PlaceClusters clusters_in(const FaceGrid& grid, std::uint32_t first, std::uint32_t last,
                           const PlaceOf& place_of, const AddAll& add_all) {

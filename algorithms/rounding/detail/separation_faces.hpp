@@ -84,7 +84,8 @@ struct PlaceClusters {
     std::vector<Ball> balls;           ///< per cluster
 };
 
-/// The clusters of a face with many parts. A plane crosses few of their balls.
+/// The clusters of a face with many parts. A plane meets few of their balls; the members of all
+/// other clusters lie on one side of it.
 struct FaceClusters {
     PlaceClusters vertices, parts;
 };

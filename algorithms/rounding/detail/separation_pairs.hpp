@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Tests statements (3) and (4) of separation.hpp for the parts of two faces.
+// Finds the parts of two faces for which statements (3) and (4) of separation.hpp prove nothing.
 #pragma once
 
 #include <array>
@@ -41,8 +41,9 @@ class PairProver {
 public:
     PairProver(const MovedParts& moved, const Faces& faces) : moved_(moved), faces_(faces) {}
 
-    /// Adds pairs of parts of g and f, indices into Faces::faces, or parts of one of them: see
-    /// Unproven. Quicker if g is that of the call before.
+    /// Adds each pair of a part of g and a part of f that may meet improperly; if these are many, the
+    /// parts of one face instead: see Unproven. g and f are indices into Faces::faces. Calls with
+    /// the same g, one after the other, cost less.
     void operator()(std::uint32_t g, std::uint32_t f, Unproven& found);
 
 private:
