@@ -140,12 +140,12 @@ def ended(process, seconds):
 
 
 def listens(process, number):
-    """Whether the process says itself what it does at a signal."""
+    """Whether the process says itself what it does at a signal; when its files are there, it ignores them."""
     try:
         text = Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")
     except OSError:
         return True  # it has ended
-    masks = [int(line.split()[1], 16) for line in text.splitlines() if line.startswith(("SigCgt:", "SigBlk:"))]
+    masks = [int(line.split()[1], 16) for line in text.splitlines() if line.startswith(("SigCgt:", "SigBlk:", "SigIgn:"))]
     return any(mask >> (number - 1) & 1 for mask in masks) or "State:\tZ" in text
 
 

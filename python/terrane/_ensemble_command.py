@@ -12,13 +12,13 @@ import sys
 import threading
 import time
 import warnings
-from typing import Any, Callable, List, NoReturn, Optional, Tuple
+from typing import Any, Callable, Dict, List, NoReturn, Optional, Tuple
 
 from . import _core
 from ._ensemble import Ensemble, ensemble, task_of
 from ._ensemble_engine import abandon
 from ._ensemble_kept import remove
-from ._ensemble_output import new_folder, save, write_project
+from ._ensemble_output import discard, discard_all, new_folder, save, write_project
 from ._ensemble_work import run_one, unpacked
 from ._errors import Error
 from ._results import counted
@@ -118,13 +118,23 @@ def _folder_of(arguments: Any) -> str:
     return os.path.join(os.path.dirname(arguments.project), folder)
 
 
-def _one(arguments: Any, folder: str) -> int:
+def _one(arguments: Any, folder: str, interrupts: "_Interrupts") -> int:
     """Make one realisation alone."""
+    discard(new_folder(folder))  # before the work it is seen whether there can be one
     task = task_of(arguments.project, None, arguments.seed, arguments.contact, arguments.grid, arguments.threads)
-    write_project(task, arguments.only, folder)
-    values = unpacked(run_one(task, arguments.only)[0]).values
+    values: Dict[str, Any] = {"status": "built", "blocks": []}
+    lacking = None
+    try:
+        values = unpacked(run_one(task, arguments.only)[0]).values
+    except Error as error:
+        if error.code == "interrupted":
+            raise
+        lacking = error  # the files of what asks for too much are wanted most
+    write_project(task, arguments.only, folder, interrupts.close)
     if not arguments.quiet:
         _print(f"wrote {folder}: the surfaces of realisation {arguments.only}, and project.json, which builds them")
+    if lacking is not None:
+        raise lacking
     if values["status"] == "failed":
         _fail(arguments, f"realisation {arguments.only} can't be built: {values['reason']}")
         return _NEGATIVE
@@ -152,9 +162,9 @@ def _text_of(made: Ensemble) -> str:
     return "\n".join(lines)
 
 
-def _all(arguments: Any, folder: str) -> int:
-    os.rmdir(new_folder(folder))  # before the work it is seen whether there can be one
-    keep = os.path.normpath(folder) + ".realisations"
+def _all(arguments: Any, folder: str, interrupts: "_Interrupts") -> int:
+    discard(new_folder(folder))  # before the work it is seen whether there can be one
+    keep = interrupts.kept = os.path.normpath(folder) + ".realisations"
     progress = _Progress(arguments.quiet)
     begin = time.monotonic()
     try:
@@ -166,7 +176,7 @@ def _all(arguments: Any, folder: str) -> int:
         progress.end()
     computed = round(arguments.realisations * (1 - (progress.first or 0)))
     seconds = time.monotonic() - begin
-    names = save(made, folder, report=True)
+    names = save(made, folder, report=True, before_last_step=interrupts.close)
     remove(keep)
     if not arguments.quiet:
         _print(_text_of(made))
@@ -184,15 +194,22 @@ _PATIENCE = 0.7
 
 
 class _Interrupts:
-    """SIGINT, SIGTERM and SIGHUP raise KeyboardInterrupt; the program ends soon after the first, and at once at a second."""
+    """SIGINT, SIGTERM and SIGHUP raise KeyboardInterrupt; the program ends soon after the first, at once at a second.
 
-    def __init__(self, end: Callable[[], None]) -> None:
-        self._end = end
+    `close` comes before the step that gives the output its name, and before an error is reported: from there on signals
+    are ignored, as what is left takes no time.
+    """
+
+    def __init__(self, say: Callable[[Optional[str]], None]) -> None:
+        self.kept: Optional[str] = None  #: the folder that has the finished realisations
+        self._say = say
         self._lock = threading.Lock()
         self._patience: Optional[threading.Timer] = None
-        for name in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            if signal.getsignal(name) != signal.SIG_IGN:  # nohup ignores SIGHUP, and a shell's & SIGINT
-                signal.signal(name, self._hear)
+        # nohup ignores SIGHUP, and a shell's & SIGINT
+        self._signals = [name for name in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+                         if signal.getsignal(name) != signal.SIG_IGN]
+        for name in self._signals:
+            signal.signal(name, self._hear)
 
     def _hear(self, number: int, frame: Any) -> NoReturn:
         if self._patience is not None:
@@ -205,15 +222,53 @@ class _Interrupts:
     def _end_at_once(self) -> NoReturn:
         self._lock.acquire()  # for good: whoever has it ends the program
         abandon()
-        self._end()
+        discard_all()
+        self._say(self.kept)
         os._exit(_BAD_INPUT)
+
+    def _ignore(self) -> None:
+        # At its end Python gives up its handlers, so that a signal would kill it; what is ignored stays ignored.
+        for name in self._signals:
+            signal.signal(name, signal.SIG_IGN)
+
+    def close(self) -> None:
+        """Ignore what comes from now on; raise KeyboardInterrupt if a signal came before."""
+        self._ignore()
+        if self._patience is not None:  # Python drops what is raised in some places, as in __del__
+            raise KeyboardInterrupt
 
     def answer(self, at_once: bool) -> None:
         """Say that the program was interrupted; `at_once`, end it without what engines do and say at the end."""
         if at_once:
             self._end_at_once()
+        self._ignore()
         self._lock.acquire()
-        self._end()
+        discard_all()
+        self._say(self.kept)
+
+
+def _run(arguments: Any, interrupts: _Interrupts) -> int:
+    """Run the command; say what is wrong, but for an interrupt."""
+    try:
+        if arguments.version_of_program != str(_core.version):
+            raise Error("unsupported", f"the Python package is terrane {_core.version}, the program "
+                        f"{arguments.version_of_program}; both must be of one version", os.path.dirname(__file__))
+        folder = _folder_of(arguments)
+        return (_all if arguments.only is None else _one)(arguments, folder, interrupts)
+    except Error as error:
+        if error.code == "interrupted":
+            raise KeyboardInterrupt from None
+        interrupts.close()
+        _fail(arguments, str(error))
+        return _STATUS.get(error.code, _BAD_INPUT)
+    except MemoryError:
+        interrupts.close()
+        _fail(arguments, "out of memory")
+        return _INTERNAL
+    except Exception as broken:  # of an engine, or of ours
+        interrupts.close()
+        _fail(arguments, f"internal error: {type(broken).__name__}: {broken}")
+        return _INTERNAL
 
 
 def main(given: List[str]) -> int:
@@ -226,31 +281,14 @@ def main(given: List[str]) -> int:
     os.environ["PYTHONWARNINGS"] = ",".join(
         filter(None, [os.environ.get("PYTHONWARNINGS"), "ignore:resource_tracker:UserWarning"]))
 
-    def say_interrupted() -> None:
-        kept = "" if arguments.only is not None else "; the same command goes on from there"
-        _fail(arguments, "interrupted" + (kept and f", finished realisations are kept in {_folder_of(arguments)}"
-                                          f".realisations{kept}"))
+    def say_interrupted(kept: Optional[str]) -> None:
+        _fail(arguments, "interrupted, nothing written" if kept is None else
+              f"interrupted, finished realisations are kept in {kept}; the same command goes on from there")
         sys.stderr.flush()
 
     interrupts = _Interrupts(say_interrupted)
     try:
-        if arguments.version_of_program != str(_core.version):
-            raise Error("unsupported", f"the Python package is terrane {_core.version}, the program "
-                        f"{arguments.version_of_program}; both must be of one version", os.path.dirname(__file__))
-        folder = _folder_of(arguments)
-        return _one(arguments, folder) if arguments.only is not None else _all(arguments, folder)
+        return _run(arguments, interrupts)
     except KeyboardInterrupt:
         interrupts.answer(arguments.engine == "dask")
         return _BAD_INPUT
-    except Error as error:
-        if error.code == "interrupted":
-            interrupts.answer(arguments.engine == "dask")
-        else:
-            _fail(arguments, str(error))
-        return _STATUS.get(error.code, _BAD_INPUT)
-    except MemoryError:
-        _fail(arguments, "out of memory")
-        return _INTERNAL
-    except Exception as broken:  # of an engine, or of ours
-        _fail(arguments, f"internal error: {type(broken).__name__}: {broken}")
-        return _INTERNAL

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import importlib
 import io
@@ -10,9 +11,9 @@ import json
 import math
 import os
 import re
+import secrets
 import shutil
-import tempfile
-from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, Iterator, List, Mapping, Sequence, Set
 
 import numpy as np
 
@@ -28,47 +29,63 @@ _STATISTICS = [*(name for name, _ in PERCENTILES), "mean", "sd", "least", "large
 _NOTHING = -9999.0
 
 
+_unfinished: Set[str] = set()  # temporary folders
+
+
 def new_folder(folder: str) -> str:
     """Return a temporary folder beside one that must not exist, or be empty."""
     if os.path.exists(folder) and (not os.path.isdir(folder) or os.listdir(folder)):
         raise Error("cannot_open", "is there already, and is no empty folder", folder)
-    parent = os.path.dirname(os.path.abspath(folder))
+    made = f"{os.path.abspath(folder)}.part{secrets.token_hex(8)}"
+    _unfinished.add(made)  # first, so that it is known if an interrupt comes next
     try:
-        os.makedirs(parent, exist_ok=True)
-        made = tempfile.mkdtemp(prefix=os.path.basename(folder) + ".part", dir=parent)
-        os.chmod(made, 0o777 & ~_umask())
-        return made
+        os.makedirs(os.path.dirname(made), exist_ok=True)
+        os.mkdir(made)
     except OSError as error:
+        _unfinished.discard(made)
         raise Error("cannot_open", f"cannot be made: {error.strerror}", folder) from None
+    return made
 
 
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+def discard(made: str) -> None:
+    """Remove a temporary folder, if it is there."""
+    for _ in range(10):  # another thread may write in it
+        shutil.rmtree(made, ignore_errors=True)
+        if not os.path.lexists(made):
+            break
+    _unfinished.discard(made)
 
 
-def publish(temporary: str, folder: str) -> None:
-    """Give a finished folder its name."""
+def discard_all() -> None:
+    """Remove all temporary folders: the process is about to end."""
+    for made in list(_unfinished):
+        discard(made)
+
+
+@contextlib.contextmanager
+def _new(folder: str, before_last_step: Callable[[], None]) -> Iterator[str]:
+    """Enter a temporary folder; if it is left without an error, it gets the name `folder`."""
+    made = new_folder(folder)
     try:
+        yield made
+        before_last_step()
         if os.path.isdir(folder):
             os.rmdir(folder)
-        os.rename(temporary, folder)
-    except OSError as error:
-        raise Error("write_failed", f"cannot be renamed: {error.strerror}", folder) from None
-
-
-def save(made: "Ensemble", folder: str, *, report: bool) -> List[str]:
-    """Write everything; return the names of what is in the folder."""
-    to = new_folder(folder)
-    try:
-        names = _write_all(made, to, report)
-        publish(to, folder)
+        os.rename(made, folder)
     except OSError as error:
         raise Error("write_failed", f"cannot be written: {error.strerror}", error.filename or folder) from None
     finally:
-        shutil.rmtree(to, ignore_errors=True)
-    return names
+        discard(made)
+
+
+def save(made: "Ensemble", folder: str, *, report: bool,
+         before_last_step: Callable[[], None] = lambda: None) -> List[str]:
+    """Write everything; return the names of what is in the folder.
+
+    `before_last_step` is called when all is written and nothing has its name yet.
+    """
+    with _new(folder, before_last_step) as to:
+        return _write_all(made, to, report)
 
 
 def _write_all(made: "Ensemble", to: str, report: bool) -> List[str]:
@@ -216,14 +233,10 @@ def _write_hdf5(made: "Ensemble", path: str) -> bool:
     return True
 
 
-def write_project(task: Task, number: int, folder: str) -> None:
-    """Write a realisation as a project of its own."""
-    to = new_folder(folder)
-    try:
+def write_project(task: Task, number: int, folder: str, before_last_step: Callable[[], None] = lambda: None) -> None:
+    """Write a realisation as a project of its own; as `save` does."""
+    with _new(folder, before_last_step) as to:
         _write_project(task, number, to, "")
-        publish(to, folder)
-    finally:
-        shutil.rmtree(to, ignore_errors=True)
 
 
 def _write_project(task: Task, number: int, to: str, reason: str) -> None:

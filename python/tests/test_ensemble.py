@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 import terrane
-from conftest import BOX, PROGRAM, SANITIZED, run_program, sheet, stack, wall
+from conftest import BOX, PROGRAM, SANITIZED, run_program, run_python, sheet, stack, wall
 from terrane import _ensemble_blocks, _ensemble_engine, _ensemble_kept, _ensemble_work
 
 NORMAL = statistics.NormalDist()
@@ -306,6 +306,55 @@ def test_an_interrupt_at_any_time_ends_the_program_with_one_line(engine):
         assert re.fullmatch("terrane: interrupted(, nothing written|, finished realisations are kept .*)?\n", err), (k, err)
         assert not os.path.exists(f"run{k}")
     assert not os.path.exists("dask-worker-space")
+
+
+#: Runs the command; at each of some functions it gets signals of its own. "+" is the second of two that come together,
+#: and "!" one whose exception is dropped, as Python drops it in __del__.
+SIGNALLED = """
+import os, signal, sys
+from terrane import _ensemble_command as command, _ensemble_output as output
+
+def signalled(real, how):
+    def at(*given, **named):
+        if "+" in how:
+            signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
+            os.kill(os.getpid(), signal.SIGTERM)
+        try:
+            os.kill(os.getpid(), signal.SIGINT)
+            signal.pthread_sigmask(signal.SIG_SETMASK, ())
+        except KeyboardInterrupt:
+            if "!" not in how:
+                raise
+        return real(*given, **named)
+    return at
+
+for place in sys.argv[1].split(","):
+    name = place.rstrip("+!")
+    for module in (command, output):
+        if hasattr(module, name):
+            setattr(module, name, signalled(getattr(module, name), place[len(name):]))
+sys.exit(command.main(sys.argv[2:]))
+"""
+
+
+@pytest.mark.parametrize("options, places, written", [
+    *(("--realisations=2", places, False) for places in (
+        "discard", "ensemble", "_write_all!", "_write_hdf5", "summary+", "_write_hdf5,_fail+", "_write_hdf5!,_fail+")),
+    *(("--realisations=2", places, True) for places in ("remove+", "_print")),
+    *(("--only=1", places, False) for places in ("run_one", "_write_project+", "_write_project!,_fail+")),
+    ("--only=1", "_print+", True)])
+def test_an_interrupt_while_it_writes_leaves_all_or_nothing(options, places, written):
+    write_stack()
+    before = {"run.realisations", *os.listdir()}
+    done = run_python(SIGNALLED, places, "p.json", "--output=run", "--engine=serial", options, check=False)
+    if written:
+        assert (done.returncode, done.stderr) == (0, "")
+        assert os.path.exists("run/project.json" if "only" in options else "run/percentiles.csv")
+        assert {"run.realisations", *os.listdir()} == {*before, "run"}
+    else:
+        assert (done.returncode, done.stdout) == (2, "")
+        assert re.fullmatch("terrane: interrupted, (nothing written|finished realisations are kept .*)\n", done.stderr)
+        assert {"run.realisations", *os.listdir()} == before
 
 
 @pytest.mark.skipif(SANITIZED, reason="the program's interpreter would need the sanitizer's library first")
