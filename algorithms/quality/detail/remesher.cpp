@@ -224,12 +224,12 @@ std::uint32_t Remesher::worst() {
 /// Improves the worst triangle of all as long as an operation helps.
 void Remesher::improve_worst_triangles() {
     qualities_.clear();
-    is_settled_ = false;
+    tried_all_ = false;
     for (unsigned round = 0; round < constants.worst_rounds && !stopped(); ++round) {
         const std::uint32_t t = worst();
         if (t != none && improve_triangle(context_, t) > 0) continue;
         if (t != none && improve_worst(context_, limit_at(t)) > 0) continue;
-        is_settled_ = true;
+        tried_all_ = true;
         break;
     }
 }
@@ -255,7 +255,7 @@ WorstCause Remesher::cause_of_worst() {
         mesh_.kinds[t[(shortest + 1) % 3]] == VertexKind::corner)
         return WorstCause::short_curve;
     if (all_on_curves) return WorstCause::close_curves;
-    if (!is_settled_) return WorstCause::rounds;
+    if (!tried_all_) return WorstCause::rounds;
     // Nothing helps, so the same trials change nothing; they count the reasons.
     const Refusals before = validator_.refusals();
     context_.improved_at.clear(); // repeats moves that were rejected before
