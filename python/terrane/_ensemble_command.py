@@ -213,6 +213,7 @@ class _Interrupts:
 
     def _hear(self, number: int, frame: Any) -> NoReturn:
         if self._patience is not None:
+            self._ignore()
             self._end_at_once()
         self._patience = threading.Timer(_PATIENCE, self._end_at_once)
         self._patience.daemon = True
@@ -220,7 +221,7 @@ class _Interrupts:
         raise KeyboardInterrupt
 
     def _end_at_once(self) -> NoReturn:
-        self._lock.acquire()  # for good: whoever has it ends the program
+        self._lock.acquire()  # for good: whoever has it ends the program; no handler may want it in the same thread
         abandon()
         discard_all()
         self._say(self.kept)
@@ -239,9 +240,9 @@ class _Interrupts:
 
     def answer(self, at_once: bool) -> None:
         """Say that the program was interrupted; `at_once`, end it without what engines do and say at the end."""
+        self._ignore()
         if at_once:
             self._end_at_once()
-        self._ignore()
         self._lock.acquire()
         discard_all()
         self._say(self.kept)

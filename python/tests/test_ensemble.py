@@ -339,14 +339,16 @@ sys.exit(command.main(sys.argv[2:]))
 
 @pytest.mark.parametrize("options, places, written", [
     *(("--realisations=2", places, False) for places in (
-        "discard", "ensemble", "_write_all!", "_write_hdf5", "summary+", "_write_hdf5,_fail+", "_write_hdf5!,_fail+")),
+        "discard", "ensemble", "_write_all!", "_write_hdf5", "summary+", "_write_hdf5,_fail+", "_write_hdf5!,_fail+",
+        "summary+,_fail+")),
+    pytest.param("--realisations=2 --engine=dask", "ensemble,_fail+", False, marks=needs_dask),
     *(("--realisations=2", places, True) for places in ("remove+", "_print")),
     *(("--only=1", places, False) for places in ("run_one", "_write_project+", "_write_project!,_fail+")),
     ("--only=1", "_print+", True)])
 def test_an_interrupt_while_it_writes_leaves_all_or_nothing(options, places, written):
     write_stack()
     before = {"run.realisations", *os.listdir()}
-    done = run_python(SIGNALLED, places, "p.json", "--output=run", "--engine=serial", options, check=False)
+    done = run_python(SIGNALLED, places, "p.json", "--output=run", "--engine=serial", *options.split(), check=False)
     if written:
         assert (done.returncode, done.stderr) == (0, "")
         assert os.path.exists("run/project.json" if "only" in options else "run/percentiles.csv")
