@@ -396,6 +396,15 @@ ReferenceSurface::contains_within_tolerance(const Corners& triangle, std::uint32
     return containment;
 }
 
+Point3 nearest_in_box(const Point3& p, std::span<const Point3> points) {
+    Point3 nearest = p;
+    for (double Point3::*const c : {&Point3::x, &Point3::y, &Point3::z}) {
+        const auto [low, high] = std::ranges::minmax(points, {}, c);
+        nearest.*c = std::clamp(p.*c, low.*c, high.*c);
+    }
+    return nearest;
+}
+
 std::optional<ReferenceSurface::Place>
 ReferenceSurface::above(const Point3& p, const Point3& normal, std::uint32_t hint) const {
     const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
@@ -419,7 +428,7 @@ ReferenceSurface::above(const Point3& p, const Point3& normal, std::uint32_t hin
     const double height = (shares[0] * c[0].w + shares[1] * c[1].w + shares[2] * c[2].w) / sum;
     Point3 place = p;
     (axis == Axis::x ? place.x : axis == Axis::y ? place.y : place.z) += height;
-    return Place{place, way.end};
+    return Place{nearest_in_box(place, corners), way.end};
 }
 
 } // namespace terrane::quality::detail

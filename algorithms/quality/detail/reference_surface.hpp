@@ -33,6 +33,10 @@ namespace terrane::quality::detail {
 
 using Corners = std::array<Point3, 3>;
 
+/// Returns the point nearest to p in the box of some points. A point between them is in it but for
+/// rounding, which would take it off a plane across an axis, such as the side of a box.
+[[nodiscard]] Point3 nearest_in_box(const Point3& p, std::span<const Point3> points);
+
 /// Computes an upper bound (up to rounding) of the distance of p to the triangle: the distance to a
 /// point that lies on it, however ill-shaped it is.
 double to_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c);
@@ -80,7 +84,7 @@ public:
     contains_within_tolerance(const Corners& triangle, std::uint32_t hint, Search& search) const;
 
     struct Place {
-        Point3 point;           ///< on the surface, up to rounding
+        Point3 point;           ///< on the surface, up to rounding, and in the triangle's box
         std::uint32_t triangle; ///< contains the point
     };
     /// Projects p to the sheet of `hint` along the axis in which the normal is longest. Returns

@@ -12,12 +12,16 @@
 #include <catch2/catch.hpp>
 
 #include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve_back.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
+#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 
 #include "support/improve_cases.hpp"
+#include "support/paths.hpp"
 #include "support/points.hpp"
+#include "support/read.hpp"
 #include "support/rounded.hpp"
 #include "support/shapes.hpp"
 #include "support/solids.hpp"
@@ -404,4 +408,41 @@ TEST_CASE("improve: refinements follow each other and leave triangles far from t
     CHECK(kept(once, twice, second) == 1);
     // What is asked for twice changes nothing more.
     CHECK(refined({{{first, .2}}, {{first, .5}}}).vertices == once.vertices);
+}
+
+TEST_CASE("improve: no point leaves a box by one unit, and its sides stay planes", "[improve]") {
+    const Point3 low{0.1, 0.3, -1700.7}, high{1999.9, 1500.1, -699.3}; // round in decimals alone
+    std::vector<Surface> surfaces;
+    for (const char* name : {"top.ts", "base.ts", "fault.ts"})
+        surfaces.push_back(read_data(source_dir() + "/docs/data/" + name)[0]);
+    const auto made = arrange_within(surfaces, box_boundary(low, high).value(), {.seal = 20});
+    REQUIRE(made);
+    for (const double edge_length : {100, 150, 300}) {
+        INFO(edge_length);
+        ImproveOptions options;
+        options.edge_length = edge_length;
+        options.refinements = {{{Point3{0, 700, -1200}, 40}}};
+        const Mesh better = improved(*made->rounded.mesh, options).mesh;
+        for (const Point3& p : better.vertices)
+            CHECK((low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z &&
+                   p.z <= high.z));
+        std::size_t on_sides = 0;
+        for (std::size_t t = 0; t < better.triangles.size(); ++t) {
+            const auto surfaces_of = better.surfaces_of[t];
+            if (std::ranges::none_of(surfaces_of, [&](std::uint32_t s) {
+                    return better.surfaces[s].role == Role::boundary;
+                }))
+                continue;
+            ++on_sides;
+            const auto is_on = [&](double Point3::*c, double at) {
+                return std::ranges::all_of(better.triangles[t], [&](std::uint32_t v) {
+                    return better.vertices[v].*c == at;
+                });
+            };
+            CHECK((is_on(&Point3::x, low.x) || is_on(&Point3::x, high.x) ||
+                   is_on(&Point3::y, low.y) || is_on(&Point3::y, high.y) ||
+                   is_on(&Point3::z, low.z) || is_on(&Point3::z, high.z)));
+        }
+        CHECK(on_sides > 100);
+    }
 }
