@@ -67,7 +67,7 @@ private:
     std::uint32_t measured_at_ = 0; ///< time of that
     unsigned passes_ = 0;
     double least_length_ = 0; ///< that gaps ask for
-    bool tried_all_ = false; ///< all changes for the worst triangle were tried
+    bool tried_all_ = false;  ///< all changes for the worst triangle were tried
 };
 
 } // namespace terrane::quality::detail
