@@ -141,7 +141,7 @@ def ended(process, seconds):
 
 
 def answer(process, number):
-    """What the process does at a signal: "hears" it, "ignores" it, which it may when all is written, or "dies" of it."""
+    """Return "hears", "ignores" or "dies": what a signal does to the process. It may ignore it when all is written."""
     try:
         text = Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")
     except OSError:

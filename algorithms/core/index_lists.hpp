@@ -41,8 +41,8 @@ struct IndexLists {
     friend bool operator==(const IndexLists&, const IndexLists&) = default;
 };
 
-/// Returns `count` lists. List k holds value_of(i) for each i with keys[i] == k, in ascending order
-/// of i. All keys must be below `count`. Calls value_of once for each i, in ascending order. Cost:
+/// Returns `count` lists. List k holds value_of(i) for each i with keys[i] == k, sorted by i. Every
+/// key must be below `count`. The function calls value_of once for each i, in ascending order. Cost:
 /// linear.
 template <class T, class ValueOf>
 IndexLists<T> lists_by_key(std::size_t count, std::span<const std::uint32_t> keys,

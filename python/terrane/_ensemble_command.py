@@ -122,14 +122,14 @@ def _one(arguments: Any, folder: str, interrupts: "_Interrupts") -> int:
     """Make one realisation alone."""
     discard(new_folder(folder))  # before the work it is seen whether there can be one
     task = task_of(arguments.project, None, arguments.seed, arguments.contact, arguments.grid, arguments.threads)
-    values: Dict[str, Any] = {"status": "built", "blocks": []}
+    values: Dict[str, Any] = {}
     lacking = None
     try:
         values = unpacked(run_one(task, arguments.only)[0]).values
     except Error as error:
         if error.code == "interrupted":
             raise
-        lacking = error  # the files of what asks for too much are wanted most
+        lacking = error  # the folder is written all the same, so that the user can look into it
     write_project(task, arguments.only, folder, interrupts.close)
     if not arguments.quiet:
         _print(f"wrote {folder}: the surfaces of realisation {arguments.only}, and project.json, which builds them")
@@ -196,8 +196,8 @@ _PATIENCE = 0.7
 class _Interrupts:
     """SIGINT, SIGTERM and SIGHUP raise KeyboardInterrupt; the program ends soon after the first, at once at a second.
 
-    `close` comes before the step that gives the output its name, and before an error is reported: from there on signals
-    are ignored, as what is left takes no time.
+    The command calls `close` before the output gets its name, and before it reports an error. From then on it ignores
+    signals.
     """
 
     def __init__(self, say: Callable[[Optional[str]], None]) -> None:
@@ -221,21 +221,21 @@ class _Interrupts:
         raise KeyboardInterrupt
 
     def _end_at_once(self) -> NoReturn:
-        self._lock.acquire()  # for good: whoever has it ends the program; no handler may want it in the same thread
+        self._lock.acquire()  # it is never released: the thread that holds it ends the program
         abandon()
         discard_all()
         self._say(self.kept)
         os._exit(_BAD_INPUT)
 
     def _ignore(self) -> None:
-        # At its end Python gives up its handlers, so that a signal would kill it; what is ignored stays ignored.
+        # Python restores the default handlers when it ends. An ignored signal stays ignored.
         for name in self._signals:
             signal.signal(name, signal.SIG_IGN)
 
     def close(self) -> None:
-        """Ignore what comes from now on; raise KeyboardInterrupt if a signal came before."""
+        """Ignore signals from now on; raise KeyboardInterrupt if one came before."""
         self._ignore()
-        if self._patience is not None:  # Python drops what is raised in some places, as in __del__
+        if self._patience is not None:  # Python drops exceptions in some places, such as __del__
             raise KeyboardInterrupt
 
     def answer(self, at_once: bool) -> None:

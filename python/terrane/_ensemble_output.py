@@ -37,7 +37,7 @@ def new_folder(folder: str) -> str:
     if os.path.exists(folder) and (not os.path.isdir(folder) or os.listdir(folder)):
         raise Error("cannot_open", "is there already, and is no empty folder", folder)
     made = f"{os.path.abspath(folder)}.part{secrets.token_hex(8)}"
-    _unfinished.add(made)  # first, so that it is known if an interrupt comes next
+    _unfinished.add(made)  # before mkdir: discard_all() then finds it after an interrupt
     try:
         os.makedirs(os.path.dirname(made), exist_ok=True)
         os.mkdir(made)
@@ -49,7 +49,7 @@ def new_folder(folder: str) -> str:
 
 def discard(made: str) -> None:
     """Remove a temporary folder, if it is there."""
-    for _ in range(10):  # another thread may write in it
+    for _ in range(10):  # another thread may add files meanwhile
         shutil.rmtree(made, ignore_errors=True)
         if not os.path.lexists(made):
             break
@@ -64,7 +64,7 @@ def discard_all() -> None:
 
 @contextlib.contextmanager
 def _new(folder: str, before_last_step: Callable[[], None]) -> Iterator[str]:
-    """Enter a temporary folder; if it is left without an error, it gets the name `folder`."""
+    """Make a temporary folder; at the end of the block it gets the name `folder`, or is removed after an error."""
     made = new_folder(folder)
     try:
         yield made
@@ -82,7 +82,7 @@ def save(made: "Ensemble", folder: str, *, report: bool,
          before_last_step: Callable[[], None] = lambda: None) -> List[str]:
     """Write everything; return the names of what is in the folder.
 
-    `before_last_step` is called when all is written and nothing has its name yet.
+    It calls `before_last_step` when all files are written, just before the folder gets its name.
     """
     with _new(folder, before_last_step) as to:
         return _write_all(made, to, report)

@@ -151,9 +151,7 @@ Point3 point_on(const RemeshContext& context, std::uint32_t curve, double at) {
     const Point3 &a = context.points[c.vertices[i - 1]], &b = context.points[c.vertices[i]];
     const double piece = c.at[i] - c.at[i - 1];
     const double share = piece > 0 ? std::clamp((at - c.at[i - 1]) / piece, 0.0, 1.0) : 0;
-    return nearest_in_box(
-        {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)},
-        std::array{a, b});
+    return nearest_in_box(towards(a, b, share), std::array{a, b});
 }
 
 bool chord_within_bound(const RemeshContext& context, std::uint32_t curve, double from, double to) {

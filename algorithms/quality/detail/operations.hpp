@@ -89,9 +89,9 @@ inline bool is_settled_edge(const RemeshContext& context, std::uint32_t a, std::
     return is_settled(context, a) && is_settled(context, b);
 }
 
-// Passes. Each returns the number of changes made. Those on curves are defined in curves.cpp,
-// smooth(), jitter(), improve_worst(), collect_star(), settle() and is_settled() in smooth.cpp, all
-// others in surface.cpp.
+// Passes. Each returns the number of changes made. curves.cpp defines those on curves, smooth.cpp
+// defines smooth(), jitter(), improve_worst(), collect_star(), settle() and is_settled(), and
+// surface.cpp defines the others.
 std::size_t split_curves(RemeshContext& context);
 std::size_t collapse_curves(RemeshContext& context);
 std::size_t slide_curves(RemeshContext& context);

@@ -13,6 +13,11 @@
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane::quality::detail {
+
+Point3 towards(const Point3& a, const Point3& b, double share) {
+    return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
+}
+
 namespace {
 
 /// Exceeds the rounding error of quotients between 0 and 1, which is a few units in 2^-53. Edges
@@ -20,10 +25,6 @@ namespace {
 constexpr double share_error = 0x1p-26;
 
 constexpr double unit = std::numeric_limits<double>::epsilon();
-
-Point3 towards(const Point3& a, const Point3& b, double share) {
-    return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
-}
 
 /// Computes an upper bound (up to rounding) of the distance of p to the segment: the distance to a
 /// point that lies on it.

@@ -33,8 +33,12 @@ namespace terrane::quality::detail {
 
 using Corners = std::array<Point3, 3>;
 
-/// Returns the point nearest to p in the box of some points. A point between them is in it but for
-/// rounding, which would take it off a plane across an axis, such as the side of a box.
+/// Returns the point a + share * (b - a).
+[[nodiscard]] Point3 towards(const Point3& a, const Point3& b, double share);
+
+/// Returns the point nearest to p in the bounding box of `points`. A computed point of a triangle or
+/// an edge can be outside of its bounding box by a rounding error, and so outside of a volume of
+/// interest; this function moves it back.
 [[nodiscard]] Point3 nearest_in_box(const Point3& p, std::span<const Point3> points);
 
 /// Computes an upper bound (up to rounding) of the distance of p to the triangle: the distance to a
@@ -84,7 +88,7 @@ public:
     contains_within_tolerance(const Corners& triangle, std::uint32_t hint, Search& search) const;
 
     struct Place {
-        Point3 point;           ///< on the surface, up to rounding, and in the triangle's box
+        Point3 point; ///< on the surface, up to rounding, and in the triangle's bounding box
         std::uint32_t triangle; ///< contains the point
     };
     /// Projects p to the sheet of `hint` along the axis in which the normal is longest. Returns

@@ -97,10 +97,6 @@ bool propose_move(const RemeshContext& context, const Point3& to, const Badness&
     return context.validator.check(change, proposal.checked) == Outcome::allowed;
 }
 
-Point3 between(const Point3& a, const Point3& b, double share) {
-    return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
-}
-
 bool propose_smoothing(const RemeshContext& context, std::uint32_t v, Proposal& proposal) {
     const WorkMesh& mesh = context.mesh;
     proposal.is_tried = mesh.changed_since(v, context.smoothed_at[v]);
@@ -110,8 +106,8 @@ bool propose_smoothing(const RemeshContext& context, std::uint32_t v, Proposal& 
     const Badness better{badness_at(mesh, v, from).sum * (1 - constants.least_gain), endless};
     // Each triangle moves the vertex along its own edge only: half of the way on average.
     for (const double share : constants.smoothing_shares)
-        if (propose_move(context, between(from, to, share), better, proposal)) return true;
-    return propose_move(context, between(from, centre(mesh, v), constants.centring_share), better,
+        if (propose_move(context, towards(from, to, share), better, proposal)) return true;
+    return propose_move(context, towards(from, centre(mesh, v), constants.centring_share), better,
                         proposal);
 }
 

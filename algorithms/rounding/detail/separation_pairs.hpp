@@ -41,9 +41,9 @@ class PairProver {
 public:
     PairProver(const MovedParts& moved, const Faces& faces) : moved_(moved), faces_(faces) {}
 
-    /// Adds each pair of a part of g and a part of f that may meet improperly; if these are many, the
-    /// parts of one face instead: see Unproven. g and f are indices into Faces::faces. Calls with
-    /// the same g, one after the other, cost less.
+    /// Adds each pair of a part of g and a part of f that may meet improperly. If there are many such
+    /// pairs, it adds the parts of one face instead; see Unproven. g and f are indices into
+    /// Faces::faces. Consecutive calls with the same g cost less.
     void operator()(std::uint32_t g, std::uint32_t f, Unproven& found);
 
 private:
