@@ -65,9 +65,9 @@ public:
         DoubleDouble q = first + second;
         const auto quotient = [&] { return a.twin() / b.twin(); };
         if (open.is_zero()) return q.stands_for(quotient);
-        const double least = std::fabs(b.hi_) * (1 - 4 * unit) - std::fabs(b.lo_) - b.err_;
-        q.err_ += (least > 0 ? (open.size() + open.err_) / least : HUGE_VAL) * (1 + 8 * unit) +
-                  std::numeric_limits<double>::denorm_min();
+        const double divisor = std::fabs(b.hi_) * (1 - 4 * unit) - std::fabs(b.lo_) - b.err_;
+        q.err_ +=
+            (divisor > 0 ? (open.size() + open.err_) / divisor : HUGE_VAL) * (1 + 8 * unit) + least;
         return q.stands_for(quotient);
     }
 
@@ -87,13 +87,23 @@ public:
     /// Whether the true value may be the double value().
     [[nodiscard]] bool may_be_double() const { return !(std::fabs(lo_) > err_); }
 
+    /// Whether the true value is certainly value() + low().
+    [[nodiscard]] bool is_exact() const {
+        return err_ == 0 && std::isfinite(hi_) && std::isfinite(lo_);
+    }
+
     /// Returns the high part.
     [[nodiscard]] double value() const { return hi_; }
+    /// Returns the low part.
+    [[nodiscard]] double low() const { return lo_; }
     /// Returns an upper bound of the distance between the true value and value().
     [[nodiscard]] double error() const { return (std::fabs(lo_) + err_) * (1 + 4 * unit); }
 
 private:
     static constexpr double unit = std::numeric_limits<double>::epsilon();
+    // A constant: with -frounding-math, gcc would convert denorm_min() from an x87 number in each
+    // call, and processors are slow to make a subnormal number so.
+    static constexpr double least = std::numeric_limits<double>::denorm_min();
     static constexpr double underflow = 0x1p-1000;    ///< exceeds the error of underflow
     static constexpr double least_product = 0x1p-900; ///< larger products of two doubles are exact
                                                       ///< in two normal numbers

@@ -101,7 +101,8 @@ double below(double d) {
 /// Returns an upper bound of half the distance between doubles of this size, and so of the error of
 /// rounding to nearest.
 double half_step(double d) {
-    return std::fabs(d) * 0x1p-53 + std::numeric_limits<double>::denorm_min();
+    constexpr double least = std::numeric_limits<double>::denorm_min();
+    return std::fabs(d) * 0x1p-53 + least;
 }
 
 // Adding 0.0 turns -0 into 0, which keeps "-0" out of files.
@@ -136,6 +137,23 @@ TwofoldPoint twofold_point(std::span<const Point3> input, const Construction& ho
     return from_base(d.x * t / w, d.y * t / w, d.z * t / w);
 }
 
+/// Makes the weight positive and the coordinates absolute.
+template <class N>
+polynomial::Coordinates<N, N> on_base(polynomial::Homogeneous<N> h, bool is_negative,
+                                      const Point3& base) {
+    if (is_negative) h = {-h.x, -h.y, -h.z, -h.w};
+    return {h.x + N(base.x) * h.w, h.y + N(base.y) * h.w, h.z + N(base.z) * h.w, h.w};
+}
+
+using TwofoldHomogeneous = polynomial::Coordinates<DoubleDouble, DoubleDouble>;
+
+/// Computes homogeneous coordinates in DoubleDouble. The caller holds the default rounding mode.
+TwofoldHomogeneous twofold_homogeneous(std::span<const Point3> input, const Construction& how) {
+    const auto at = [&](std::uint32_t v) -> const Point3& { return input[v]; };
+    const auto h = polynomial::construct<DoubleDouble>(how, at);
+    return on_base(h, h.w.value() < 0, input[how.v[0]]);
+}
+
 #if defined(__x86_64__) && defined(__GNUC__)
 // Uses the processor's fused multiply-add instead of calling the C library's; both give the same
 // numbers.
@@ -143,20 +161,41 @@ TwofoldPoint twofold_point(std::span<const Point3> input, const Construction& ho
                                                               const Construction& how) {
     return twofold_point(input, how);
 }
+[[gnu::target("fma"), gnu::flatten]] TwofoldHomogeneous
+fused_homogeneous(std::span<const Point3> input, const Construction& how) {
+    return twofold_homogeneous(input, how);
+}
 const bool has_fma = __builtin_cpu_supports("fma") != 0;
 #else
 TwofoldPoint fused_point(std::span<const Point3> input, const Construction& how) {
     return twofold_point(input, how);
 }
+TwofoldHomogeneous fused_homogeneous(std::span<const Point3> input, const Construction& how) {
+    return twofold_homogeneous(input, how);
+}
 constexpr bool has_fma = false;
 #endif
 
+Exact exact_sum(const DoubleDouble& d) {
+    return d.low() == 0 ? Exact(d.value()) : Exact(d.value()) + Exact(d.low());
+}
+
+/// Returns the point if DoubleDouble holds its coordinates exactly: coordinates of few bits are
+/// common in degenerate input, and long numbers slow.
+std::optional<ExactPoint> construct_in_doubles(std::span<const Point3> input,
+                                               const Construction& how) {
+    const ToNearest mode;
+    const auto h = has_fma ? fused_homogeneous(input, how) : twofold_homogeneous(input, how);
+    if (!h.x.is_exact() || !h.y.is_exact() || !h.z.is_exact() || !h.w.is_exact())
+        return std::nullopt;
+    return ExactPoint{exact_sum(h.x), exact_sum(h.y), exact_sum(h.z), exact_sum(h.w)};
+}
+
 ExactPoint construct_exactly(std::span<const Point3> input, const Construction& how) {
+    if (auto quick = construct_in_doubles(input, how)) return *std::move(quick);
     const auto at = [&](std::uint32_t v) -> const Point3& { return input[v]; };
-    auto h = polynomial::construct<Exact>(how, at);
-    if (exact_sign(h.w) == Sign::Negative) h = {-h.x, -h.y, -h.z, -h.w};
-    const Point3& base = input[how.v[0]];
-    return {h.x + Exact(base.x) * h.w, h.y + Exact(base.y) * h.w, h.z + Exact(base.z) * h.w, h.w};
+    const auto h = polynomial::construct<Exact>(how, at);
+    return on_base(h, exact_sign(h.w) == Sign::Negative, input[how.v[0]]);
 }
 
 } // namespace
@@ -252,26 +291,36 @@ Sign PointStore::filtered(UpwardWitness upward, const Polynomial& polynomial, P.
 }
 
 // Rounding to nearest is monotone: if the nearest doubles differ, the coordinates differ likewise.
+std::strong_ordering PointStore::compare(unsigned k, PointIndex p, PointIndex q) const {
+    constexpr std::array in_double{&Point3::x, &Point3::y, &Point3::z};
+    constexpr std::array in_exact{&ExactPoint::x, &ExactPoint::y, &ExactPoint::z};
+    const double x = nearest(p).*in_double[k], y = nearest(q).*in_double[k];
+    if (x < y) return std::strong_ordering::less;
+    if (x > y) return std::strong_ordering::greater;
+    if (p == q || (is_double(p, k) && is_double(q, k))) return std::strong_ordering::equal;
+    ++predicate_counts().exact;
+    const auto side_of = [&](double d, PointIndex point) { // the sign of the coordinate - d
+        const ExactPoint& e = cached_exact(point - input_.size());
+        return exact_sign(e.*in_exact[k] - Exact(d) * e.w);
+    };
+    const auto of_difference = [&] {
+        if (is_double(q, k)) return side_of(y, p);
+        if (is_double(p, k)) return -side_of(x, q);
+        const ExactPoint& e = cached_exact(p - input_.size());
+        const ExactPoint& f = cached_exact(q - input_.size());
+        return exact_sign(e.*in_exact[k] * f.w - f.*in_exact[k] * e.w);
+    };
+    return static_cast<int>(of_difference()) <=> 0;
+}
+
 std::strong_ordering PointStore::compare(PointIndex p, PointIndex q) const {
-    if (p == q) return std::strong_ordering::equal;
-    const Point3 &a = nearest(p), &b = nearest(q);
-    const std::array x{a.x, a.y, a.z}, y{b.x, b.y, b.z};
-    for (unsigned k = 0; k < 3; ++k) {
-        if (x[k] < y[k]) return std::strong_ordering::less;
-        if (x[k] > y[k]) return std::strong_ordering::greater;
-        if (is_double(p, k) && is_double(q, k)) continue;
-        ++predicate_counts().exact;
-        const ExactPoint e = exact(p), f = exact(q);
-        const auto d = polynomial::difference(e, f);
-        for (const Exact* c : {&d.x, &d.y, &d.z}) {
-            const Sign s = exact_sign(*c);
-            if (s != Sign::Zero)
-                return s == Sign::Negative ? std::strong_ordering::less
-                                           : std::strong_ordering::greater;
-        }
-        return std::strong_ordering::equal;
-    }
+    for (unsigned k = 0; k < 3; ++k)
+        if (const auto order = compare(k, p, q); order != 0) return order;
     return std::strong_ordering::equal;
+}
+
+bool PointStore::equal(PointIndex p, PointIndex q) const {
+    return nearest(p) == nearest(q) && compare(p, q) == 0;
 }
 
 Sign PointStore::orient2d(UpwardWitness upward, Axis axis, PointIndex a, PointIndex b,

@@ -109,8 +109,12 @@ public:
     [[nodiscard]] std::array<double, 3> rounding_errors(PointIndex p) const;
 
     // Predicates; compare and equal are right in any rounding mode.
+    /// Compares one coordinate: x, y, z are 0, 1, 2.
+    [[nodiscard]] std::strong_ordering compare(unsigned coordinate, PointIndex p,
+                                               PointIndex q) const;
+    /// Compares in lexicographic order.
     [[nodiscard]] std::strong_ordering compare(PointIndex p, PointIndex q) const;
-    [[nodiscard]] bool equal(PointIndex p, PointIndex q) const { return compare(p, q) == 0; }
+    [[nodiscard]] bool equal(PointIndex p, PointIndex q) const;
     [[nodiscard]] Sign orient2d(UpwardWitness upward, Axis axis, PointIndex a, PointIndex b,
                                 PointIndex c) const;
     [[nodiscard]] Sign orient3d(UpwardWitness upward, PointIndex a, PointIndex b, PointIndex c,

@@ -2,9 +2,11 @@
 #include <terrane/algorithms/intersection/contacts.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <terrane/algorithms/core/parallel.hpp>
@@ -297,6 +299,36 @@ std::vector<std::uint32_t> into_buckets(std::vector<Key>& keys) {
     return starts;
 }
 
+/// Sorts points that are equal in the coordinates before the given one. Comparing equal coordinates
+/// is exact and slow. A three-way partition compares each of n equal ones with the pivot only, an
+/// ordinary sort log n times. After `depth` partitions within one another, an ordinary sort bounds
+/// the cost.
+void sort_points(const PointStore& store, std::span<Key> keys, unsigned coordinate,
+                 unsigned depth) {
+    for (; keys.size() > 1 && coordinate < 3; ++coordinate) {
+        if (depth == 0) {
+            std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+                return store.compare(a.point, b.point) < 0;
+            });
+            return;
+        }
+        const PointIndex pivot = keys[keys.size() / 2].point;
+        std::size_t less = 0, greater = keys.size();
+        for (std::size_t k = 0; k < greater;) {
+            const auto order = store.compare(coordinate, keys[k].point, pivot);
+            if (order < 0)
+                std::swap(keys[less++], keys[k++]);
+            else if (order > 0)
+                std::swap(keys[k], keys[--greater]);
+            else
+                ++k;
+        }
+        sort_points(store, keys.first(less), coordinate, depth - 1);
+        sort_points(store, keys.subspan(greater), coordinate, depth - 1);
+        keys = keys.subspan(less, greater - less);
+    }
+}
+
 /// Sorts the keys by the lexicographic order of their points.
 void sort_keys(const PointStore& store, std::vector<Key>& keys, const Run& run) {
     if (keys.empty()) return;
@@ -304,13 +336,19 @@ void sort_keys(const PointStore& store, std::vector<Key>& keys, const Run& run) 
     const auto at = [&](std::size_t bucket) {
         return keys.begin() + static_cast<std::ptrdiff_t>(starts[bucket]);
     };
-    const auto before = [&](const Key& a, const Key& b) {
-        if (a.x != b.x) return a.x < b.x;
-        return store.compare(a.point, b.point) < 0;
-    };
+    const auto before = [](const Key& a, const Key& b) { return a.x < b.x; };
     const auto sort = [&](std::size_t first, std::size_t last) {
-        for (std::size_t b = first; b < last; ++b)
-            if (starts[b + 1] - starts[b] > 1) std::sort(at(b), at(b + 1), before);
+        for (std::size_t b = first; b < last; ++b) {
+            if (starts[b + 1] - starts[b] < 2) continue;
+            std::sort(at(b), at(b + 1), before);
+            for (auto run_end = at(b); run_end != at(b + 1);) {
+                const auto run_start = run_end;
+                run_end = std::upper_bound(run_start, at(b + 1), *run_start, before);
+                const std::span<Key> same_x(run_start, run_end);
+                sort_points(store, same_x, 0,
+                            2 * static_cast<unsigned>(std::bit_width(same_x.size())));
+            }
+        }
     };
     for_ranges(starts.size() - 1, run, sort, 4, 1024);
 }

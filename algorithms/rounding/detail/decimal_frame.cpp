@@ -14,6 +14,7 @@ namespace {
 
 constexpr double no_bound = std::numeric_limits<double>::infinity();
 constexpr double ulp_of_1 = std::numeric_limits<double>::epsilon();
+constexpr double least_double = std::numeric_limits<double>::denorm_min();
 
 // All powers that are doubles. A quotient of an integer and one of them is the nearest double.
 constexpr std::array<double, 23> powers_of_ten{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
@@ -69,7 +70,7 @@ double DecimalFrame::Axis::error(double x, double given) const {
     if (factor == 1) return std::fabs(x - given);
     const double quotient = x / factor;
     return std::fabs(quotient - given) * (1 + ulp_of_1) + std::fabs(quotient) * (ulp_of_1 / 2) +
-           std::numeric_limits<double>::denorm_min();
+           least_double;
 }
 
 std::optional<DecimalFrame> DecimalFrame::of(std::span<const Point3> points,

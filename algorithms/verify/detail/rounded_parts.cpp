@@ -50,7 +50,8 @@ double default_max_deviation(const Inputs& inputs) {
     double diagonal = 0;
     for (std::size_t i = 0; i < 3; ++i)
         if (low[i] < high[i]) diagonal = std::hypot(diagonal, high[i] * 0x1p-20 - low[i] * 0x1p-20);
-    return std::max({diagonal, largest * 0x1p-40, 16 * std::numeric_limits<double>::denorm_min()});
+    constexpr double least = 16 * std::numeric_limits<double>::denorm_min();
+    return std::max({diagonal, largest * 0x1p-40, least});
 }
 
 } // namespace terrane::verifier
