@@ -329,6 +329,18 @@ void sort_points(const PointStore& store, std::span<Key> keys, unsigned coordina
     }
 }
 
+/// Sorts keys by x, which needs no look at the points, and those with equal x by their points.
+void sort_bucket(const PointStore& store, std::span<Key> keys) {
+    const auto before = [](const Key& a, const Key& b) { return a.x < b.x; };
+    std::sort(keys.begin(), keys.end(), before);
+    while (!keys.empty()) {
+        const auto end = std::upper_bound(keys.begin(), keys.end(), keys.front(), before);
+        const auto count = static_cast<std::size_t>(end - keys.begin());
+        sort_points(store, keys.first(count), 0, 2 * static_cast<unsigned>(std::bit_width(count)));
+        keys = keys.subspan(count);
+    }
+}
+
 /// Sorts the keys by the lexicographic order of their points.
 void sort_keys(const PointStore& store, std::vector<Key>& keys, const Run& run) {
     if (keys.empty()) return;
@@ -336,19 +348,9 @@ void sort_keys(const PointStore& store, std::vector<Key>& keys, const Run& run) 
     const auto at = [&](std::size_t bucket) {
         return keys.begin() + static_cast<std::ptrdiff_t>(starts[bucket]);
     };
-    const auto before = [](const Key& a, const Key& b) { return a.x < b.x; };
     const auto sort = [&](std::size_t first, std::size_t last) {
-        for (std::size_t b = first; b < last; ++b) {
-            if (starts[b + 1] - starts[b] < 2) continue;
-            std::sort(at(b), at(b + 1), before);
-            for (auto run_end = at(b); run_end != at(b + 1);) {
-                const auto run_start = run_end;
-                run_end = std::upper_bound(run_start, at(b + 1), *run_start, before);
-                const std::span<Key> same_x(run_start, run_end);
-                sort_points(store, same_x, 0,
-                            2 * static_cast<unsigned>(std::bit_width(same_x.size())));
-            }
-        }
+        for (std::size_t b = first; b < last; ++b)
+            if (starts[b + 1] - starts[b] > 1) sort_bucket(store, {at(b), at(b + 1)});
     };
     for_ranges(starts.size() - 1, run, sort, 4, 1024);
 }
