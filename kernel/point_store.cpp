@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/kernel/point_store.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 #include <utility>
@@ -180,10 +181,19 @@ Exact exact_sum(const DoubleDouble& d) {
     return d.low() == 0 ? Exact(d.value()) : Exact(d.value()) + Exact(d.low());
 }
 
-/// Returns the point if DoubleDouble holds its coordinates exactly: coordinates of few bits are
-/// common in degenerate input, and long numbers slow.
+bool has_few_bits(const Point3& p) {
+    const auto is_short = [](double d) { return static_cast<double>(static_cast<float>(d)) == d; };
+    return is_short(p.x) && is_short(p.y) && is_short(p.z);
+}
+
+/// Returns the point if DoubleDouble holds its coordinates exactly: input coordinates of few bits
+/// are common in degenerate models, and long numbers slow. Others are not tried.
 std::optional<ExactPoint> construct_in_doubles(std::span<const Point3> input,
                                                const Construction& how) {
+    const std::span used(how.v.begin(), polynomial::is_on_line(how) ? 2 : how.v.size());
+    if (!std::all_of(used.begin(), used.end(),
+                     [&](std::uint32_t v) { return has_few_bits(input[v]); }))
+        return std::nullopt;
     const ToNearest mode;
     const auto h = has_fma ? fused_homogeneous(input, how) : twofold_homogeneous(input, how);
     if (!h.x.is_exact() || !h.y.is_exact() || !h.z.is_exact() || !h.w.is_exact())
