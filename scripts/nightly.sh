@@ -30,7 +30,8 @@ run_part() {
     soups)
         # 3 290 soups for each unit of effort, of seven shapes; also nudged, shifted and scaled.
         TERRANE_EFFORT=7 "$tests/terrane_tests" "random soups*" &&
-            TERRANE_EFFORT=10 "$tests/terrane_tests" "rounding: random soups*" ;;
+            TERRANE_EFFORT=10 "$tests/terrane_tests" "rounding: random soups*" &&
+            TERRANE_EFFORT=20 "$tests/terrane_tests" "pair check: the same where*" ;;
     decimals)
         for kind in "" --turned --box; do
             /usr/bin/python3 tests/oracles/rounded_soups.py --terrane $terrane --count 700 $kind || return 1

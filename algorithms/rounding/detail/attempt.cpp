@@ -210,11 +210,7 @@ std::vector<CandidatePair> Rounding::first_contacts(const Run& run) {
             holds = recheck_injective_patches(state_.points, state_.triangles, a.state->adjacency,
                                               dirty, state_.is_dirty, turn, a.state->patches);
         },
-        [&] {
-            unproven = find_unproven({a.state->points.inputs(), a.state->corners, a.vertices,
-                                      state_.points, state_.move, state_.triangles, a.parents_of},
-                                     a.state->neighbours, run_);
-        });
+        [&] { unproven = find_unproven(moved_parts(), a.state->neighbours, run_); });
     const auto improper = is_improper();
     std::vector<CandidatePair> pairs;
     {
@@ -228,7 +224,7 @@ std::vector<CandidatePair> Rounding::first_contacts(const Run& run) {
     };
     for (const std::uint32_t t : dirty)
         if (patch_of(t) != a.state->patches.of[t]) unproven.parts.push_back(t);
-    const Pools pools = find_pools(unproven.ill_conditioned);
+    const Pools pools = find_pools();
     for (const std::uint32_t t : unproven.ill_conditioned) // parts of one patch meet properly
         if (patch_of(t) == no_group && !pools.has(t)) unproven.parts.push_back(t);
     add_crowded_parts(a, dirty, unproven.parts);
@@ -239,8 +235,11 @@ std::vector<CandidatePair> Rounding::first_contacts(const Run& run) {
     for (std::uint32_t t = 0; t < patches.size(); ++t) patches[t] = patch_of(t);
     if (counts) first_search_ = {unproven.pairs, unproven.parts, dirty, patches, pools};
     if (!unproven.parts.empty()) {
+        const auto improper_beyond_pools = [&](const CandidatePair& p) {
+            return !pools.has_both(p) && improper(p);
+        };
         const auto more = candidate_pairs_of({state_.points, state_.triangles}, unproven.parts,
-                                             patches, improper, run);
+                                             patches, improper_beyond_pools, run);
         pairs.insert(pairs.end(), more.begin(), more.end());
     }
     const auto more = contacts_in_pools(pools, patches, quiet_);
@@ -249,8 +248,14 @@ std::vector<CandidatePair> Rounding::first_contacts(const Run& run) {
     return pairs;
 }
 
-/// Returns the pools of the triangles.
-Pools Rounding::find_pools(std::span<const std::uint32_t> ill_conditioned) const {
+MovedParts Rounding::moved_parts() const {
+    const Arrangement& a = arrangement_;
+    return {a.state->points.inputs(), a.state->corners, a.vertices, state_.points, state_.move,
+            state_.triangles,         a.parents_of};
+}
+
+/// Returns the pools of the triangles right after rounding to nearest.
+Pools Rounding::find_pools() const {
     Pools pools;
     const auto& of_parents = arrangement_.state->pools;
     if (of_parents.empty()) return pools;
@@ -258,8 +263,7 @@ Pools Rounding::find_pools(std::span<const std::uint32_t> ill_conditioned) const
     pools.of.resize(state_.triangles.size());
     for (std::uint32_t t = 0; t < pools.of.size(); ++t)
         pools.of[t] = of_parents[arrangement_.parents_of[t][0]];
-    pools.is_ill_conditioned.resize(pools.of.size(), false);
-    for (const std::uint32_t t : ill_conditioned) pools.is_ill_conditioned[t] = true;
+    pools.is_ill_conditioned = ill_conditioned_in_pools(moved_parts(), pools.of);
     return pools;
 }
 

@@ -17,6 +17,7 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
 #include <terrane/algorithms/rounding/detail/pair_decisions.hpp>
+#include <terrane/algorithms/rounding/detail/separation.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
 #include <terrane/algorithms/rounding/detail/tuning.hpp>
@@ -77,7 +78,8 @@ private:
     [[nodiscard]] Error too_far() const;
     [[nodiscard]] PairFilter is_improper() const;
     std::vector<CandidatePair> first_contacts(const Run& run);
-    [[nodiscard]] Pools find_pools(std::span<const std::uint32_t> ill_conditioned) const;
+    [[nodiscard]] MovedParts moved_parts() const;
+    [[nodiscard]] Pools find_pools() const;
     [[nodiscard]] std::vector<CandidatePair>
     contacts_in_pools(const Pools& pools, std::span<const std::uint32_t> patches,
                       const Run& run) const;

@@ -53,8 +53,8 @@ bool have_common(std::span<const std::uint32_t> a, std::span<const std::uint32_t
 } // namespace
 
 bool Pools::need_test(const CandidatePair& pair) const {
+    if (!has_both(pair)) return false;
     const auto [s, t] = pair;
-    if (!has(s) || of[s] != of[t]) return false;
     if (is_ill_conditioned[s] && is_ill_conditioned[t]) return true;
     return !have_common((*parents_of)[s], (*parents_of)[t]);
 }
@@ -77,7 +77,7 @@ DecidedBy FirstSearch::decided_by(const CandidatePair& pair) const {
     const unsigned both = flags[pair.first] & flags[pair.second];
     const bool in_one_patch =
         patches[pair.first] != no_group && patches[pair.first] == patches[pair.second];
-    if ((!in_one_patch && (either & is_part) != 0) ||
+    if ((!in_one_patch && (either & is_part) != 0 && !pools.has_both(pair)) ||
         ((both & in_tested_pair) != 0 && std::binary_search(pairs.begin(), pairs.end(), pair)))
         return DecidedBy::test;
     if ((either & is_dirty) == 0) return DecidedBy::exact_mesh;

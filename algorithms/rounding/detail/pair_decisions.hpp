@@ -25,10 +25,15 @@ namespace terrane::rounding::detail {
 /// The pools of an arrangement's triangles: the separation of faces says nothing of pairs within one.
 struct Pools {
     std::vector<std::uint32_t> of; ///< per triangle: its pool, or no_group; empty without pools
-    std::vector<bool> is_ill_conditioned; ///< per triangle; empty without pools
+    std::vector<bool> is_ill_conditioned; ///< per triangle: see ill_conditioned_in_pools();
+                                          ///< empty without pools
     const IndexLists<std::uint32_t>* parents_of = nullptr;
 
     [[nodiscard]] bool has(std::uint32_t t) const { return !of.empty() && of[t] != no_group; }
+    /// Whether two triangles are in one pool.
+    [[nodiscard]] bool has_both(const CandidatePair& pair) const {
+        return has(pair.first) && of[pair.first] == of[pair.second];
+    }
     /// Whether two triangles are in one pool, and may meet improperly after a small move: those of
     /// one face do not if one of them is well conditioned.
     [[nodiscard]] bool need_test(const CandidatePair& pair) const;

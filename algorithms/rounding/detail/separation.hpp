@@ -37,8 +37,8 @@ struct MovedParts {
 };
 
 /// Everything that may meet improperly after the move. Two parts of different faces (a pair of
-/// `meeting`): the pair is in `pairs`, or one of them is in `parts`. Two parts of one face, whatever
-/// other faces contain them: `ill_conditioned` has both.
+/// `meeting`): the pair is in `pairs`, or one of them is in `parts`. Two parts of one face of such a
+/// pair, whatever other faces contain them: `ill_conditioned` has both.
 struct Unproven {
     std::vector<CandidatePair> pairs;           ///< pairs of parts; sorted, unique
     std::vector<std::uint32_t> parts;           ///< ascending
@@ -51,5 +51,13 @@ struct Unproven {
 /// near the plane of the other; at most some hundred steps per part of a face.
 Unproven find_unproven(const MovedParts& moved, std::span<const CandidatePair> meeting,
                        const Run& run);
+
+/// Tells for each part whether it lies in a pool and has an ill conditioned vertex there. Two parts
+/// of one face of a pool that may meet improperly after the move both have: condition (5), with all
+/// parts of the pool at the vertex in place of those of the face, which are among them. `pool_of`:
+/// per part, or no_group. The faces of a pool need not be in a pair, as a pool lists none of its own.
+/// Cost: linear in the parts.
+std::vector<bool> ill_conditioned_in_pools(const MovedParts& moved,
+                                           std::span<const std::uint32_t> pool_of);
 
 } // namespace terrane::rounding::detail

@@ -166,6 +166,16 @@ void Sizes::add(const Sizes& other) {
     longest = std::max(longest, other.longest);
 }
 
+Sizes sizes_of_part(const std::array<Point3, 3>& corners, double move) {
+    const auto& [p, q, r] = corners;
+    const Point3 u = minus(q, p), v = minus(r, p), w = minus(r, q);
+    const double l = std::sqrt(std::max({dot(u, u), dot(v, v), dot(w, w)}));
+    const bool usable = l > shortest_length && l < longest_length;
+    const double a = usable ? length(cross(u, v)) / l : 0;
+    return {a * (1 - size_share) - altitude_factor * unit * l - 4 * move,
+            l * (1 + size_share) + 2 * move};
+}
+
 Faces::Faces(const MovedParts& moved, std::span<const CandidatePair> pairs, double most_move,
              const Run& run) :
     move(most_move),
@@ -291,13 +301,7 @@ void Faces::name_corners(const MovedParts& moved, std::uint32_t face) {
 void Faces::measure_parts(const Face& face) {
     for (std::uint32_t e = face.part; e < face.part_end; ++e) {
         const Triangle& c = corners[e];
-        const Point3 &p = places[c[0]], &q = places[c[1]], &r = places[c[2]];
-        const Point3 u = minus(q, p), v = minus(r, p), w = minus(r, q);
-        const double l = std::sqrt(std::max({dot(u, u), dot(v, v), dot(w, w)}));
-        const bool usable = l > shortest_length && l < longest_length;
-        const double a = usable ? length(cross(u, v)) / l : 0;
-        const Sizes own{a * (1 - size_share) - altitude_factor * unit * l - 4 * move,
-                        l * (1 + size_share) + 2 * move};
+        const Sizes own = sizes_of_part({places[c[0]], places[c[1]], places[c[2]]}, move);
         for (const std::uint32_t corner : c) sizes[corner].add(own);
     }
 }

@@ -8,6 +8,7 @@
 #include <terrane/algorithms/check/pair_check.hpp>
 #include <terrane/algorithms/rounding/detail/pair_decisions.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -133,6 +134,68 @@ std::vector<Surface> crowded_soup(std::mt19937& random, bool overlapping) {
     return model;
 }
 
+/// A line between points of integer coordinates.
+using Line = std::array<std::array<double, 2>, 2>;
+
+/// Three lines whose crossings are corners of a triangle that turns over when they are rounded to
+/// multiples of `spacing`.
+std::array<Line, 3> nearly_concurrent(std::mt19937& random, double spacing_of_doubles) {
+    using Corner = std::array<double, 2>;
+    const auto at = [&] { return 300.0 + random() % 50; };
+    const auto crossing = [](const Line& l, const Line& m) -> Corner {
+        const double ux = l[1][0] - l[0][0], uy = l[1][1] - l[0][1], vx = m[1][0] - m[0][0],
+                     vy = m[1][1] - m[0][1];
+        const double s =
+            ((m[0][0] - l[0][0]) * vy - (m[0][1] - l[0][1]) * vx) / (ux * vy - uy * vx);
+        return {l[0][0] + s * ux, l[0][1] + s * uy};
+    };
+    const auto is_inside = [](const Corner& p, const Line& l) {
+        const auto [low, high] = std::minmax(l[0][0], l[1][0]);
+        return low < p[0] && p[0] < high;
+    };
+    const auto area = [](const std::array<Corner, 3>& p) {
+        return (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) -
+               (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]);
+    };
+    for (;;) {
+        std::array<Line, 3> lines;
+        for (Line& l : lines) l = {{{at(), at()}, {at(), at()}}};
+        std::array<Corner, 3> p, rounded_to;
+        bool inside = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Line &l = lines[k], &m = lines[(k + 1) % 3];
+            p[k] = crossing(l, m);
+            inside = inside && is_inside(p[k], l) && is_inside(p[k], m);
+            for (std::size_t i = 0; i < 2; ++i)
+                rounded_to[k][i] = spacing_of_doubles * std::round(p[k][i] / spacing_of_doubles);
+        }
+        if (inside && std::fabs(area(p)) > 1e-9 && area(p) * area(rounded_to) < 0) return lines;
+    }
+}
+
+/// One plane, in which so many triangles overlap that the arrangement pools them, and no other
+/// surface. All triangles lie in the first one. Where the sides of three of them cross, a part turns
+/// over when it is rounded.
+std::vector<Surface> lone_pool(std::mt19937& random) {
+    constexpr double corner = 0x1p46, corner_spacing = 0x1p-6;
+    Surface s;
+    const unsigned plane = random() % 3;
+    const auto add = [&](const std::array<std::array<double, 2>, 3>& corners) {
+        const auto first = static_cast<std::uint32_t>(s.vertices.size());
+        for (const auto& c : corners) {
+            const double x = corner + c[0], y = corner + c[1];
+            s.vertices.push_back({x, y, plane == 0 ? 0 : plane == 1 ? x : y});
+        }
+        s.triangles.push_back({first, first + 1, first + 2});
+    };
+    const auto far = [&] { return 1000.0 + random() % 900; };
+    add({{{0, 0}, {4000, 0}, {0, 4000}}});
+    for (int k = 1; k < 60; ++k) add({{{0, 0}, {1.0 * k, 0}, {0, 1.0 * k}}});
+    for (const Line& l : nearly_concurrent(random, corner_spacing))
+        add({l[0], l[1], {far(), far()}});
+    return {s};
+}
+
 using Pairs = std::vector<std::array<std::uint32_t, 2>>;
 
 Pairs pairs_of(const RoundingReport& report) {
@@ -197,6 +260,25 @@ TEST_CASE("pair check: the same where triangles are pooled, or share a vertex wi
         contacts += sound.report.contacts.size();
     }
     CHECK(contacts > 0);
+}
+
+TEST_CASE("pair check: the same where all triangles are in one pool, and turn over in it") {
+    std::mt19937 random(10);
+    int turned_over = 0;
+    const int count = cases(20) + 3;
+    for (int k = 0; k < count; ++k) {
+        const auto a = arranged(lone_pool(random));
+        REQUIRE(!a.state->pools.empty());
+        CHECK(a.state->neighbours.empty()); // only the search within the pool can find them
+        same_verdict(a, 0);
+        const auto unrepaired = rounded(a, {.max_rounds = 0});
+        const Mesh &first = unrepaired.mesh, last = rounded(a).mesh;
+        turned_over += !unrepaired.report.clean;
+        REQUIRE(unrepaired.report.clean ==
+                verify_conforming(first.vertices, first.triangles).empty());
+        CHECK(verify_conforming(last.vertices, last.triangles).empty());
+    }
+    CHECK(2 * turned_over > count); // points that become equal hide the others
 }
 
 TEST_CASE(
