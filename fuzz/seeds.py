@@ -124,6 +124,38 @@ def soups():
         triangle(points, [(-1, -1, 1), (4, 0, 1), (0, 4, 1)])
 
 
+# In the plane of a crowd: sides of the three cross in a triangle that turns over in doubles at 2^46.
+TURNED_OVER = [
+    [[(99, 97), (104, 63), (118, 115)], [(98, 82), (108, 63), (116, 116)], [(106, 61), (93, 107), (113, 116)]],
+    [[(66, 94), (91, 83), (118, 113)], [(82, 86), (62, 98), (119, 113)], [(67, 91), (86, 88), (123, 120)]],
+]
+
+
+def crowded():
+    """Very many triangles in one plane, at one line or at one vertex (crowded.cpp)."""
+    nested, at_line, at_vertex, overlapping, in_plane = (bytes([1, k]) for k in range(5))
+    here, far = 0, 2
+    def plane(u, v):
+        return bytes(4 + c for c in (0, 0, 0, *u, *v))
+    def triangles(several):
+        return b"".join(in_plane + bytes(c for p in t for c in p) for t in several)
+    base = triangles([[(0, 0), (255, 0), (0, 255)]])
+    flat, upright, tilted = plane((1, 0, 0), (0, 1, 0)), plane((1, 0, 0), (0, 0, 1)), plane((1, 0, 1), (0, 1, 2))
+    for k, three in enumerate(TURNED_OVER):
+        for name, where in (("flat", flat), ("upright", upright)):
+            yield f"turned-over-{name}-{k}", header() + bytes([far]) + where + base + nested + bytes([39]) + \
+                triangles(three)
+    points = Points()
+    across = bytes([0]) + triangle(points, [(-4, 0, -4), (4, 1, -4), (0, 2, 4)])
+    for frame, head in FRAMES.items():
+        yield f"nested-{frame}", head + bytes([here]) + tilted + nested + bytes([30]) + across
+        yield f"line-{frame}", head + bytes([here]) + tilted + at_line + bytes([40, 6]) + across
+        yield f"vertex-{frame}", head + bytes([here]) + flat + at_vertex + bytes([99, 4]) + across
+        yield f"overlapping-{frame}", head + bytes([here]) + tilted + overlapping + bytes([4, 7]) + across
+    yield "stacks", header() + bytes([here]) + flat + nested + bytes([50]) + at_line + bytes([30, 2]) + across
+    yield "pencil", header() + bytes([far]) + flat + at_line + bytes([59, 1]) + at_line + bytes([45, 3]) + across
+
+
 def corefine_bodies(points):
     """Kind, (flag for holes,) and what follows."""
     tetrahedron = bytes([3]) + points(0, 0, 0) + points(3, 0, 0) + points(0, 3, 0) + points(0, 0, 3)
@@ -425,7 +457,7 @@ def main():
                "forge_improved": forge_kind, "forge_filled": forge_kind,
                "forge_layered": lambda: forge_kind(5), "forge_cut": lambda: forge_kind(4, 1),
                "forge_sealed": forge_sealed,
-               "arrange": soups, "rounding": soups, "regions": soups, "volumes": soups, "tetrahedra": soups}
+               "arrange": soups, "rounding": soups, "crowded": crowded, "regions": soups, "volumes": soups, "tetrahedra": soups}
     seeds = {t: dict(make()) for t, make in targets.items()}
     for fmt, files in (FILES | other_programs()).items():
         seeds["read_" + fmt] = {n: f if isinstance(f, bytes) else f.encode()
