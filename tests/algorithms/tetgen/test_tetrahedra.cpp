@@ -347,7 +347,8 @@ TEST_CASE("tetrahedra: progress goes from 0 to 1", "[tetrahedra]") {
 TEST_CASE("tetrahedra: what once failed is filled, but for what TetGen cannot do") {
     // TetGen 1.5.0 crashes on these, or never ends, in every way in which it is asked.
     const std::set<std::string> beyond_tetgen{"007-slit-after-collapse.obj",
-                                              "009-tetgen-never-ends.obj"};
+                                              "009-tetgen-never-ends.obj",
+                                              "015-turned-over-in-one-plane.obj"};
     std::size_t filled = 0;
     for (const auto& entry : std::filesystem::directory_iterator(test_data() + "/regression")) {
         const std::string name = entry.path().filename().string();
