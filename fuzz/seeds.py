@@ -150,10 +150,10 @@ def crowded():
     for frame, head in FRAMES.items():
         yield f"nested-{frame}", head + bytes([here]) + tilted + nested + bytes([30]) + across
         yield f"line-{frame}", head + bytes([here]) + tilted + at_line + bytes([40, 6]) + across
-        yield f"vertex-{frame}", head + bytes([here]) + flat + at_vertex + bytes([99, 4]) + across
+        yield f"vertex-{frame}", head + bytes([here]) + flat + at_vertex + bytes([79, 4]) + across
         yield f"overlapping-{frame}", head + bytes([here]) + tilted + overlapping + bytes([4, 7]) + across
-    yield "stacks", header() + bytes([here]) + flat + nested + bytes([50]) + at_line + bytes([30, 2]) + across
-    yield "pencil", header() + bytes([far]) + flat + at_line + bytes([59, 1]) + at_line + bytes([45, 3]) + across
+    yield "stacks", header() + bytes([here]) + flat + nested + bytes([40]) + at_line + bytes([20, 2]) + across
+    yield "pencil", header() + bytes([far]) + flat + at_line + bytes([35, 1]) + at_line + bytes([20, 3]) + across
 
 
 def corefine_bodies(points):
