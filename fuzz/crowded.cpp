@@ -41,8 +41,8 @@ private:
         const double x = bytes.between(-4, 4), y = bytes.between(-4, 4);
         return {x, y, static_cast<double>(bytes.between(-4, 4))};
     }
-    /// Returns origin + s u + t v + h (1, 2, 4), moved far away: exactly, as nearly coplanar
-    /// triangles would cross in as many lines as there are pairs.
+    /// Returns far + origin + s u + t v + h (1, 2, 4). No sum is rounded, so coplanar points stay
+    /// coplanar: nearly coplanar triangles would cross in as many lines as there are pairs.
     [[nodiscard]] Point3 at(double s, double t, double h = 0) const {
         return {far_ + origin_.x + s * u_.x + t * v_.x + h,
                 far_ + origin_.y + s * u_.y + t * v_.y + 2 * h,

@@ -254,7 +254,7 @@ MovedParts Rounding::moved_parts() const {
             state_.triangles,         a.parents_of};
 }
 
-/// Returns the pools of the triangles right after rounding to nearest.
+/// Returns the pool of each triangle. The triangles must still be those of the arrangement.
 Pools Rounding::find_pools() const {
     Pools pools;
     const auto& of_parents = arrangement_.state->pools;

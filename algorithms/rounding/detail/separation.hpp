@@ -52,11 +52,12 @@ struct Unproven {
 Unproven find_unproven(const MovedParts& moved, std::span<const CandidatePair> meeting,
                        const Run& run);
 
-/// Tells for each part whether it lies in a pool and has an ill conditioned vertex there. Two parts
-/// of one face of a pool that may meet improperly after the move both have: condition (5), with all
-/// parts of the pool at the vertex in place of those of the face, which are among them. `pool_of`:
-/// per part, or no_group. The faces of a pool need not be in a pair, as a pool lists none of its own.
-/// Cost: linear in the parts.
+/// Tells for each part whether it lies in a pool and has an ill conditioned vertex there. If two
+/// parts of one face of a pool may meet improperly after the move, both have one. This follows from
+/// condition (5): the sizes at a vertex are those of all parts of the pool, and the parts of the
+/// face are among these. `pool_of` has the pool of each part, or no_group. find_unproven() does not
+/// measure a face that is in no pair, and pairs within a pool are not listed. Cost: linear in the
+/// parts, but for sorting them by pool.
 std::vector<bool> ill_conditioned_in_pools(const MovedParts& moved,
                                            std::span<const std::uint32_t> pool_of);
 

@@ -64,8 +64,8 @@ struct Sizes {
     }
 };
 
-/// Returns the sizes of a part with these moved corners: bounds that hold before the move as well,
-/// if no corner moved farther than `move`.
+/// Returns the sizes of a part with these moved corners. They bound its altitudes and edges before
+/// the move, too, if no corner moved farther than `move`.
 Sizes sizes_of_part(const std::array<Point3, 3>& corners, double move);
 
 /// Faces with fewer parts are neither clustered nor counted as costly.

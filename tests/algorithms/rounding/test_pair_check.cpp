@@ -137,8 +137,8 @@ std::vector<Surface> crowded_soup(std::mt19937& random, bool overlapping) {
 /// A line between points of integer coordinates.
 using Line = std::array<std::array<double, 2>, 2>;
 
-/// Three lines whose crossings are corners of a triangle that turns over when they are rounded to
-/// multiples of `spacing`.
+/// Returns three lines that cross in pairs. Their crossings are the corners of a small triangle. It
+/// turns over if its corners are rounded to multiples of `spacing_of_doubles`.
 std::array<Line, 3> nearly_concurrent(std::mt19937& random, double spacing_of_doubles) {
     using Corner = std::array<double, 2>;
     const auto at = [&] { return 300.0 + random() % 50; };
@@ -278,7 +278,7 @@ TEST_CASE("pair check: the same where all triangles are in one pool, and turn ov
                 verify_conforming(first.vertices, first.triangles).empty());
         CHECK(verify_conforming(last.vertices, last.triangles).empty());
     }
-    CHECK(2 * turned_over > count); // points that become equal hide the others
+    CHECK(2 * turned_over > count);
 }
 
 TEST_CASE(
