@@ -16,6 +16,7 @@
 #include <terrane/algorithms/rounding/detail/attempt.hpp>
 #include <terrane/algorithms/rounding/detail/cluster_frame.hpp>
 #include <terrane/algorithms/rounding/detail/contact_clusters.hpp>
+#include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
 #include <terrane/algorithms/rounding/detail/reports.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/detail/tuning.hpp>
@@ -87,9 +88,12 @@ Result<std::optional<RoundedMesh>> arrange_again(const Arrangement& a,
 /// Attempts to round an arrangement by moving its input.
 class MovedAttempts {
 public:
-    MovedAttempts(const Arrangement& a, RoundedMesh first, const Task& task) :
-        arrangement_(a), task_(task), first_(std::move(first)), input_(a) {
-        input_.choose(first_);
+    /// Takes the first rounding, with the parents that are in contact after it.
+    MovedAttempts(const Arrangement& a, RoundedMesh first, ParentsInContact in_contact,
+                  const Task& task) :
+        arrangement_(a),
+        task_(task), first_(std::move(first)), in_contact_(std::move(in_contact)), input_(a) {
+        input_.choose(in_contact_.all);
         // A part of an arrangement has been repaired in place as far as that goes, and begins anew.
         rounds_ = a.state->whole ? first_.report.rounds : 0;
     }
@@ -125,6 +129,7 @@ private:
     const Arrangement& arrangement_;
     const Task& task_;
     RoundedMesh first_;
+    const ParentsInContact in_contact_; ///< after the first rounding
     SnappedInput input_;
     unsigned rounds_ = 0;
     bool is_over_ = false; ///< a grid was so coarse that a boundary was not closed
@@ -174,7 +179,7 @@ Status MovedAttempts::as_clusters() {
     if (!may_go_on() || !arrangement_.state->whole) return Done{};
     const double tolerance =
         rounding_tuning.cluster_spacings * spacing_at(largest_coordinate(arrangement_));
-    const auto normals = cluster_directions(arrangement_, first_, tolerance);
+    const auto normals = cluster_directions(arrangement_, in_contact_, tolerance);
     const auto frame =
         ClusterFrame::of(arrangement_.state->points.inputs(), input_.chosen(), normals, tolerance);
     if (!frame || 2 * frame->largest_error() > task_.limit) return Done{};
@@ -185,7 +190,7 @@ Status MovedAttempts::as_clusters() {
 Status MovedAttempts::on_grid(const SnapGrid& grid) {
     for (unsigned w = 0; w < rounding_tuning.widenings && may_go_on(); ++w) {
         if (auto done = attempt(input_.surfaces(grid)); !done) return done;
-        if (last_ && !input_.choose(*last_)) break;
+        if (last_ && !input_.choose(parents_in_contact(*last_).all)) break;
     }
     return Done{};
 }
@@ -201,8 +206,11 @@ Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& optio
     Rounding where_it_lies(a, unmoved, !may_move_input || !a.state->whole, task);
     auto rounded = where_it_lies();
     const auto is_unclean = [&] { return rounded && !rounded.value().report.clean; };
-    if (is_unclean() && may_move_input)
-        rounded = MovedAttempts(a, std::move(rounded).value(), task)();
+    if (is_unclean() && may_move_input) {
+        auto in_contact = where_it_lies.left_crowded() ? where_it_lies.in_contact()
+                                                       : parents_in_contact(rounded.value());
+        rounded = MovedAttempts(a, std::move(rounded).value(), std::move(in_contact), task)();
+    }
     if (is_unclean() && where_it_lies.left_crowded()) rounded = Rounding(a, unmoved, true, task)();
     if (rounded && (rounded.value().report.collapsed_triangles > 0 ||
                     !rounded.value().report.vanished.empty()))

@@ -84,8 +84,10 @@ std::string rounding_text(const RoundingReport& r) {
         text += fmt::format(", where surfaces cross after they moved by up to {:.3g}",
                             r.surface_deviation);
     if (r.rounds > 0)
-        text += fmt::format("; {} of snapping, for {} that met improperly",
-                            counted(r.rounds, "round"), counted(r.naive_contacts, "pair"));
+        text += fmt::format("; {} of snapping, for {}{} that met improperly",
+                            counted(r.rounds, "round"),
+                            r.naive_contacts > 100'000 ? "at least " : "", // not all are counted
+                            counted(r.naive_contacts, "pair"));
     text += '\n';
     if (r.rounds > 0)
         text += fmt::format("doubles: no surface is more than {:.3g} from where it was, nor any of "

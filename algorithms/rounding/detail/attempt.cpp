@@ -98,6 +98,22 @@ Error Rounding::too_far() const {
             "max_move"};
 }
 
+/// Returns how many contacts are crowded.
+std::size_t Rounding::crowded_from() const {
+    return std::max(rounding_tuning.many,
+                    arrangement_.triangles.size() / rounding_tuning.crowded + 1);
+}
+
+/// Notes which input triangles are in contact.
+void Rounding::leave_crowded(std::span<const CandidatePair> pairs) {
+    if (!crowd_->is_full()) {
+        in_contact_ = parents_in_contact(pairs, state_.parents_of);
+        return;
+    }
+    for (const CandidatePair& p : pairs) crowd_->add(p); // the unproven ones are not in it yet
+    in_contact_ = crowd_->parents();
+}
+
 /// Performs rounds of local snapping, and keeps the mesh with fewest contacts. With a whole
 /// arrangement it ends as soon as a round does not help much, as the input can be snapped instead.
 /// What was removed from an arrangement would then have to be decided again, perhaps otherwise.
@@ -160,12 +176,18 @@ void add_crowded_parts(const Arrangement& a, std::span<const std::uint32_t> amon
 
 } // namespace
 
-PairFilter Rounding::is_improper() const {
-    return [this](const CandidatePair& p) {
-        return improper_contact(state_.points, state_.triangles[p.first],
-                                state_.triangles[p.second])
-            .has_value();
-    };
+bool Rounding::is_improper(const CandidatePair& p) const {
+    return improper_contact(state_.points, state_.triangles[p.first], state_.triangles[p.second])
+        .has_value();
+}
+
+/// Returns whether a pair that a search finds meets improperly. In a crowd it leaves pairs out that
+/// tell nothing new.
+bool Rounding::is_found(const CandidatePair& p) {
+    if (crowd_ && crowd_->adds_nothing(p)) return false;
+    if (!is_improper(p)) return false;
+    if (crowd_) crowd_->add(p);
+    return true;
 }
 
 /// Finds the pairs that meet improperly. Two triangles without a dirty corner never do, and are
@@ -180,8 +202,10 @@ std::vector<CandidatePair> Rounding::contacts(const Run& run) {
         active = state_.dirty_triangles(run);
     }
     if (active.empty()) return {};
-    auto pairs =
-        candidate_pairs_of({state_.points, state_.triangles}, active, {}, is_improper(), run);
+    terrane::detail::announce_work("search contacts", state_.points, state_.triangles);
+    auto pairs = candidate_pairs_of(
+        {state_.points, state_.triangles}, active, {},
+        [&](const CandidatePair& p) { return is_found(p); }, run);
     state_.only_dirty(pairs);
     return pairs;
 }
@@ -211,12 +235,11 @@ std::vector<CandidatePair> Rounding::first_contacts(const Run& run) {
                                               dirty, state_.is_dirty, turn, a.state->patches);
         },
         [&] { unproven = find_unproven(moved_parts(), a.state->neighbours, run_); });
-    const auto improper = is_improper();
     std::vector<CandidatePair> pairs;
     {
         const UpwardRounding guard;
         for (const CandidatePair& p : unproven.pairs)
-            if (improper(p)) pairs.push_back(p);
+            if (is_improper(p)) pairs.push_back(p);
     }
     const auto patch_of = [&](std::uint32_t t) {
         const std::uint32_t p = a.state->patches.of[t];
@@ -236,7 +259,7 @@ std::vector<CandidatePair> Rounding::first_contacts(const Run& run) {
     if (counts) first_search_ = {unproven.pairs, unproven.parts, dirty, patches, pools};
     if (!unproven.parts.empty()) {
         const auto improper_beyond_pools = [&](const CandidatePair& p) {
-            return !pools.has_both(p) && improper(p);
+            return !pools.has_both(p) && is_found(p);
         };
         const auto more = candidate_pairs_of({state_.points, state_.triangles}, unproven.parts,
                                              patches, improper_beyond_pools, run);
@@ -261,39 +284,42 @@ Pools Rounding::find_pools() const {
     if (of_parents.empty()) return pools;
     pools.parents_of = &arrangement_.parents_of;
     pools.of.resize(state_.triangles.size());
-    for (std::uint32_t t = 0; t < pools.of.size(); ++t)
-        pools.of[t] = of_parents[arrangement_.parents_of[t][0]];
-    pools.is_ill_conditioned = ill_conditioned_in_pools(moved_parts(), pools.of);
+    std::vector<std::uint32_t> pooled, keys;
+    std::uint32_t count = 0;
+    for (std::uint32_t t = 0; t < pools.of.size(); ++t) {
+        const std::uint32_t pool = pools.of[t] = of_parents[arrangement_.parents_of[t][0]];
+        if (pool == no_group) continue;
+        pooled.push_back(t);
+        keys.push_back(pool);
+        count = std::max(count, pool + 1);
+    }
+    pools.triangles =
+        lists_by_key<std::uint32_t>(count, keys, [&](std::size_t i) { return pooled[i]; });
+    pools.is_ill_conditioned = ill_conditioned_in_pools(moved_parts(), pools.triangles);
     return pools;
 }
 
 /// Finds the pairs within pools that meet improperly right after rounding to nearest.
 std::vector<CandidatePair> Rounding::contacts_in_pools(const Pools& pools,
                                                        std::span<const std::uint32_t> patches,
-                                                       const Run& run) const {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> parts; // with their pools
-    for (std::uint32_t t = 0; t < pools.of.size(); ++t)
-        if (pools.has(t)) parts.emplace_back(pools.of[t], t);
-    std::sort(parts.begin(), parts.end());
+                                                       const Run& run) {
     std::vector<CandidatePair> found;
-    for (std::size_t first = 0, last = 0; first < parts.size(); first = last) {
+    for (std::size_t k = 0; k < pools.triangles.size(); ++k) {
+        const auto pool = pools.triangles[k];
         std::vector<std::uint32_t> active, groups;
         std::vector<Triangle> triangles;
-        for (; last < parts.size() && parts[last].first == parts[first].first; ++last) {
-            const std::uint32_t t = parts[last].second;
-            const Triangle& c = state_.triangles[t];
+        for (std::uint32_t i = 0; i < pool.size(); ++i) {
+            const Triangle& c = state_.triangles[pool[i]];
             if (state_.is_dirty[c[0]] || state_.is_dirty[c[1]] || state_.is_dirty[c[2]])
-                active.push_back(static_cast<std::uint32_t>(last - first));
+                active.push_back(i);
             triangles.push_back(c);
-            groups.push_back(patches[t]);
+            groups.push_back(patches[pool[i]]);
         }
         const auto of_mesh = [&](const CandidatePair& p) -> CandidatePair {
-            return {parts[first + p.first].second, parts[first + p.second].second};
+            return {pool[p.first], pool[p.second]};
         };
         const auto improper = [&](const CandidatePair& p) {
-            return pools.need_test(of_mesh(p)) &&
-                   improper_contact(state_.points, triangles[p.first], triangles[p.second])
-                       .has_value();
+            return pools.need_test(of_mesh(p)) && is_found(of_mesh(p));
         };
         const auto pairs =
             candidate_pairs_of({state_.points, triangles}, active, groups, improper, run);
@@ -302,8 +328,8 @@ std::vector<CandidatePair> Rounding::contacts_in_pools(const Pools& pools,
     return found;
 }
 
-/// Performs one round. Returns false if snapping multiplied the contacts so much that dividing them
-/// is not worthwhile.
+/// Performs one round. Returns false if snapping multiplied the contacts, or their division the
+/// triangles, so much that the round is not worthwhile.
 bool Rounding::snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
     changed_ = true;
     snap_corners(pairs, grid);
@@ -326,13 +352,16 @@ void Rounding::snap_corners(std::span<const CandidatePair> pairs, const SnapGrid
 
 /// Divides the triangles that still cross, exactly, and rounds the new points to the nearest
 /// doubles. These are much finer than the grid, so most of the parts stay clear of each other.
-/// Returns false without dividing anything if there are more than most_pairs pairs.
+/// Returns false without dividing anything if there are more than most_pairs pairs, or the triangles
+/// would multiply.
 bool Rounding::divide_again(std::size_t most_pairs) {
     const auto pairs = contacts(quiet_);
     if (pairs.size() > most_pairs) return false;
     if (pairs.empty()) return true;
     Retriangulation division = retriangulate(state_.points, state_.triangles, pairs, {}, quiet_);
     if (run_.stop.stop_requested()) return true;
+    if (division.triangles.size() > rounding_tuning.multiplied * state_.triangles.size())
+        return false;
     const auto first_new = static_cast<std::uint32_t>(state_.points.size());
     std::vector<std::uint32_t> name_of(division.points.size());
     for (const PointIndex p : division.ascending) {

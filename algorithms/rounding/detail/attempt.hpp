@@ -4,6 +4,7 @@
 // where it lies.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -17,6 +18,7 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
 #include <terrane/algorithms/rounding/detail/pair_decisions.hpp>
+#include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
@@ -37,7 +39,7 @@ struct Task {
 class Rounding {
 public:
     /// Rounds `a`, the input of which was moved. Crowded contacts are not repaired unless
-    /// `even_crowded`.
+    /// `even_crowded`: what operator() returns then has no mesh.
     Rounding(const Arrangement& a, const MovedInput& moved, bool even_crowded, const Task& task) :
         arrangement_(a), moved_(moved), even_crowded_(even_crowded), task_(task),
         options_(task.options), run_(task.run) {}
@@ -46,29 +48,40 @@ public:
         to_nearest();
         if (moved_.largest == 0 && deviation() > task_.limit) return too_far();
         tell(0.2);
+        if (!even_crowded_)
+            crowd_.emplace(state_.parents_of, arrangement_.state->corners.size(),
+                           std::max(crowded_from(), ParentsInContact::most_contacts + 1));
         auto pairs = first_contacts(part_of_stage(run_, "round", 0.2, 0.7));
         tell(0.7); // the shares are estimates, not measured
+        if (run_.stop.stop_requested()) return interrupted();
+        out_.report.naive_contacts = crowd_ && crowd_->is_full() ? crowd_->most() : pairs.size();
+        if (!even_crowded_ && out_.report.naive_contacts >= crowded_from()) {
+            leave_crowded(pairs);
+            return std::move(out_);
+        }
+        crowd_.reset();
         state_.only_dirty(pairs);
         find_first_regions();
         tell(0.9);
-        out_.report.naive_contacts = pairs.size();
-        left_crowded_ = !even_crowded_ && pairs.size() >= rounding_tuning.many &&
-                        rounding_tuning.crowded * pairs.size() > arrangement_.triangles.size();
-        if (!pairs.empty() && !left_crowded_) repair(pairs);
-        if (run_.stop.stop_requested())
-            return Error{ErrorCode::interrupted, "stopped on request", ""};
+        if (!pairs.empty()) repair(pairs);
+        if (run_.stop.stop_requested()) return interrupted();
         finish(pairs);
         tell(1);
         return std::move(out_);
     }
 
     /// Whether contacts were not repaired because they were crowded.
-    [[nodiscard]] bool left_crowded() const { return left_crowded_; }
+    [[nodiscard]] bool left_crowded() const { return in_contact_.has_value(); }
+    /// Returns the parents of the crowded contacts that were left.
+    [[nodiscard]] const ParentsInContact& in_contact() const { return *in_contact_; }
 
 private:
+    static Error interrupted() { return {ErrorCode::interrupted, "stopped on request", ""}; }
     void tell(double share) const {
         if (run_.progress) run_.progress("round", share);
     }
+    [[nodiscard]] std::size_t crowded_from() const;
+    void leave_crowded(std::span<const CandidatePair> pairs);
     void repair(std::vector<CandidatePair>& pairs);
     void search_nearby(std::vector<CandidatePair>& pairs);
     void to_nearest();
@@ -76,13 +89,13 @@ private:
     [[nodiscard]] Point3 given(const Point3& input) const;
     [[nodiscard]] double deviation() const;
     [[nodiscard]] Error too_far() const;
-    [[nodiscard]] PairFilter is_improper() const;
+    [[nodiscard]] bool is_improper(const CandidatePair& p) const;
+    bool is_found(const CandidatePair& p);
     std::vector<CandidatePair> first_contacts(const Run& run);
     [[nodiscard]] MovedParts moved_parts() const;
     [[nodiscard]] Pools find_pools() const;
-    [[nodiscard]] std::vector<CandidatePair>
-    contacts_in_pools(const Pools& pools, std::span<const std::uint32_t> patches,
-                      const Run& run) const;
+    std::vector<CandidatePair>
+    contacts_in_pools(const Pools& pools, std::span<const std::uint32_t> patches, const Run& run);
     std::vector<CandidatePair> contacts(const Run& run);
     bool snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid);
     void snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid);
@@ -102,7 +115,8 @@ private:
     const Run quiet_ =
         without_progress(run_); ///< for one round, whose share says nothing of others
     RoundingState state_;
-    bool left_crowded_ = false;
+    std::optional<CrowdedContacts> crowd_;       ///< of the first search, unless even_crowded_
+    std::optional<ParentsInContact> in_contact_; ///< set if contacts were left crowded
     FirstSearch first_search_;       ///< how the first search decided pairs, if they are counted
     bool changed_ = false;           ///< whether the triangles differ from the arrangement's
     std::optional<Regions> regions_; ///< set in advance while the triangles do not differ

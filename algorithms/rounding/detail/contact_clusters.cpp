@@ -30,9 +30,6 @@ struct Cluster {
     std::size_t contacts = 0;
 };
 
-/// How many parents of a triangle in contact are looked at: all are in its plane. Where very many
-/// are in contact, the first one of each says enough.
-constexpr std::size_t most_parents = 4, most_contacts_of_all = 100'000;
 /// A normal of a triangle that is lower than so many tolerances says little.
 constexpr double least_height = 64;
 /// Directions are told apart from a plane if they are at least so far out of it.
@@ -41,23 +38,6 @@ constexpr std::size_t most_directions = 64;
 
 Point3 scaled(const Point3& v, double factor) {
     return {v.x * factor, v.y * factor, v.z * factor};
-}
-
-std::vector<TrianglePair> parents_in_contact(const RoundedMesh& rounded) {
-    std::vector<TrianglePair> pairs;
-    const std::size_t most =
-        rounded.report.contacts.size() > most_contacts_of_all ? 1 : most_parents;
-    for (const ImproperContact& c : rounded.report.contacts) {
-        const auto of = [&](unsigned i) {
-            const auto parents = rounded.mesh->parents_of[c.triangles[i]];
-            return parents.first(std::min(parents.size(), most));
-        };
-        for (const std::uint32_t p : of(0))
-            for (const std::uint32_t q : of(1))
-                if (p != q) pairs.emplace_back(std::min(p, q), std::max(p, q));
-    }
-    sort_unique(pairs);
-    return pairs;
 }
 
 /// Joins input triangles to clusters, and finds the plane of each.
@@ -237,10 +217,10 @@ void choose(std::vector<Point3>& chosen, std::vector<Direction> from) {
 
 } // namespace
 
-std::vector<Point3> cluster_directions(const Arrangement& a, const RoundedMesh& rounded,
+std::vector<Point3> cluster_directions(const Arrangement& a, const ParentsInContact& in_contact,
                                        double tolerance) {
     Clusters clusters(a, tolerance);
-    clusters.join(parents_in_contact(rounded));
+    clusters.join(in_contact.pairs);
     std::vector<Point3> chosen;
     choose(chosen, clusters.of_planes());
     choose(chosen, clusters.of_triangles(clusters.touched()));

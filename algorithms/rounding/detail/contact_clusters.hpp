@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane::rounding::detail {
@@ -21,7 +21,7 @@ namespace terrane::rounding::detail {
 /// (3) if there is any so far, those of other triangles in contact, and then of planes upright on
 ///     the first that contain edges in it: a lattice in the clusters is one along these, too.
 /// Cost: linear in the contacts and in the input triangles.
-std::vector<Point3> cluster_directions(const Arrangement& arrangement, const RoundedMesh& rounded,
-                                       double tolerance);
+std::vector<Point3> cluster_directions(const Arrangement& arrangement,
+                                       const ParentsInContact& in_contact, double tolerance);
 
 } // namespace terrane::rounding::detail

@@ -25,6 +25,7 @@ namespace terrane::rounding::detail {
 /// The pools of an arrangement's triangles: the separation of faces says nothing of pairs within one.
 struct Pools {
     std::vector<std::uint32_t> of; ///< per triangle: its pool, or no_group; empty without pools
+    IndexLists<std::uint32_t> triangles;  ///< of each pool, ascending
     std::vector<bool> is_ill_conditioned; ///< per triangle: see ill_conditioned_in_pools();
                                           ///< empty without pools
     const IndexLists<std::uint32_t>* parents_of = nullptr;

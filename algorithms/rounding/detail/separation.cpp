@@ -253,33 +253,26 @@ Unproven Prover::operator()(const Run& run) {
 } // namespace
 
 std::vector<bool> ill_conditioned_in_pools(const MovedParts& moved,
-                                           std::span<const std::uint32_t> pool_of) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> parts; // with their pools
-    for (std::uint32_t t = 0; t < pool_of.size(); ++t)
-        if (pool_of[t] != no_group) parts.emplace_back(pool_of[t], t);
-    std::sort(parts.begin(), parts.end());
+                                           const IndexLists<std::uint32_t>& pools) {
     const double move = most_of(moved.moves);
-    std::vector<bool> found(pool_of.size(), false);
+    std::vector<bool> found(moved.parts.size(), false);
     std::vector<Sizes> sizes(moved.points.size()); // of the pool at hand; clear at its end
-    for (auto first = parts.begin(); first != parts.end();) {
-        const auto last = std::find_if(
-            first, parts.end(), [&](const auto& part) { return part.first != first->first; });
-        const std::span pool(first, last);
-        for (const auto& [of, t] : pool) {
+    for (std::size_t k = 0; k < pools.size(); ++k) {
+        const auto pool = pools[k];
+        for (const std::uint32_t t : pool) {
             const Triangle& c = moved.parts[t];
             const Sizes own =
                 sizes_of_part({moved.points[c[0]], moved.points[c[1]], moved.points[c[2]]}, move);
             for (const std::uint32_t v : c) sizes[v].add(own);
         }
-        for (const auto& [of, t] : pool) {
+        for (const std::uint32_t t : pool) {
             const Triangle& c = moved.parts[t];
             found[t] = !std::all_of(c.begin(), c.end(), [&](std::uint32_t v) {
                 return sizes[v].is_well_conditioned(4 * move);
             });
         }
-        for (const auto& [of, t] : pool)
+        for (const std::uint32_t t : pool)
             for (const std::uint32_t v : moved.parts[t]) sizes[v] = {};
-        first = last;
     }
     return found;
 }

@@ -55,10 +55,9 @@ Unproven find_unproven(const MovedParts& moved, std::span<const CandidatePair> m
 /// Tells for each part whether it lies in a pool and has an ill conditioned vertex there. If two
 /// parts of one face of a pool may meet improperly after the move, both have one. This follows from
 /// condition (5): the sizes at a vertex are those of all parts of the pool, and the parts of the
-/// face are among these. `pool_of` has the pool of each part, or no_group. find_unproven() does not
-/// measure a face that is in no pair, and pairs within a pool are not listed. Cost: linear in the
-/// parts, but for sorting them by pool.
+/// face are among these. `pools` has the parts of each pool. find_unproven() does not measure a
+/// face that is in no pair, and pairs within a pool are not listed. Cost: linear in the parts.
 std::vector<bool> ill_conditioned_in_pools(const MovedParts& moved,
-                                           std::span<const std::uint32_t> pool_of);
+                                           const IndexLists<std::uint32_t>& pools);
 
 } // namespace terrane::rounding::detail

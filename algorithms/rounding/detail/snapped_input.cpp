@@ -50,15 +50,13 @@ std::optional<SnapGrid> grid_of_digits(std::span<const Point3> points, int digit
 SnappedInput::SnappedInput(const Arrangement& a) :
     arrangement_(a), chosen_(a.state->points.input_count(), false) {}
 
-bool SnappedInput::choose(const RoundedMesh& rounded) {
+bool SnappedInput::choose(std::span<const std::uint32_t> triangles) {
     bool any = false;
-    for (const ImproperContact& c : rounded.report.contacts)
-        for (const std::uint32_t t : c.triangles)
-            for (const std::uint32_t parent : rounded.mesh->parents_of[t])
-                for (const std::uint32_t v : arrangement_.state->corners[parent]) {
-                    any = any || !chosen_[v];
-                    chosen_[v] = true;
-                }
+    for (const std::uint32_t t : triangles)
+        for (const std::uint32_t v : arrangement_.state->corners[t]) {
+            any = any || !chosen_[v];
+            chosen_[v] = true;
+        }
     return any;
 }
 

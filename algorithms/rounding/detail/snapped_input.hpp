@@ -66,9 +66,8 @@ class SnappedInput {
 public:
     explicit SnappedInput(const Arrangement& a);
 
-    /// Chooses the corners of all parents of the triangles in contact. Returns false if all of them
-    /// had been chosen before.
-    bool choose(const RoundedMesh& rounded);
+    /// Chooses the corners of input triangles. Returns false if all of them had been chosen before.
+    bool choose(std::span<const std::uint32_t> triangles);
 
     /// Returns the surfaces with the chosen vertices, and all vertices in their cells, moved to the
     /// grid.

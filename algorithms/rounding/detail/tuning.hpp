@@ -40,7 +40,8 @@ struct RoundingTuning {
     static constexpr int search_steps = 2; ///< how many doubles away along each axis
     std::size_t many = 1024;               ///< fewer contacts are never crowded
     std::size_t crowded = 8;    ///< contacts are crowded if there are fewer triangles per contact
-    std::size_t multiplied = 8; ///< growth of contacts in a round that counts as a failure
+    std::size_t multiplied = 8; ///< growth of contacts, or of triangles, in a round that counts
+                                ///< as a failure
     unsigned widenings = 3;     ///< attempts per grid of the input, each on more triangles
     unsigned shrinking = 4;     ///< a round helps if it divides the contacts by at least this
 };

@@ -123,8 +123,8 @@ TEST_CASE("contact clusters: the plane of two sheets that cross all over is foun
     const auto naive = round_to_doubles(a, {.max_rounds = 0});
     REQUIRE(naive);
     REQUIRE(naive->report.contacts.size() > 10);
-    const auto normals = cluster_directions(a, *naive, tolerance);
+    const auto normals = cluster_directions(a, parents_in_contact(*naive), tolerance);
     REQUIRE(normals.size() == 3);
     CHECK(std::fabs(dot(normals[0], d.u)) == Approx(1).epsilon(1e-9));
-    CHECK(cluster_directions(a, rounded(a), tolerance).empty()); // nothing is in contact
+    CHECK(cluster_directions(a, parents_in_contact(rounded(a)), tolerance).empty());
 }

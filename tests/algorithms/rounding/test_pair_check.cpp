@@ -126,7 +126,7 @@ std::vector<Surface> crowded_soup(std::mt19937& random, bool overlapping) {
         const double x = at(random), y = at(random);
         add(x, y);
         if (overlapping)
-            add(y, at(random));
+            add(x + 0.8 * at(random), y); // few parts, but more than a quarter of the pairs
         else
             add(x + 1e-4, y);
         model[0].triangles.push_back({0, 2 * k + 1, 2 * k + 2});
@@ -243,7 +243,8 @@ TEST_CASE("pair check: the same where triangles are pooled, or share a vertex wi
         const auto a = arranged(crowded_soup(random, overlapping));
         CHECK(a.state->crowded.empty() == overlapping); // few pairs for so large a mesh
         const std::size_t n = a.state->corners.size();
-        if (overlapping) CHECK(a.state->neighbours.size() == n * (n - 1) / 2);
+        if (overlapping) // all pairs but those of two triangles that nothing crosses
+            CHECK(a.state->neighbours.size() > n * (n - 1) / 2 - n);
         same_verdict(a, 0);
         if (overlapping) contacts += rounded(a, {.max_rounds = 0}).report.contacts.size();
     }
@@ -288,7 +289,8 @@ TEST_CASE(
     for (const std::vector<std::uint32_t>& list :
          {std::vector{0U}, {0U, 1U}, {1U}, {2U}, {3U}, {0U, 1U}}) // face 3 is in no pool
         parents.push_back(list);
-    const Pools pools{{0, 0, 0, 1, no_group, 0}, {true, true, false, true, true, false}, &parents};
+    const Pools pools{
+        {0, 0, 0, 1, no_group, 0}, {}, {true, true, false, true, true, false}, &parents};
     CHECK(pools.need_test({0, 1}));       // both are ill conditioned
     CHECK_FALSE(pools.need_test({1, 2})); // parts of face 1, one of them well conditioned
     CHECK_FALSE(pools.need_test({0, 5}));

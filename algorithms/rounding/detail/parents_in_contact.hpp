@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Tells which input triangles have parts that meet improperly.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/search/search.hpp>
+
+namespace terrane::rounding::detail {
+
+/// The parents of triangles in contact: input triangles.
+struct ParentsInContact {
+    /// A parent of each of two triangles in contact, the lower one first: of the first four, which
+    /// are all in one plane, or of the first one if more than `most_contacts` pairs are in contact.
+    /// Ascending, without repetitions.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs{};
+    std::vector<std::uint32_t> all{}; ///< every parent of a triangle in contact; ascending
+
+    static constexpr std::size_t most_contacts = 100'000;
+};
+
+ParentsInContact parents_in_contact(std::span<const CandidatePair> contacts,
+                                    const IndexLists<std::uint32_t>& parents_of);
+/// Does the same for the contacts that remain after rounding.
+ParentsInContact parents_in_contact(const RoundedMesh& rounded);
+
+/// Collects the parents of very many contacts, so that the contacts need neither be listed nor all
+/// be tested. Once it is full, a pair whose parents are known adds nothing. What is collected in
+/// the end does not depend on the order, so that threads may add at the same time.
+class CrowdedContacts {
+public:
+    /// Is full with `most` contacts, which must be more than ParentsInContact::most_contacts.
+    CrowdedContacts(const IndexLists<std::uint32_t>& parents_of, std::size_t input_triangles,
+                    std::size_t most);
+
+    /// The number of contacts that it takes to be full.
+    [[nodiscard]] std::size_t most() const { return most_; }
+    [[nodiscard]] bool is_full() const { return count_.load(std::memory_order_relaxed) >= most_; }
+    /// Whether it is full, and no parents would be new.
+    [[nodiscard]] bool adds_nothing(const CandidatePair& contact) const;
+    void add(const CandidatePair& contact);
+    /// Returns the parents. It must be full.
+    [[nodiscard]] ParentsInContact parents() const;
+
+private:
+    struct Shard {
+        mutable std::mutex mutex{};
+        std::unordered_set<std::uint64_t> pairs{};
+    };
+
+    [[nodiscard]] const Shard& shard_of(std::uint64_t pair) const;
+
+    const IndexLists<std::uint32_t>& parents_of_;
+    const std::size_t most_;
+    std::atomic<std::size_t> count_{0};
+    std::vector<std::atomic<bool>> is_in_contact_; ///< per input triangle
+    std::array<Shard, 64> shards_;                 ///< pairs of first parents
+};
+
+} // namespace terrane::rounding::detail
