@@ -71,7 +71,7 @@ bool is_standard(const std::string& include) {
 
 } // namespace
 
-TEST_CASE("includes: all that is ours is included by its installed name") {
+TEST_CASE("includes: all that is ours is included by its installed name", "[once]") {
     for (const std::string folder : {"kernel", "algorithms", "io", "capi", "cli"})
         for (const fs::path& file : sources_in(folder))
             for (const std::string& include : includes_of(file)) {
@@ -82,7 +82,8 @@ TEST_CASE("includes: all that is ours is included by its installed name") {
             }
 }
 
-TEST_CASE("includes: public headers include public headers and the standard library only") {
+TEST_CASE("includes: public headers include public headers and the standard library only",
+          "[once]") {
     const auto listed = public_headers();
     REQUIRE(listed.size() > 45);
     for (const std::string& header : listed) {
@@ -99,7 +100,7 @@ TEST_CASE("includes: public headers include public headers and the standard libr
     }
 }
 
-TEST_CASE("includes: terrane.hpp includes each public header of its library") {
+TEST_CASE("includes: terrane.hpp includes each public header of its library", "[once]") {
     const auto included = includes_of(root / "terrane.hpp");
     for (const std::string& header : public_headers()) {
         if (header == "terrane.hpp" || is_verifier(header)) continue;
@@ -108,7 +109,7 @@ TEST_CASE("includes: terrane.hpp includes each public header of its library") {
     }
 }
 
-TEST_CASE("includes: the reference of declarations is made from the public headers") {
+TEST_CASE("includes: the reference of declarations is made from the public headers", "[once]") {
     std::ifstream in(root / "scripts/Doxyfile");
     const std::string doxyfile(std::istreambuf_iterator<char>(in), {});
     for (const std::string& header : public_headers()) {
@@ -117,7 +118,7 @@ TEST_CASE("includes: the reference of declarations is made from the public heade
     }
 }
 
-TEST_CASE("includes: the producer does not use the verifier") {
+TEST_CASE("includes: the producer does not use the verifier", "[once]") {
     for (const std::string folder : {"kernel", "algorithms", "io"})
         for (const fs::path& file : sources_in(folder)) {
             if (is_verifier(fs::relative(file, root).generic_string())) continue;
@@ -129,7 +130,8 @@ TEST_CASE("includes: the producer does not use the verifier") {
 }
 
 TEST_CASE("includes: the verifier sees value types, StandardArithmetic, GMP, nettle and zlib only, "
-          "however far one looks") {
+          "however far one looks",
+          "[once]") {
     const std::set<std::string> value_types{"algorithms/core/index_lists.hpp",
                                             "algorithms/core/result.hpp",
                                             "algorithms/core/standard_arithmetic.hpp",

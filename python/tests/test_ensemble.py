@@ -524,6 +524,7 @@ def check_dome(count, engine="serial"):
     return made
 
 
+@pytest.mark.skipif(SANITIZED, reason="it judges numbers, which are the same in every build")
 def test_the_volume_of_a_dome_has_its_distribution():
     made = check_dome(int(os.environ.get("TERRANE_DOME_REALISATIONS", "250")))
     volume = made.blocks["below dome"].measures["volume_above"]

@@ -243,7 +243,9 @@ async function prints(browser) {
 makePages();
 const browser = await chromium.launch({
   executablePath: chromiumPath,
-  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+  // Without smooth edges, software draws a quarter of the samples.
+  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+    "--webgl-antialiasing-mode=none", "--webgl-msaa-sample-count=0"],
 });
 try {
   const allowed = { permissions: ["clipboard-read", "clipboard-write"] };

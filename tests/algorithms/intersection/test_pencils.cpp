@@ -101,7 +101,7 @@ TEST_CASE("pencils: a sweep finds what a test of every pair finds", "[once]") {
     CHECK(left_out > 0); // else the test would say nothing
 }
 
-TEST_CASE("pencils: planes through one line cost little, and are divided along it") {
+TEST_CASE("pencils: planes through one line cost little, and are divided along it", "[once]") {
     const auto surfaces = star(400, 0);
     CHECK(judge(surfaces) > 300'000); // of 319 600
     const auto arranged = arrange(surfaces);

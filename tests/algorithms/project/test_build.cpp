@@ -88,7 +88,7 @@ TEST_CASE("build: a name that no surface has is an error with its key", "[volume
 
 #ifdef TERRANE_HAS_TETGEN
 TEST_CASE("build: refine_bad takes the best round, and each round refines the best one before it",
-          "[volumes]") {
+          "[volumes][once]") {
     // Between two walls, tetrahedra with edges of 2 are flat.
     const std::vector<Surface> surfaces{box({0, 0, 0}, {8, 8, 8}), wall("first", 0, 4, 8, 4),
                                         wall("second", 0, 4.5, 8, 4.3)};

@@ -198,7 +198,8 @@ TEST_CASE("clearance: what is not listed as unproven is proper") {
     }
 }
 
-TEST_CASE("clearance: two triangles that cross at a small angle, in a short line, or hardly miss") {
+TEST_CASE("clearance: two triangles that cross at a small angle, in a short line, or hardly miss",
+          "[once]") {
     Random random(114);
     Found found;
     const auto flat = [&](double tilt) {

@@ -315,7 +315,7 @@ TEST_CASE("simplify: a wedge of more than 20 degrees stays open", "[simplificati
     }
 }
 
-TEST_CASE("simplify: two surfaces that are joined move alike", "[simplification]") {
+TEST_CASE("simplify: two surfaces that are joined move alike", "[simplification][once]") {
     const auto a = in_box({sheet_over_box([](double) { return 30.0; }, "low"),
                            sheet_over_box([](double) { return 33.0; }, "high")});
     const auto s = simplified(a, 6, true);

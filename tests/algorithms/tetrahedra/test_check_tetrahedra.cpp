@@ -10,7 +10,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "support/effort.hpp"
 #include "support/filled.hpp"
 #include "support/paths.hpp"
 #include "support/points.hpp"
@@ -90,11 +89,8 @@ TEST_CASE("tetrahedra: random models, two methods agree", "[tetrahedra]") {
     CHECK(blocks > 60);
 }
 
-TEST_CASE("tetrahedra: real models, two methods agree", "[tetrahedra]") {
-    std::vector<std::string> names{"modelA1"};
-    if (test_support::effort_divisor == 1)
-        names.emplace_back("modelA2"); // minutes under sanitizers
-    for (const std::string& name : names) {
+TEST_CASE("tetrahedra: real models, two methods agree", "[tetrahedra][once]") {
+    for (const std::string name : {"modelA1", "modelA2"}) {
         const auto surfaces = read_surfaces(test_data() + "/ringmesh/" + name + ".ml");
         REQUIRE(surfaces);
         const Filled f = fill(surfaces.value());

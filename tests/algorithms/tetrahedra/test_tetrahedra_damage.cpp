@@ -64,7 +64,7 @@ TEST_CASE("check_tetrahedra: each kind of damage is refused, on a geological mod
     check_model(geological_model());
 }
 
-TEST_CASE("check_tetrahedra: each kind of damage is refused, on faults", "[tetrahedra]") {
+TEST_CASE("check_tetrahedra: each kind of damage is refused, on faults", "[tetrahedra][once]") {
     check_model(faults());
 }
 

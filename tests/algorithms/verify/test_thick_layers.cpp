@@ -171,7 +171,7 @@ std::vector<Forgery> enough_of(std::vector<Forgery> all) {
 
 } // namespace
 
-TEST_CASE("thick layers: accepted where layers are held in all ways", "[layers]") {
+TEST_CASE("thick layers: accepted where layers are held in all ways", "[layers][once]") {
     const Subject subject = layered_subject(three_horizons(), order_of_three(),
                                             {"obj", "off", "ply", "vtp", "ts", "stl"}, gap);
     CHECK(judged(subject) == "");

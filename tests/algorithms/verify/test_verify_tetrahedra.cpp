@@ -146,7 +146,8 @@ TEST_CASE("verifier: each kind of damage to tetrahedra is refused, on a geologic
     check_model(geological_model());
 }
 
-TEST_CASE("verifier: each kind of damage to tetrahedra is refused, on faults", "[tetrahedra]") {
+TEST_CASE("verifier: each kind of damage to tetrahedra is refused, on faults",
+          "[tetrahedra][once]") {
     check_model(faults());
 }
 

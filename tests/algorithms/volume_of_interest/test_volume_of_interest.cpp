@@ -225,7 +225,7 @@ TEST_CASE("volume of interest: the result does not depend on threads, and it can
 
 TEST_CASE(
     "volume of interest: hard inputs cut in two halves add up, and round where the whole does",
-    "[voi]") {
+    "[voi][once]") {
     std::size_t tried = 0, moved = 0;
     for (const Model& model : certified_inputs(cases(400))) {
         Point3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};

@@ -52,7 +52,7 @@ TEST_CASE("rbf: a hole across a cliff is joined with points on its edges", "[rbf
 }
 
 TEST_CASE("rbf: graphs are filled up to their border, folds and occupied holes are joined",
-          "[rbf]") {
+          "[rbf][once]") {
     const auto wave = [](double x, double y) { return 0.5 * std::sin(x) * std::cos(0.7 * y); };
     const Surface s = punched(sheet(graph(wave), 0, 0, 10, 10, 36, 36, 0.2), disk(5.2, 4.9, 1.4));
     const auto filled = fill_and_join_by_rbf(s, hole_of(s));
