@@ -166,13 +166,21 @@ Status LocalSupersteps::deliver(std::size_t index, Outbox& out) {
     return Done{};
 }
 
-Status LocalSupersteps::step_of(std::size_t index, const Step& work) {
+/// Returns an error if a stop is requested. Who requests it may remove the files at once, so that
+/// what was read is to be used only if there is no error afterwards.
+Status LocalSupersteps::go_on() const {
     if (run_.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    return Done{};
+}
+
+Status LocalSupersteps::step_of(std::size_t index, const Step& work) {
+    if (auto done = go_on(); !done) return done;
     return guarded("for a block of the arrangement", "arrange", [&]() -> Status {
         if (auto done = load(index); !done) return done;
         Inbox in(blocks());
         Outbox out(blocks());
         if (auto done = take_messages(index, in); !done) return done;
+        if (auto done = go_on(); !done) return done;
         Block& block = blocks_[index];
         const std::size_t before = block.size() + in.size();
         if (auto done = work(block, in, out); !done) return done;
@@ -205,6 +213,7 @@ Result<Bytes> LocalSupersteps::relay(const Turn& turn) {
     Bytes passed;
     for (std::size_t b = 0; b < blocks(); ++b) {
         if (auto done = load(b); !done) return done.error();
+        if (auto done = go_on(); !done) return done.error();
         passed = turn(blocks_[b], std::move(passed));
         if (auto done = save(b); !done) return done.error();
     }
@@ -214,6 +223,7 @@ Result<Bytes> LocalSupersteps::relay(const Turn& turn) {
 Status LocalSupersteps::visit(const std::function<Status(Block&)>& visit) {
     for (std::size_t b = 0; b < blocks(); ++b) {
         if (auto done = load(b); !done) return done;
+        if (auto done = go_on(); !done) return done;
         if (auto done = visit(blocks_[b]); !done) return done;
         if (auto done = save(b); !done) return done;
     }

@@ -31,6 +31,7 @@ public:
     Status visit(const std::function<Status(Block&)>& visit) override;
 
 private:
+    [[nodiscard]] Status go_on() const;
     Status step_of(std::size_t index, const Step& work);
     Status load(std::size_t index);
     Status save(std::size_t index);

@@ -157,6 +157,7 @@ void Session::end_at_once() {
 }
 
 void Session::end_by(int signal) {
+    source_.request_stop(); // what works with temporary files must not go on without them
     clear_progress();
     const auto lock = remove_temporaries(); // until the end, so that no other is made
     die_by(signal);

@@ -58,7 +58,7 @@ private:
     void on_interrupt();
     void end_if_overdue();
     [[noreturn]] void end_at_once();
-    [[noreturn]] static void end_by(int signal);
+    [[noreturn]] void end_by(int signal);
     void show();
     /// Notes the stage and its share; the caller holds mutex_.
     void enter(std::string_view stage, double share);

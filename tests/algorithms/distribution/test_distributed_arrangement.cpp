@@ -17,6 +17,7 @@
 #include <cmath>
 #include <filesystem>
 #include <random>
+#include <stop_token>
 
 namespace {
 
@@ -243,4 +244,33 @@ TEST_CASE("distribution: pieces that do not fit together are refused", "[distrib
     auto wild = pieces;
     wild[0].mesh.triangles[0][1] = UINT32_MAX;
     CHECK_FALSE(join(report.vertices, report.triangles, wild));
+}
+
+TEST_CASE("distribution: after a stop, no block is used whose file may have been removed") {
+    const test_support::TemporaryFolder folder;
+    std::stop_source source;
+    Run run;
+    run.stop = source.get_token();
+    LocalSupersteps blocks({3, folder.path()}, run);
+    REQUIRE(blocks.visit([](Block&) { return Done{}; })); // all are saved
+    unsigned visited = 0;
+    const auto done = blocks.visit([&](Block&) -> Status {
+        ++visited;
+        source.request_stop(); // as a second signal does, which then removes all temporary files
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+            std::filesystem::remove(entry.path());
+        return Done{};
+    });
+    REQUIRE_FALSE(done);
+    CHECK(done.error().code == ErrorCode::interrupted);
+    CHECK(visited == 1);
+    CHECK_FALSE(blocks.relay([&](Block&, Bytes) {
+        ++visited;
+        return Bytes{};
+    }));
+    CHECK_FALSE(blocks.step("any", [&](Block&, Inbox&, Outbox&) -> Status {
+        ++visited;
+        return Done{};
+    }));
+    CHECK(visited == 1);
 }
