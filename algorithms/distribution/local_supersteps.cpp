@@ -60,6 +60,7 @@ LocalSupersteps::LocalSupersteps(LocalOptions options, const Run& run) :
         block.index = b;
         block.count = static_cast<std::uint32_t>(options_.blocks);
     }
+    is_saved_.assign(options_.blocks, false);
     if (!spools()) inboxes_.assign(2, std::vector<Inbox>(options_.blocks, Inbox(options_.blocks)));
 }
 
@@ -81,12 +82,13 @@ std::filesystem::path LocalSupersteps::message_file(std::size_t index, unsigned 
     return options_.spool / ("messages_" + std::to_string(parity) + "_" + std::to_string(index));
 }
 
+/// Reads a block from its file, unless it was never saved. Who requests a stop may remove the files
+/// at once, so that what was read counts only if no stop is requested afterwards.
 Status LocalSupersteps::load(std::size_t index) {
-    if (!spools()) return Done{};
+    if (!is_saved_[index]) return go_on();
     const auto path = state_file(index);
     const File file(std::fopen(path.c_str(), "rb"));
-    if (!file) return Done{}; // it was never saved
-    bool good = true;
+    bool good = file != nullptr;
     blocks_[index].for_each_array([&](auto& array) {
         std::uint64_t size = 0;
         good = good && read_bytes(file.get(), &size, sizeof size);
@@ -94,6 +96,7 @@ Status LocalSupersteps::load(std::size_t index) {
         array.resize(size);
         good = read_bytes(file.get(), array.data(), size * sizeof(array[0]));
     });
+    if (auto done = go_on(); !done) return done;
     if (!good) return not_read(path);
     return Done{};
 }
@@ -112,6 +115,7 @@ Status LocalSupersteps::save(std::size_t index) {
     });
     good = std::fclose(file.release()) == 0 && good;
     if (!good) return not_written(path);
+    is_saved_[index] = true;
     return Done{};
 }
 
@@ -166,21 +170,18 @@ Status LocalSupersteps::deliver(std::size_t index, Outbox& out) {
     return Done{};
 }
 
-/// Returns an error if a stop is requested. Who requests it may remove the files at once, so that
-/// what was read is to be used only if there is no error afterwards.
 Status LocalSupersteps::go_on() const {
     if (run_.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
     return Done{};
 }
 
 Status LocalSupersteps::step_of(std::size_t index, const Step& work) {
-    if (auto done = go_on(); !done) return done;
     return guarded("for a block of the arrangement", "arrange", [&]() -> Status {
         if (auto done = load(index); !done) return done;
         Inbox in(blocks());
         Outbox out(blocks());
         if (auto done = take_messages(index, in); !done) return done;
-        if (auto done = go_on(); !done) return done;
+        if (auto done = go_on(); !done) return done; // else messages may be missing
         Block& block = blocks_[index];
         const std::size_t before = block.size() + in.size();
         if (auto done = work(block, in, out); !done) return done;
@@ -213,7 +214,6 @@ Result<Bytes> LocalSupersteps::relay(const Turn& turn) {
     Bytes passed;
     for (std::size_t b = 0; b < blocks(); ++b) {
         if (auto done = load(b); !done) return done.error();
-        if (auto done = go_on(); !done) return done.error();
         passed = turn(blocks_[b], std::move(passed));
         if (auto done = save(b); !done) return done.error();
     }
@@ -223,7 +223,6 @@ Result<Bytes> LocalSupersteps::relay(const Turn& turn) {
 Status LocalSupersteps::visit(const std::function<Status(Block&)>& visit) {
     for (std::size_t b = 0; b < blocks(); ++b) {
         if (auto done = load(b); !done) return done;
-        if (auto done = go_on(); !done) return done;
         if (auto done = visit(blocks_[b]); !done) return done;
         if (auto done = save(b); !done) return done;
     }

@@ -31,6 +31,7 @@ public:
     Status visit(const std::function<Status(Block&)>& visit) override;
 
 private:
+    /// Returns an error if a stop is requested.
     [[nodiscard]] Status go_on() const;
     Status step_of(std::size_t index, const Step& work);
     Status load(std::size_t index);
@@ -45,6 +46,7 @@ private:
     const Run& run_;
     unsigned parity_ = 0;
     std::vector<Block> blocks_;
+    std::vector<bool> is_saved_;              ///< per block; never without a spool
     std::vector<std::vector<Inbox>> inboxes_; ///< by parity, then by block; without a spool
 };
 

@@ -57,9 +57,10 @@ struct LostRegions {
 struct RoundingReport {
     bool clean = false;  ///< conforming, by exact check of the doubles
     unsigned rounds = 0; ///< number of snapping rounds
-    /// Pairs that meet improperly at the nearest doubles. If more than 100 000, there may be more:
-    /// the input is then moved at once.
+    /// Pairs that meet improperly at the nearest doubles. If they are more than most_counted, there
+    /// may be more: the input is then moved at once.
     std::size_t naive_contacts = 0;
+    static constexpr std::size_t most_counted = 100'000;
     std::vector<ImproperContact> contacts; ///< remaining contacts; triangles of the mesh
     /// No point of the mesh is farther from the input triangles that it is part of, and no point of
     /// an input triangle is farther from its parts, except for what vanished; unit of the input.

@@ -86,7 +86,7 @@ std::string rounding_text(const RoundingReport& r) {
     if (r.rounds > 0)
         text += fmt::format("; {} of snapping, for {}{} that met improperly",
                             counted(r.rounds, "round"),
-                            r.naive_contacts > 100'000 ? "at least " : "", // not all are counted
+                            r.naive_contacts > RoundingReport::most_counted ? "at least " : "",
                             counted(r.naive_contacts, "pair"));
     text += '\n';
     if (r.rounds > 0)

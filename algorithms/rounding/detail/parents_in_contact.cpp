@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/kernel/assertion.hpp>
 
 namespace terrane::rounding::detail {
@@ -12,6 +13,11 @@ namespace {
 std::uint64_t pair_number(std::uint32_t p, std::uint32_t q) {
     if (p == q) return 0;
     return std::uint64_t{std::min(p, q)} << 32 | std::max(p, q);
+}
+
+/// Which of 64 shards has a pair.
+std::size_t shard_of(std::uint64_t pair) {
+    return pair * 0x9e3779b97f4a7c15u >> 58;
 }
 
 } // namespace
@@ -48,10 +54,6 @@ CrowdedContacts::CrowdedContacts(const IndexLists<std::uint32_t>& parents_of,
     TERRANE_ASSERT(most > ParentsInContact::most_contacts);
 }
 
-const CrowdedContacts::Shard& CrowdedContacts::shard_of(std::uint64_t pair) const {
-    return shards_[pair * 0x9e3779b97f4a7c15u >> 58];
-}
-
 bool CrowdedContacts::adds_nothing(const CandidatePair& contact) const {
     if (!is_full()) return false;
     const auto is_known = [&](std::uint32_t parent) {
@@ -63,7 +65,7 @@ bool CrowdedContacts::adds_nothing(const CandidatePair& contact) const {
         return false;
     const std::uint64_t pair = pair_number(first[0], second[0]);
     if (pair == 0) return true;
-    const Shard& shard = shard_of(pair);
+    const Shard& shard = shards_[shard_of(pair)];
     const std::lock_guard lock(shard.mutex);
     return shard.pairs.contains(pair);
 }
@@ -74,7 +76,7 @@ void CrowdedContacts::add(const CandidatePair& contact) {
         for (const std::uint32_t p : parents)
             is_in_contact_[p].store(true, std::memory_order_relaxed);
     if (const std::uint64_t pair = pair_number(first[0], second[0]); pair != 0) {
-        auto& shard = const_cast<Shard&>(shard_of(pair)); // *this is not const
+        Shard& shard = shards_[shard_of(pair)];
         const std::lock_guard lock(shard.mutex);
         shard.pairs.insert(pair);
     }

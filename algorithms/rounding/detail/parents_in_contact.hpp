@@ -27,7 +27,7 @@ struct ParentsInContact {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs{};
     std::vector<std::uint32_t> all{}; ///< every parent of a triangle in contact; ascending
 
-    static constexpr std::size_t most_contacts = 100'000;
+    static constexpr std::size_t most_contacts = RoundingReport::most_counted;
 };
 
 ParentsInContact parents_in_contact(std::span<const CandidatePair> contacts,
@@ -58,8 +58,6 @@ private:
         mutable std::mutex mutex{};
         std::unordered_set<std::uint64_t> pairs{};
     };
-
-    [[nodiscard]] const Shard& shard_of(std::uint64_t pair) const;
 
     const IndexLists<std::uint32_t>& parents_of_;
     const std::size_t most_;

@@ -52,11 +52,11 @@ struct Unproven {
 Unproven find_unproven(const MovedParts& moved, std::span<const CandidatePair> meeting,
                        const Run& run);
 
-/// Tells for each part whether it lies in a pool and has an ill conditioned vertex there. If two
-/// parts of one face of a pool may meet improperly after the move, both have one. This follows from
-/// condition (5): the sizes at a vertex are those of all parts of the pool, and the parts of the
-/// face are among these. `pools` has the parts of each pool. find_unproven() does not measure a
-/// face that is in no pair, and pairs within a pool are not listed. Cost: linear in the parts.
+/// Finds the parts that lie in a pool and have an ill conditioned vertex there. If two parts of one
+/// face of a pool may meet improperly after the move, both have one. This follows from condition
+/// (5): the sizes at a vertex are those of all parts of the pool, and the parts of the face are
+/// among these. `pools` has the parts of each pool. find_unproven() does not measure a face that is
+/// in no pair, and pairs within a pool are not listed. Cost: linear in the parts.
 std::vector<bool> ill_conditioned_in_pools(const MovedParts& moved,
                                            const IndexLists<std::uint32_t>& pools);
 

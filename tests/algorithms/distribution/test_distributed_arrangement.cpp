@@ -274,3 +274,19 @@ TEST_CASE("distribution: after a stop, no block is used whose file may have been
     }));
     CHECK(visited == 1);
 }
+
+TEST_CASE("distribution: a block whose file is missing is an error, not a new block") {
+    const test_support::TemporaryFolder folder;
+    const Run run;
+    LocalSupersteps blocks({2, folder.path()}, run);
+    REQUIRE(blocks.visit([](Block&) { return Done{}; }));
+    std::filesystem::remove(folder / "state_1");
+    unsigned visited = 0;
+    const auto done = blocks.visit([&](Block&) -> Status {
+        ++visited;
+        return Done{};
+    });
+    REQUIRE_FALSE(done);
+    CHECK(done.error().code == ErrorCode::cannot_open);
+    CHECK(visited == 1);
+}

@@ -61,7 +61,8 @@ void note_searched(std::string_view step, std::span<const Point3>, std::span<con
 
 } // namespace
 
-TEST_CASE("parents in contact: of few contacts, four of each triangle are paired") {
+TEST_CASE(
+    "parents in contact: a list of few contacts pairs the first four parents of each triangle") {
     IndexLists<std::uint32_t> parents;
     parents.push_back(std::vector<std::uint32_t>{7});
     parents.push_back(std::vector<std::uint32_t>{1, 2, 3, 8, 9});
@@ -74,7 +75,8 @@ TEST_CASE("parents in contact: of few contacts, four of each triangle are paired
                              {1, 7}, {2, 7}, {3, 7}, {7, 8}, {7, 10}});
 }
 
-TEST_CASE("parents in contact: a crowd has the same ones as the list, in any order, by threads") {
+TEST_CASE("parents in contact: two threads collect the same parents as a list, in any order of "
+          "contacts") {
     const ManyContacts many(1);
     REQUIRE(many.pairs.size() > ParentsInContact::most_contacts + 1000);
     const auto wanted = parents_in_contact(many.pairs, many.parents_of);
@@ -98,7 +100,7 @@ TEST_CASE("parents in contact: a crowd has the same ones as the list, in any ord
     }
 }
 
-TEST_CASE("parents in contact: what is new is never left out, however full a crowd is") {
+TEST_CASE("parents in contact: a full collector still takes each pair with a new parent") {
     IndexLists<std::uint32_t> parents;
     for (const std::vector<std::uint32_t>& list : {std::vector{0U}, {1U}, {2U}, {0U, 3U}, {1U, 4U}})
         parents.push_back(list);
@@ -109,11 +111,11 @@ TEST_CASE("parents in contact: what is new is never left out, however full a cro
     crowd.add({1, 2});
     REQUIRE(crowd.is_full());
     CHECK(crowd.adds_nothing({0, 1}));
-    CHECK_FALSE(crowd.adds_nothing({0, 2})); // both are known, but not as a pair
-    CHECK_FALSE(crowd.adds_nothing({0, 4})); // 4 is not known, though the pair of the first ones is
+    CHECK_FALSE(crowd.adds_nothing({0, 2})); // both are in contact, but not with each other so far
+    CHECK_FALSE(crowd.adds_nothing({0, 4})); // input triangle 4 is new
     crowd.add({0, 4});
     CHECK(crowd.adds_nothing({0, 4}));
-    CHECK_FALSE(crowd.adds_nothing({0, 3})); // parts of one triangle, where 3 is not known
+    CHECK_FALSE(crowd.adds_nothing({0, 3})); // two parts of one triangle; input triangle 3 is new
     crowd.add({0, 3});
     CHECK(crowd.adds_nothing({0, 3}));
     CHECK(crowd.parents().all == std::vector<std::uint32_t>{0, 1, 2, 3, 4});
@@ -121,7 +123,7 @@ TEST_CASE("parents in contact: what is new is never left out, however full a cro
           std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}, {1, 2}});
 }
 
-TEST_CASE("parents in contact: rounding leaves a crowd with the same ones as it would list") {
+TEST_CASE("parents in contact: rounding collects the same parents as it would list") {
     const auto a = of_regression("016-crowded-contacts-listed.obj");
     const auto naive = rounded(a, {.max_rounds = 0});
     REQUIRE(naive.report.naive_contacts > ParentsInContact::most_contacts);
@@ -144,7 +146,7 @@ TEST_CASE("parents in contact: rounding leaves a crowd with the same ones as it 
     }
 }
 
-TEST_CASE("rounding: a round whose division multiplies the triangles is not gone on with") {
+TEST_CASE("rounding: a round ends as soon as division multiplies the triangles") {
     const auto a = of_regression("017-divided-beyond-repair.obj");
     most_searched = 0;
     terrane::detail::work_hook = note_searched;

@@ -74,7 +74,7 @@ TEST_CASE("Gmsh: a real model, twice the same", "[tetrahedra][gmsh]") {
     CHECK(made.tetrahedra == again.tetrahedra);
 }
 
-TEST_CASE("Gmsh: a length makes more tetrahedra, but divides no triangle",
+TEST_CASE("Gmsh: an edge length gives more tetrahedra, but divides no triangle of a surface",
           "[tetrahedra][gmsh][once]") {
     const std::size_t few = by_gmsh(cube(), {.box = unit_box}).tetrahedra.size();
     CHECK(by_gmsh(cube(), {.box = unit_box, .edge_length = 0.25}).tetrahedra.size() > 4 * few);

@@ -36,7 +36,7 @@ TEST_CASE("layered certificates: accepted with each format", "[layers]") {
     triangle_of(mesh, {1});
 }
 
-TEST_CASE("layered certificates: accepted for stacks of real and difficult surfaces",
+TEST_CASE("layered certificates: the verifier accepts stacks of real and difficult surfaces",
           "[layers][once]") {
     const std::string data = test_support::source_dir() + "/tests/data/layers/";
     const std::vector<std::pair<std::string, std::vector<Layer>>> stacks{
