@@ -44,6 +44,12 @@ bool read_bytes(std::FILE* file, void* bytes, std::size_t size) {
     return size == 0 || std::fread(bytes, 1, size, file) == size;
 }
 
+/// Returns an error if a stop is requested.
+Status go_on(const Run& run) {
+    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    return Done{};
+}
+
 /// Gives freed memory back, so that what one block needed does not count when the next one works.
 void give_memory_back() {
 #ifdef __GLIBC__
@@ -85,7 +91,7 @@ std::filesystem::path LocalSupersteps::message_file(std::size_t index, unsigned 
 /// Reads a block from its file, unless it was never saved. Who requests a stop may remove the files
 /// at once, so that what was read counts only if no stop is requested afterwards.
 Status LocalSupersteps::load(std::size_t index) {
-    if (!is_saved_[index]) return go_on();
+    if (!is_saved_[index]) return go_on(run_);
     const auto path = state_file(index);
     const File file(std::fopen(path.c_str(), "rb"));
     bool good = file != nullptr;
@@ -96,7 +102,7 @@ Status LocalSupersteps::load(std::size_t index) {
         array.resize(size);
         good = read_bytes(file.get(), array.data(), size * sizeof(array[0]));
     });
-    if (auto done = go_on(); !done) return done;
+    if (auto done = go_on(run_); !done) return done;
     if (!good) return not_read(path);
     return Done{};
 }
@@ -170,18 +176,13 @@ Status LocalSupersteps::deliver(std::size_t index, Outbox& out) {
     return Done{};
 }
 
-Status LocalSupersteps::go_on() const {
-    if (run_.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
-    return Done{};
-}
-
 Status LocalSupersteps::step_of(std::size_t index, const Step& work) {
     return guarded("for a block of the arrangement", "arrange", [&]() -> Status {
         if (auto done = load(index); !done) return done;
         Inbox in(blocks());
         Outbox out(blocks());
         if (auto done = take_messages(index, in); !done) return done;
-        if (auto done = go_on(); !done) return done; // else messages may be missing
+        if (auto done = go_on(run_); !done) return done; // else messages may be missing
         Block& block = blocks_[index];
         const std::size_t before = block.size() + in.size();
         if (auto done = work(block, in, out); !done) return done;

@@ -31,8 +31,6 @@ public:
     Status visit(const std::function<Status(Block&)>& visit) override;
 
 private:
-    /// Returns an error if a stop is requested.
-    [[nodiscard]] Status go_on() const;
     Status step_of(std::size_t index, const Step& work);
     Status load(std::size_t index);
     Status save(std::size_t index);
