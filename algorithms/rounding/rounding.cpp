@@ -68,21 +68,28 @@ void name_input(const Arrangement& a, Arrangement& snapped) {
         find_intersection_edges(snapped.state->adjacency, snapped.inputs, snapped.parents_of);
 }
 
-/// Arranges a moved input and rounds that. Returns nothing where a boundary is then not closed.
-Result<std::optional<RoundedMesh>> arrange_again(const Arrangement& a,
-                                                 const std::vector<Surface>& surfaces,
-                                                 const MovedInput& moved, const Task& task) {
+/// An attempt to round a moved input.
+struct Attempt {
+    std::optional<RoundedMesh> rounded; ///< nothing where a boundary was not closed
+    ParentsInContact in_contact{};      ///< if it is not conforming
+};
+
+/// Arranges a moved input and rounds that.
+Result<Attempt> arrange_again(const Arrangement& a, const std::vector<Surface>& surfaces,
+                              const MovedInput& moved, const Task& task) {
     auto again = arrange(surfaces, {}, task.run);
     if (!again) return again.error();
     name_input(a, again.value());
     if (a.state->restrict_again) {
         again = a.state->restrict_again(std::move(again).value(), task.run);
         if (!again && is_external(again.error().code)) return again.error();
-        if (!again) return {std::nullopt};
+        if (!again) return {Attempt{}};
     }
-    auto rounded = Rounding(again.value(), moved, true, task)();
+    Rounding rounding(again.value(), moved, Repairs::possible, task);
+    auto rounded = rounding();
     if (!rounded) return rounded.error();
-    return {std::move(rounded).value()};
+    auto in_contact = rounding.left() ? *rounding.left() : parents_in_contact(rounded.value());
+    return {Attempt{std::move(rounded).value(), std::move(in_contact)}};
 }
 
 /// Attempts to round an arrangement by moving its input.
@@ -132,8 +139,9 @@ private:
     const ParentsInContact in_contact_; ///< after the first rounding
     SnappedInput input_;
     unsigned rounds_ = 0;
-    bool is_over_ = false; ///< a grid was so coarse that a boundary was not closed
-    std::optional<RoundedMesh> found_, last_; ///< conforming; the last one that is not
+    bool is_over_ = false;             ///< a grid was so coarse that a boundary was not closed
+    std::optional<RoundedMesh> found_; ///< conforming
+    ParentsInContact last_;            ///< after the last attempt
 };
 
 /// Returns what is left for the repair of the doubles after the input was moved.
@@ -148,16 +156,17 @@ double MovedAttempts::room(std::span<const Point3> points) const {
 
 /// Arranges and rounds the moved input.
 Status MovedAttempts::attempt(const std::vector<Surface>& surfaces) {
-    auto rounded = arrange_again(arrangement_, surfaces, input_.how(), task_);
-    if (!rounded) return rounded.error();
+    auto done = arrange_again(arrangement_, surfaces, input_.how(), task_);
+    if (!done) return done.error();
     ++rounds_;
-    last_ = std::move(rounded).value();
-    is_over_ = !last_;
-    if (!last_ || !last_->report.clean || last_->report.surface_deviation > task_.limit)
+    auto& [rounded, in_contact] = done.value();
+    last_ = std::move(in_contact);
+    is_over_ = !rounded;
+    if (!rounded || !rounded->report.clean || rounded->report.surface_deviation > task_.limit)
         return Done{};
-    add_to_report(input_.how(), arrangement_, first_.report, *last_);
-    last_->report.rounds += rounds_;
-    found_ = std::move(last_);
+    add_to_report(input_.how(), arrangement_, first_.report, *rounded);
+    rounded->report.rounds += rounds_;
+    found_ = std::move(rounded);
     return Done{};
 }
 
@@ -190,7 +199,7 @@ Status MovedAttempts::as_clusters() {
 Status MovedAttempts::on_grid(const SnapGrid& grid) {
     for (unsigned w = 0; w < rounding_tuning.widenings && may_go_on(); ++w) {
         if (auto done = attempt(input_.surfaces(grid)); !done) return done;
-        if (last_ && !input_.choose(parents_in_contact(*last_).all)) break;
+        if (!is_over_ && !input_.choose(last_.all)) break;
     }
     return Done{};
 }
@@ -203,15 +212,16 @@ Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& optio
     const bool may_move_input =
         (a.state->whole || a.state->restrict_again) && options.max_rounds > 0;
     const MovedInput unmoved;
-    Rounding where_it_lies(a, unmoved, !may_move_input || !a.state->whole, task);
+    Rounding where_it_lies(a, unmoved,
+                           may_move_input && a.state->whole ? Repairs::sparse : Repairs::all, task);
     auto rounded = where_it_lies();
     const auto is_unclean = [&] { return rounded && !rounded.value().report.clean; };
     if (is_unclean() && may_move_input) {
-        auto in_contact = where_it_lies.left_crowded() ? where_it_lies.in_contact()
-                                                       : parents_in_contact(rounded.value());
+        auto in_contact =
+            where_it_lies.left() ? *where_it_lies.left() : parents_in_contact(rounded.value());
         rounded = MovedAttempts(a, std::move(rounded).value(), std::move(in_contact), task)();
     }
-    if (is_unclean() && where_it_lies.left_crowded()) rounded = Rounding(a, unmoved, true, task)();
+    if (is_unclean() && where_it_lies.left()) rounded = Rounding(a, unmoved, Repairs::all, task)();
     if (rounded && (rounded.value().report.collapsed_triangles > 0 ||
                     !rounded.value().report.vanished.empty()))
         report_lost_regions(a, rounded.value());

@@ -2,15 +2,12 @@
 #include <terrane/algorithms/rounding/detail/attempt.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
 #include <terrane/algorithms/arrangement/intersection_edges.hpp>
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
-#include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
@@ -18,8 +15,6 @@
 #include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/rounding/detail/neighbouring_doubles.hpp>
 #include <terrane/algorithms/rounding/detail/reports.hpp>
-#include <terrane/algorithms/rounding/detail/separation.hpp>
-#include <terrane/kernel/predicates.hpp>
 
 namespace terrane::rounding::detail {
 
@@ -98,20 +93,31 @@ Error Rounding::too_far() const {
             "max_move"};
 }
 
-/// Returns how many contacts are crowded.
-std::size_t Rounding::crowded_from() const {
+/// Returns how many contacts are left unless all are repaired.
+std::size_t Rounding::left_from() const {
+    if (repairs_ == Repairs::possible) return hopeless_from();
     return std::max(rounding_tuning.many,
                     arrangement_.triangles.size() / rounding_tuning.crowded + 1);
 }
 
+/// Returns how many contacts are hopeless.
+std::size_t Rounding::hopeless_from() const {
+    return std::max(ParentsInContact::most_contacts + 1,
+                    rounding_tuning.hopeless * arrangement_.triangles.size());
+}
+
 /// Notes which input triangles are in contact.
-void Rounding::leave_crowded(std::span<const CandidatePair> pairs) {
+void Rounding::leave(std::span<const CandidatePair> pairs) {
     if (!crowd_->is_full()) {
-        in_contact_ = parents_in_contact(pairs, state_.parents_of);
+        left_ = parents_in_contact(pairs, state_.parents_of);
+        return;
+    }
+    if (!sample_.empty()) {
+        left_ = contacts_of_sample();
         return;
     }
     for (const CandidatePair& p : pairs) crowd_->add(p); // the unproven ones are not in it yet
-    in_contact_ = crowd_->parents();
+    left_ = crowd_->parents();
 }
 
 /// Performs rounds of local snapping, and keeps the mesh with fewest contacts. With a whole
@@ -160,181 +166,14 @@ void Rounding::search_nearby(std::vector<CandidatePair>& pairs) {
     }
 }
 
-namespace {
-
-/// Adds the parts of triangles of which the arrangement's neighbours leave pairs out.
-void add_crowded_parts(const Arrangement& a, std::span<const std::uint32_t> among,
-                       std::vector<std::uint32_t>& parts) {
-    const auto& crowded = a.state->crowded;
-    if (crowded.empty()) return;
-    for (const std::uint32_t t : among)
-        if (std::any_of(a.parents_of[t].begin(), a.parents_of[t].end(), [&](std::uint32_t parent) {
-                return std::binary_search(crowded.begin(), crowded.end(), parent);
-            }))
-            parts.push_back(t);
-}
-
-} // namespace
-
-bool Rounding::is_improper(const CandidatePair& p) const {
-    return improper_contact(state_.points, state_.triangles[p.first], state_.triangles[p.second])
-        .has_value();
-}
-
-/// Returns whether a pair that a search finds meets improperly. In a crowd it leaves pairs out that
-/// tell nothing new.
-bool Rounding::is_found(const CandidatePair& p) {
-    if (crowd_ && crowd_->adds_nothing(p)) return false;
-    if (!is_improper(p)) return false;
-    if (crowd_) crowd_->add(p);
-    return true;
-}
-
-/// Finds the pairs that meet improperly. Two triangles without a dirty corner never do, and are
-/// tested on request only.
-std::vector<CandidatePair> Rounding::contacts(const Run& run) {
-    state_.search_dirty();
-    std::vector<std::uint32_t> active;
-    if (tests_all()) {
-        active.resize(state_.triangles.size());
-        std::iota(active.begin(), active.end(), 0U);
-    } else {
-        active = state_.dirty_triangles(run);
-    }
-    if (active.empty()) return {};
-    terrane::detail::announce_work("search contacts", state_.points, state_.triangles);
-    auto pairs = candidate_pairs_of(
-        {state_.points, state_.triangles}, active, {},
-        [&](const CandidatePair& p) { return is_found(p); }, run);
-    state_.only_dirty(pairs);
-    return pairs;
-}
-
-/// Finds the pairs that meet improperly right after rounding to nearest. Only pairs that neither
-/// injective patches nor the separation of faces exclude need a test.
-std::vector<CandidatePair> Rounding::first_contacts(const Run& run) {
-    if (changed_ || tests_all() || moved_.frame != nullptr) return contacts(run);
-    const Arrangement& a = arrangement_;
-    const auto& dirty = state_.found_dirty;
-    if (dirty.empty()) return {};
-    std::vector<bool> holds;         // per patch
-    std::uint32_t last = UINT32_MAX; // the parts of a face are consecutive
-    Sign last_turn{};
-    const auto turn = [&](std::uint32_t t, Axis axis) { // a part is oriented as its parent
-        const std::uint32_t parent = a.parents_of[t][0];
-        if (parent == last) return last_turn;
-        const Triangle& c = a.state->corners[last = parent];
-        const auto at = [&](unsigned i) { return a.state->points.input(c[i]); };
-        return last_turn = orient2d(axis, at(0), at(1), at(2));
-    };
-    Unproven unproven;
-    both(
-        run_,
-        [&] {
-            holds = recheck_injective_patches(state_.points, state_.triangles, a.state->adjacency,
-                                              dirty, state_.is_dirty, turn, a.state->patches);
-        },
-        [&] { unproven = find_unproven(moved_parts(), a.state->neighbours, run_); });
-    std::vector<CandidatePair> pairs;
-    {
-        const UpwardRounding guard;
-        for (const CandidatePair& p : unproven.pairs)
-            if (is_improper(p)) pairs.push_back(p);
-    }
-    const auto patch_of = [&](std::uint32_t t) {
-        const std::uint32_t p = a.state->patches.of[t];
-        return p != no_group && holds[p] ? p : no_group;
-    };
-    for (const std::uint32_t t : dirty)
-        if (patch_of(t) != a.state->patches.of[t]) unproven.parts.push_back(t);
-    const Pools pools = find_pools();
-    for (const std::uint32_t t : unproven.ill_conditioned) // parts of one patch meet properly
-        if (patch_of(t) == no_group && !pools.has(t)) unproven.parts.push_back(t);
-    add_crowded_parts(a, dirty, unproven.parts);
-    const bool counts = options_.check.most_counted(arrangement_.triangles.size()) > 0;
-    if (unproven.parts.empty() && pools.of.empty() && !counts) return pairs;
-    sort_unique(unproven.parts);
-    std::vector<std::uint32_t> patches(state_.triangles.size());
-    for (std::uint32_t t = 0; t < patches.size(); ++t) patches[t] = patch_of(t);
-    if (counts) first_search_ = {unproven.pairs, unproven.parts, dirty, patches, pools};
-    if (!unproven.parts.empty()) {
-        const auto improper_beyond_pools = [&](const CandidatePair& p) {
-            return !pools.has_both(p) && is_found(p);
-        };
-        const auto more = candidate_pairs_of({state_.points, state_.triangles}, unproven.parts,
-                                             patches, improper_beyond_pools, run);
-        pairs.insert(pairs.end(), more.begin(), more.end());
-    }
-    const auto more = contacts_in_pools(pools, patches, quiet_);
-    pairs.insert(pairs.end(), more.begin(), more.end());
-    sort_unique(pairs);
-    return pairs;
-}
-
-MovedParts Rounding::moved_parts() const {
-    const Arrangement& a = arrangement_;
-    return {a.state->points.inputs(), a.state->corners, a.vertices, state_.points, state_.move,
-            state_.triangles,         a.parents_of};
-}
-
-/// Returns the pool of each triangle. The triangles must still be those of the arrangement.
-Pools Rounding::find_pools() const {
-    Pools pools;
-    const auto& of_parents = arrangement_.state->pools;
-    if (of_parents.empty()) return pools;
-    pools.parents_of = &arrangement_.parents_of;
-    pools.of.resize(state_.triangles.size());
-    std::vector<std::uint32_t> pooled, keys;
-    std::uint32_t count = 0;
-    for (std::uint32_t t = 0; t < pools.of.size(); ++t) {
-        const std::uint32_t pool = pools.of[t] = of_parents[arrangement_.parents_of[t][0]];
-        if (pool == no_group) continue;
-        pooled.push_back(t);
-        keys.push_back(pool);
-        count = std::max(count, pool + 1);
-    }
-    pools.triangles =
-        lists_by_key<std::uint32_t>(count, keys, [&](std::size_t i) { return pooled[i]; });
-    pools.is_ill_conditioned = ill_conditioned_in_pools(moved_parts(), pools.triangles);
-    return pools;
-}
-
-/// Finds the pairs within pools that meet improperly right after rounding to nearest.
-std::vector<CandidatePair> Rounding::contacts_in_pools(const Pools& pools,
-                                                       std::span<const std::uint32_t> patches,
-                                                       const Run& run) {
-    std::vector<CandidatePair> found;
-    for (std::size_t k = 0; k < pools.triangles.size(); ++k) {
-        const auto pool = pools.triangles[k];
-        std::vector<std::uint32_t> active, groups;
-        std::vector<Triangle> triangles;
-        for (std::uint32_t i = 0; i < pool.size(); ++i) {
-            const Triangle& c = state_.triangles[pool[i]];
-            if (state_.is_dirty[c[0]] || state_.is_dirty[c[1]] || state_.is_dirty[c[2]])
-                active.push_back(i);
-            triangles.push_back(c);
-            groups.push_back(patches[pool[i]]);
-        }
-        const auto of_mesh = [&](const CandidatePair& p) -> CandidatePair {
-            return {pool[p.first], pool[p.second]};
-        };
-        const auto improper = [&](const CandidatePair& p) {
-            return pools.need_test(of_mesh(p)) && is_found(of_mesh(p));
-        };
-        const auto pairs =
-            candidate_pairs_of({state_.points, triangles}, active, groups, improper, run);
-        for (const CandidatePair& p : pairs) found.push_back(of_mesh(p));
-    }
-    return found;
-}
-
 /// Performs one round. Returns false if snapping multiplied the contacts, or their division the
-/// triangles, so much that the round is not worthwhile.
+/// triangles, so much that the round is not worthwhile, or left hopelessly many.
 bool Rounding::snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
     changed_ = true;
     snap_corners(pairs, grid);
     state_.tidy(run_);
-    if (!divide_again(rounding_tuning.multiplied * pairs.size())) return false;
+    if (!divide_again(std::min(rounding_tuning.multiplied * pairs.size(), hopeless_from())))
+        return false;
     state_.end_round();
     state_.tidy(run_);
     return true;

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -35,28 +36,35 @@ struct Task {
     const Run& run;
 };
 
+/// How many contacts a rounding repairs at most.
+enum class Repairs {
+    sparse,   ///< fewer than are crowded
+    possible, ///< fewer than are hopeless
+    all
+};
+
 /// Rounds an arrangement once. A moved input may have used up the limit: see surface_deviation.
 class Rounding {
 public:
-    /// Rounds `a`, the input of which was moved. Crowded contacts are not repaired unless
-    /// `even_crowded`: what operator() returns then has no mesh.
-    Rounding(const Arrangement& a, const MovedInput& moved, bool even_crowded, const Task& task) :
-        arrangement_(a), moved_(moved), even_crowded_(even_crowded), task_(task),
-        options_(task.options), run_(task.run) {}
+    /// Rounds `a`, the input of which was moved. If there are more contacts than it repairs, it
+    /// leaves them all: what operator() returns then has no mesh.
+    Rounding(const Arrangement& a, const MovedInput& moved, Repairs repairs, const Task& task) :
+        arrangement_(a), moved_(moved), repairs_(repairs), task_(task), options_(task.options),
+        run_(task.run) {}
 
     Result<RoundedMesh> operator()() {
         to_nearest();
         if (moved_.largest == 0 && deviation() > task_.limit) return too_far();
         tell(0.2);
-        if (!even_crowded_)
+        if (repairs_ != Repairs::all)
             crowd_.emplace(state_.parents_of, arrangement_.state->corners.size(),
-                           std::max(crowded_from(), ParentsInContact::most_contacts + 1));
-        auto pairs = first_contacts(part_of_stage(run_, "round", 0.2, 0.7));
+                           std::max(left_from(), ParentsInContact::most_contacts + 1));
+        auto pairs = first_contacts_until_full();
         tell(0.7); // the shares are estimates, not measured
         if (run_.stop.stop_requested()) return interrupted();
         out_.report.naive_contacts = crowd_ && crowd_->is_full() ? crowd_->most() : pairs.size();
-        if (!even_crowded_ && out_.report.naive_contacts >= crowded_from()) {
-            leave_crowded(pairs);
+        if (repairs_ != Repairs::all && out_.report.naive_contacts >= left_from()) {
+            leave(pairs);
             return std::move(out_);
         }
         crowd_.reset();
@@ -70,18 +78,18 @@ public:
         return std::move(out_);
     }
 
-    /// Whether contacts were not repaired because they were crowded.
-    [[nodiscard]] bool left_crowded() const { return in_contact_.has_value(); }
-    /// Returns the parents of the crowded contacts that were left.
-    [[nodiscard]] const ParentsInContact& in_contact() const { return *in_contact_; }
+    /// The parents of the contacts, if they were left.
+    [[nodiscard]] const std::optional<ParentsInContact>& left() const { return left_; }
 
 private:
     static Error interrupted() { return {ErrorCode::interrupted, "stopped on request", ""}; }
     void tell(double share) const {
         if (run_.progress) run_.progress("round", share);
     }
-    [[nodiscard]] std::size_t crowded_from() const;
-    void leave_crowded(std::span<const CandidatePair> pairs);
+    [[nodiscard]] std::size_t left_from() const;
+    [[nodiscard]] std::size_t hopeless_from() const;
+    void leave(std::span<const CandidatePair> pairs);
+    [[nodiscard]] ParentsInContact contacts_of_sample() const;
     void repair(std::vector<CandidatePair>& pairs);
     void search_nearby(std::vector<CandidatePair>& pairs);
     void to_nearest();
@@ -91,6 +99,7 @@ private:
     [[nodiscard]] Error too_far() const;
     [[nodiscard]] bool is_improper(const CandidatePair& p) const;
     bool is_found(const CandidatePair& p);
+    std::vector<CandidatePair> first_contacts_until_full();
     std::vector<CandidatePair> first_contacts(const Run& run);
     [[nodiscard]] MovedParts moved_parts() const;
     [[nodiscard]] Pools find_pools() const;
@@ -108,15 +117,17 @@ private:
 
     const Arrangement& arrangement_;
     const MovedInput& moved_;
-    const bool even_crowded_;
+    const Repairs repairs_;
     const Task& task_;
     const RoundingOptions& options_;
     const Run& run_;
     const Run quiet_ =
         without_progress(run_); ///< for one round, whose share says nothing of others
     RoundingState state_;
-    std::optional<CrowdedContacts> crowd_;       ///< of the first search, unless even_crowded_
-    std::optional<ParentsInContact> in_contact_; ///< set if contacts were left crowded
+    std::optional<CrowdedContacts> crowd_; ///< of the first search, unless it repairs all
+    std::vector<std::uint32_t> sample_;    ///< of parts, if it tells enough of a full crowd
+    std::stop_source full_;                ///< of the first search, if there is a sample
+    std::optional<ParentsInContact> left_;
     FirstSearch first_search_;       ///< how the first search decided pairs, if they are counted
     bool changed_ = false;           ///< whether the triangles differ from the arrangement's
     std::optional<Regions> regions_; ///< set in advance while the triangles do not differ

@@ -47,11 +47,23 @@ ParentsInContact parents_in_contact(const RoundedMesh& rounded) {
     return parents_in_contact(contacts, rounded.mesh->parents_of);
 }
 
+std::vector<std::uint32_t> sample_of_parts(const IndexLists<std::uint32_t>& parents_of,
+                                           std::size_t input_triangles, std::size_t most_parts) {
+    std::vector<std::uint32_t> count(input_triangles, 0), seen(input_triangles, 0), sample;
+    for (std::size_t t = 0; t < parents_of.size(); ++t) ++count[parents_of[t][0]];
+    for (std::uint32_t t = 0; t < parents_of.size(); ++t) {
+        const std::uint32_t parent = parents_of[t][0];
+        const std::size_t every = std::max<std::size_t>(count[parent] / most_parts, 1);
+        if (seen[parent]++ % every == 0) sample.push_back(t);
+    }
+    return sample;
+}
+
 CrowdedContacts::CrowdedContacts(const IndexLists<std::uint32_t>& parents_of,
                                  std::size_t input_triangles, std::size_t most) :
     parents_of_(parents_of),
     most_(most), is_in_contact_(input_triangles) {
-    TERRANE_ASSERT(most > ParentsInContact::most_contacts);
+    TERRANE_ASSERT(most == 0 || most > ParentsInContact::most_contacts);
 }
 
 bool CrowdedContacts::adds_nothing(const CandidatePair& contact) const {

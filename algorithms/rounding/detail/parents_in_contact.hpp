@@ -35,12 +35,18 @@ ParentsInContact parents_in_contact(std::span<const CandidatePair> contacts,
 /// Does the same for the contacts that remain after rounding.
 ParentsInContact parents_in_contact(const RoundedMesh& rounded);
 
+/// Returns some parts of each first parent, evenly chosen: all of few, and fewer than
+/// `2 * most_parts` of many. Ascending.
+std::vector<std::uint32_t> sample_of_parts(const IndexLists<std::uint32_t>& parents_of,
+                                           std::size_t input_triangles, std::size_t most_parts);
+
 /// Collects the parents of very many contacts, so that the contacts need neither be listed nor all
 /// be tested. Once it is full, a pair whose parents are known adds nothing. What is collected in
 /// the end does not depend on the order, so that threads may add at the same time.
 class CrowdedContacts {
 public:
-    /// Is full with `most` contacts, which must be more than ParentsInContact::most_contacts.
+    /// Is full with `most` contacts, which must be more than ParentsInContact::most_contacts, or
+    /// from the start with 0.
     CrowdedContacts(const IndexLists<std::uint32_t>& parents_of, std::size_t input_triangles,
                     std::size_t most);
 
@@ -50,7 +56,7 @@ public:
     /// Whether it is full, and no parents would be new.
     [[nodiscard]] bool adds_nothing(const CandidatePair& contact) const;
     void add(const CandidatePair& contact);
-    /// Returns the parents. It must be full.
+    /// Returns the parents, those of pairs as of more than most_contacts. It must be full.
     [[nodiscard]] ParentsInContact parents() const;
 
 private:

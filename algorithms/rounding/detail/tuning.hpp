@@ -40,6 +40,10 @@ struct RoundingTuning {
     static constexpr int search_steps = 2; ///< how many doubles away along each axis
     std::size_t many = 1024;               ///< fewer contacts are never crowded
     std::size_t crowded = 8;    ///< contacts are crowded if there are fewer triangles per contact
+    std::size_t sampled = 16;   ///< so many parts of a triangle, or up to twice, tell with which
+                                ///< others it is in contact where contacts are too many to list
+    std::size_t hopeless = 4;   ///< so many contacts per triangle are never divided, unless there
+                                ///< are fewer than RoundingReport::most_counted
     std::size_t multiplied = 8; ///< growth of contacts, or of triangles, in a round that counts
                                 ///< as a failure
     unsigned widenings = 3;     ///< attempts per grid of the input, each on more triangles
@@ -68,6 +72,8 @@ inline std::vector<NamedConstant> named_constants() {
         {"search_steps", static_cast<double>(RoundingTuning::search_steps)},
         {"many", static_cast<double>(t.many)},
         {"crowded", static_cast<double>(t.crowded)},
+        {"sampled", static_cast<double>(t.sampled)},
+        {"hopeless", static_cast<double>(t.hopeless)},
         {"multiplied", static_cast<double>(t.multiplied)},
         {"widenings", static_cast<double>(t.widenings)},
         {"shrinking", static_cast<double>(t.shrinking)},

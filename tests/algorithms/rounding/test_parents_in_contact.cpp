@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <random>
 #include <set>
 #include <thread>
@@ -123,27 +125,64 @@ TEST_CASE("parents in contact: a full collector still takes each pair with a new
           std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}, {1, 2}});
 }
 
-TEST_CASE("parents in contact: rounding collects the same parents as it would list") {
+TEST_CASE("parents in contact: a sample has parts of each parent, all of few") {
+    constexpr std::size_t most = 4;
+    IndexLists<std::uint32_t> parents;
+    for (const std::uint32_t count : {1U, 3U, 7U, 8U, 100U})
+        for (std::uint32_t k = 0; k < count; ++k) parents.push_back(std::vector{count});
+    const auto sample = sample_of_parts(parents, 101, most);
+    CHECK(std::is_sorted(sample.begin(), sample.end()));
+    std::map<std::uint32_t, std::vector<std::uint32_t>> parts;
+    for (const std::uint32_t t : sample) parts[parents[t][0]].push_back(t);
+    CHECK(parts[1].size() == 1);
+    CHECK(parts[3].size() == 3);
+    CHECK(parts[7].size() == 7);
+    CHECK(parts[8].size() == 4);
+    REQUIRE(parts[100].size() == 4);
+    CHECK(parts[100].back() - parts[100].front() >= 75); // from all over it
+}
+
+TEST_CASE("parents in contact: rounding tells them from a sample where contacts are crowded") {
     const auto a = of_regression("016-crowded-contacts-listed.obj");
     const auto naive = rounded(a, {.max_rounds = 0});
     REQUIRE(naive.report.naive_contacts > ParentsInContact::most_contacts);
     REQUIRE(naive.report.contacts.size() == naive.report.naive_contacts);
-    const auto wanted = parents_in_contact(naive);
+    const auto all = parents_in_contact(naive);
     const RoundingOptions options;
     const MovedInput unmoved;
-    for (const unsigned threads : {1U, 2U}) {
-        Run run;
-        run.threads = threads;
-        const Task task{options, 1e300, a.state->kept_planes, run};
-        Rounding rounding(a, unmoved, false, task);
-        const auto left = rounding();
-        REQUIRE(left.ok());
-        REQUIRE(rounding.left_crowded());
-        CHECK_FALSE(left.value().report.clean);
-        CHECK(left.value().report.naive_contacts == ParentsInContact::most_contacts + 1);
-        CHECK(rounding.in_contact().pairs == wanted.pairs);
-        CHECK(rounding.in_contact().all == wanted.all);
-    }
+    std::optional<ParentsInContact> first;
+    for (const Repairs repairs : {Repairs::sparse, Repairs::possible})
+        for (const unsigned threads : {1U, 2U}) {
+            Run run;
+            run.threads = threads;
+            const Task task{options, 1e300, a.state->kept_planes, run};
+            Rounding rounding(a, unmoved, repairs, task);
+            const auto left = rounding();
+            REQUIRE(left.ok());
+            REQUIRE(rounding.left());
+            CHECK_FALSE(left.value().report.clean);
+            CHECK(left.value().report.naive_contacts == ParentsInContact::most_contacts + 1);
+            const auto& found = *rounding.left();
+            CHECK(std::includes(all.pairs.begin(), all.pairs.end(), found.pairs.begin(),
+                                found.pairs.end()));
+            CHECK(4 * found.pairs.size() >= 3 * all.pairs.size());
+            CHECK(
+                std::includes(all.all.begin(), all.all.end(), found.all.begin(), found.all.end()));
+            CHECK(10 * found.all.size() >= 9 * all.all.size());
+            if (!first) first = found;
+            CHECK(found.pairs == first->pairs);
+        }
+}
+
+// Its first attempt has a million contacts. To divide the triangles there took minutes.
+TEST_CASE("rounding: an attempt with hopelessly many contacts is left") {
+    const auto a = of_regression("018-attempts-beyond-repair.obj");
+    most_searched = 0;
+    terrane::detail::work_hook = note_searched;
+    const auto r = rounded(a, {.max_move = 1e30});
+    terrane::detail::work_hook = nullptr;
+    CHECK(r.report.clean);
+    CHECK(most_searched > 8 * a.triangles.size()); // as the triangles of that attempt
 }
 
 TEST_CASE("rounding: a round ends as soon as division multiplies the triangles") {
