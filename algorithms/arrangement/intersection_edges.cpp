@@ -2,7 +2,10 @@
 #include <terrane/algorithms/arrangement/intersection_edges.hpp>
 
 #include <algorithm>
+#include <array>
+#include <vector>
 
+#include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 
 namespace terrane {
@@ -48,40 +51,49 @@ namespace {
 class Signatures {
 public:
     Signatures(const InputTriangles& inputs, const IndexLists<std::uint32_t>& parents_of) :
-        inputs_(inputs), parents_of_(parents_of) {}
+        inputs_(inputs), parents_of_(parents_of) {
+        if (parents_of.values.size() == parents_of.size()) return; // each triangle has one parent
+        table_.reserve(inputs.first.back());
+        for (std::uint32_t s = 0; s + 1 < inputs.first.size(); ++s)
+            for (std::uint32_t p = inputs.first[s]; p < inputs.first[s + 1]; ++p)
+                table_.push_back({s, p});
+        for (const auto& [p, same] : inputs.duplicates) table_[p][1] = same;
+    }
 
-    [[nodiscard]] bool agree(std::uint32_t s, std::uint32_t t) const {
+    [[nodiscard]] bool agree(std::uint32_t s, std::uint32_t t) {
         const auto p = parents_of_[s], q = parents_of_[t];
+        if (std::ranges::equal(p, q)) return true;
         if (p.size() == 1 && q.size() == 1)
-            return p[0] == q[0] || inputs_.surface_of(InputTriangleId(p[0])) ==
-                                       inputs_.surface_of(InputTriangleId(q[0]));
-        return signature(p) == signature(q);
+            return inputs_.surface_of(InputTriangleId(p[0])) ==
+                   inputs_.surface_of(InputTriangleId(q[0]));
+        list_distinct(p, first_);
+        list_distinct(q, second_);
+        return std::ranges::equal(first_, second_, {}, surface_of, surface_of);
     }
 
 private:
-    /// Returns the surface of each distinct parent, sorted.
-    [[nodiscard]] std::vector<std::uint32_t>
-    signature(std::span<const std::uint32_t> parents) const {
-        std::vector<std::array<std::uint32_t, 2>> distinct;
-        for (const std::uint32_t p : parents)
-            distinct.push_back(
-                {inputs_.surface_of(InputTriangleId(p)), inputs_.first_same(InputTriangleId(p))});
-        std::sort(distinct.begin(), distinct.end());
-        distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-        std::vector<std::uint32_t> surfaces;
-        for (const auto& d : distinct) surfaces.push_back(d[0]);
-        return surfaces;
+    /// A parent: its surface and the first triangle that is the same.
+    using Parent = std::array<std::uint32_t, 2>;
+
+    static std::uint32_t surface_of(const Parent& p) { return p[0]; }
+
+    void list_distinct(std::span<const std::uint32_t> parents, std::vector<Parent>& distinct) {
+        distinct.clear();
+        for (const std::uint32_t p : parents) distinct.push_back(table_[p]);
+        sort_unique(distinct);
     }
 
     const InputTriangles& inputs_;
     const IndexLists<std::uint32_t>& parents_of_;
+    std::vector<Parent> table_; ///< per input triangle, if a triangle has several parents
+    std::vector<Parent> first_, second_;
 };
 
 } // namespace
 
 std::vector<Edge> find_intersection_edges(const Adjacency& adjacency, const InputTriangles& inputs,
                                           const IndexLists<std::uint32_t>& parents_of) {
-    const Signatures signatures(inputs, parents_of);
+    Signatures signatures(inputs, parents_of);
     std::vector<Edge> found;
     for (std::size_t e = 0; e < adjacency.edges.size(); ++e) {
         const auto sides = adjacency.triangles_at[e];

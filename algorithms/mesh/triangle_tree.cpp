@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace terrane {
@@ -69,46 +68,54 @@ Point3 nearest_on_triangle(const Point3& p, const Point3& a, const Point3& b, co
     });
 }
 
+/// A triangle while the tree is built: what the splits compare lies together.
+struct TriangleTree::Item {
+    Point3 low, high;
+    Point3 sum; ///< of the corners
+    Triangle triangle{};
+
+    Item(const Triangle& t, const Point3& a, const Point3& b, const Point3& c) :
+        low{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
+        high{std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})},
+        sum{a.x + b.x + c.x, a.y + b.y + c.y, a.z + b.z + c.z}, triangle(t) {}
+};
+
 TriangleTree::TriangleTree(std::span<const Point3> points, std::vector<Triangle> triangles) :
     points_(points), triangles_(std::move(triangles)) {
-    if (!triangles_.empty()) build(0, static_cast<std::uint32_t>(triangles_.size()));
+    if (triangles_.empty()) return;
+    std::vector<Item> items;
+    items.reserve(triangles_.size());
+    for (const Triangle& t : triangles_)
+        items.emplace_back(t, points_[t[0]], points_[t[1]], points_[t[2]]);
+    nodes_.reserve(items.size()); // about as many: leaves have two to four triangles
+    build(items, 0, static_cast<std::uint32_t>(items.size()));
+    for (std::size_t k = 0; k < items.size(); ++k) triangles_[k] = items[k].triangle;
 }
 
-void TriangleTree::fit(Node& node) const {
-    constexpr double most = std::numeric_limits<double>::infinity();
-    node.low = {most, most, most};
-    node.high = {-most, -most, -most};
-    for (std::uint32_t t = node.first; t < node.last; ++t)
-        for (const std::uint32_t v : triangles_[t]) {
-            const Point3& p = points_[v];
-            node.low = {std::min(node.low.x, p.x), std::min(node.low.y, p.y),
-                        std::min(node.low.z, p.z)};
-            node.high = {std::max(node.high.x, p.x), std::max(node.high.y, p.y),
-                         std::max(node.high.z, p.z)};
-        }
-}
-
-std::uint32_t TriangleTree::build(std::uint32_t first, std::uint32_t last) {
+std::uint32_t TriangleTree::build(std::vector<Item>& items, std::uint32_t first,
+                                  std::uint32_t last) {
     const auto at = static_cast<std::uint32_t>(nodes_.size());
-    Node node;
-    node.first = first;
-    node.last = last;
-    fit(node);
+    Node node{items[first].low, items[first].high, first, last, 0, 0};
+    for (std::uint32_t k = first + 1; k < last; ++k) {
+        const Point3 &low = items[k].low, &high = items[k].high;
+        node.low = {std::min(node.low.x, low.x), std::min(node.low.y, low.y),
+                    std::min(node.low.z, low.z)};
+        node.high = {std::max(node.high.x, high.x), std::max(node.high.y, high.y),
+                     std::max(node.high.z, high.z)};
+    }
     nodes_.push_back(node);
     if (last - first <= most_in_leaf) return at;
     const Point3 size = minus(node.high, node.low);
     const auto longest = size.x >= size.y && size.x >= size.z ? &Point3::x
                          : size.y >= size.z                   ? &Point3::y
                                                               : &Point3::z;
-    const auto middle = [&](const Triangle& t) {
-        return points_[t[0]].*longest + points_[t[1]].*longest + points_[t[2]].*longest;
-    };
     const std::uint32_t half = first + (last - first) / 2;
-    std::nth_element(triangles_.begin() + first, triangles_.begin() + half,
-                     triangles_.begin() + last, [&](const Triangle& t, const Triangle& u) {
-                         return std::pair(middle(t), t) < std::pair(middle(u), u);
+    std::nth_element(items.begin() + first, items.begin() + half, items.begin() + last,
+                     [&](const Item& i, const Item& j) {
+                         const double x = i.sum.*longest, y = j.sum.*longest;
+                         return x < y || (x == y && i.triangle < j.triangle);
                      });
-    const std::uint32_t left = build(first, half), right = build(half, last);
+    const std::uint32_t left = build(items, first, half), right = build(items, half, last);
     nodes_[at].left = left;
     nodes_[at].right = right;
     return at;

@@ -43,8 +43,8 @@ private:
         std::uint32_t left = 0, right = 0; ///< children; 0: a leaf
     };
 
-    std::uint32_t build(std::uint32_t first, std::uint32_t last);
-    void fit(Node& node) const;
+    struct Item;
+    std::uint32_t build(std::vector<Item>& items, std::uint32_t first, std::uint32_t last);
 
     std::span<const Point3> points_;
     std::vector<Triangle> triangles_;
