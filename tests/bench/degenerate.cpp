@@ -2,9 +2,10 @@
 //
 // Measures how the cost of arranging and rounding grows with the result for inputs in which
 // everything coincides. Each family is measured at n, 2 n and 4 n, each in a process of its own,
-// since a peak of memory never falls. The size of a result is the number of its triangles, of their
-// parents and of the neighbours of regions: n coplanar triangles, each in the next, have 2 n - 1
-// parts with n^2 parents, and n regions that meet at one edge have n - 1 neighbours each.
+// since a peak of memory never falls. The last row has the exponents that fit all three. The size
+// of a result is the number of its triangles, of their parents and of the neighbours of regions: n
+// coplanar triangles, each in the next, have 2 n - 1 parts with n^2 parents, and n regions that
+// meet at one edge have n - 1 neighbours each.
 //   terrane_bench_degenerate [--exact] [--wall] [FAMILY...]
 // --exact: without rounding. Seconds are those of the processor, or with --wall of a clock.
 #include <malloc.h>
@@ -19,6 +20,7 @@
 #include <ctime>
 #include <exception>
 #include <fstream>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -130,9 +132,33 @@ double exponent(double cost_before, double cost, double size_before, double size
     return std::log(cost / cost_before) / std::log(size / size_before);
 }
 
-/// Prints the rows of a family. Returns whether all are measured.
+void print_exponents(double time, double memory) {
+    std::printf(" %6.2f%c %6.2f%c", time, time > largest_exponent ? '!' : ' ', memory,
+                memory > largest_exponent ? '!' : ' ');
+}
+
+/// Returns the exponent that fits all sizes best: the slope of a line through the logarithms; 0 if
+/// a cost was too small to be measured.
+double fitted_exponent(std::span<const Measured> rows, double Measured::*cost) {
+    double x_mean = 0, y_mean = 0, above = 0, below = 0;
+    const auto count = static_cast<double>(rows.size());
+    for (const Measured& m : rows) {
+        if (!(m.*cost > 0)) return 0;
+        x_mean += std::log(m.size()) / count;
+        y_mean += std::log(m.*cost) / count;
+    }
+    for (const Measured& m : rows) {
+        const double x = std::log(m.size()) - x_mean;
+        above += x * (std::log(m.*cost) - y_mean);
+        below += x * x;
+    }
+    return below > 0 ? above / below : 0;
+}
+
+/// Prints the rows of a family, and what fits them all. Returns whether all are measured.
 bool print_family(const Family& family, const Settings& settings) {
     Measured before;
+    std::vector<Measured> rows;
     for (const int n : {family.n, 2 * family.n, 4 * family.n}) {
         const Measured m = measured_apart(family, n, settings);
         if (m.size() == 0) return false;
@@ -142,15 +168,19 @@ bool print_family(const Family& family, const Settings& settings) {
         if (before.size() > 0) {
             const double time = exponent(before.seconds, m.seconds, before.size(), m.size());
             const double memory = exponent(before.bytes, m.bytes, before.size(), m.size());
-            std::printf(" %6.2f%c %6.2f%c", time, time > largest_exponent ? '!' : ' ', memory,
-                        memory > largest_exponent ? '!' : ' ');
+            print_exponents(time, memory);
         } else {
             std::printf(" %7s %7s", "", "");
         }
         std::printf(" %8.0f %8.0f%c\n", m.bytes / m.triangles, per_entry,
                     per_entry > most_bytes ? '!' : ' ');
+        rows.push_back(m);
         before = m;
     }
+    std::printf("%-16s fitted%61s", family.name, "");
+    print_exponents(fitted_exponent(rows, &Measured::seconds),
+                    fitted_exponent(rows, &Measured::bytes));
+    std::printf("\n");
     return true;
 }
 
