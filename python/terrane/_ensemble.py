@@ -15,7 +15,8 @@ from ._arrays import Float64Array, as_count, as_number
 from ._ensemble_blocks import match, names_of_values, percentiles
 from ._ensemble_engine import ENGINES, Engine, outcomes, pool_of
 from ._ensemble_kept import Kept
-from ._ensemble_work import (Record, Task, bounds_of, built, failure, packed, prepared, reason_of, run_one, unpacked)
+from ._ensemble_work import (Record, Task, bounds_of, built, failure, file_of, packed, prepared, reason_of,
+                             unpacked)
 from ._errors import Error, bad_option
 from ._mesh import Path
 from ._project import Built, project_text
@@ -427,7 +428,8 @@ def ensemble(project: Union[Path, Mapping[str, Any]], folder: Optional[Path] = N
                  as_count(retries, "retries", 0, 1000))
     with pool_of(how) as pool:
         task = task_of(project, folder, seed, contacts, grid, threads)
-        task, model = _with_frame(task, as_count(grid, "grid", 1, 10000))
+        alone = min(how.workers, cores()) if engine == "dask" and scheduler is None else 1  # no worker computes yet
+        task, model = _with_frame(task, as_count(grid, "grid", 1, 10000), max(task.threads, alone))
         kept = Kept(keep, task)
         files = dict(kept.found(count))
         missing = [n for n in range(1, count + 1) if n not in files]
@@ -455,15 +457,16 @@ def task_of(project: Union[Path, Mapping[str, Any]], folder: Optional[Path], see
                 as_count(threads, "threads", 1, 1024), key, str(_core.version))
 
 
-def _with_frame(task: Task, grid: int) -> Tuple[Task, bytes]:
-    """Build the model as it was given, and lay the map over it."""
+def _with_frame(task: Task, grid: int, threads: int) -> Tuple[Task, bytes]:
+    """Build the model as it was given, with so many threads, and lay the map over it."""
     if prepared(task).moved == 0:
         raise Error("bad_option", "is missing: it says how the surfaces move", f"{task.source}: uncertainty")
-    x, y, width, height = bounds_of(built(task, 0).model)
+    model = built(task._replace(threads=threads), 0).model
+    x, y, width, height = bounds_of(model)
     size = max(width, height) / grid  # of a cell
     cells = (max(1, round(width / size)), max(1, round(height / size)))
     task = task._replace(frame=(x, y, width / cells[0], height / cells[1]), cells=cells)
-    return task, run_one(task, 0)[0]
+    return task, file_of(task, 0, lambda: model)
 
 
 def _failed(number: int, error: BaseException) -> bytes:

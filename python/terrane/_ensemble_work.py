@@ -10,7 +10,7 @@ from __future__ import annotations
 import io
 import json
 import time
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
@@ -76,14 +76,19 @@ def run_one(task: Task, number: int) -> Tuple[bytes, float]:
     """Return the file of a realisation, and the processor time that it took."""
     begin = time.process_time()
     prepared(task)
+    return file_of(task, number, lambda: built(task, number).model), time.process_time() - begin
+
+
+def file_of(task: Task, number: int, build: Callable[[], Model]) -> bytes:
+    """Return the file of a realisation, whose model ``build`` returns."""
     try:
-        values, heights, present = _measured(built(task, number).model, task)
+        values, heights, present = _measured(build(), task)
     except Error as error:
         if error.code in _PASSING:
             raise
         values, heights, present = failure(error.code, error.sentence, error.place)
     values["number"] = number
-    return packed(Record(values, heights, present)), time.process_time() - begin
+    return packed(Record(values, heights, present))
 
 
 def failure(code: str, sentence: str, place: str) -> Tuple[Dict[str, Any], Float64Array, Any]:

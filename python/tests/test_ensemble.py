@@ -18,7 +18,8 @@ import pytest
 
 import terrane
 from conftest import BOX, PROGRAM, SANITIZED, run_program, run_python, sheet, stack, wall
-from terrane import _ensemble_blocks, _ensemble_engine, _ensemble_kept, _ensemble_work
+from terrane import _ensemble, _ensemble_blocks, _ensemble_engine, _ensemble_kept, _ensemble_work
+from terrane._run import cores
 
 NORMAL = statistics.NormalDist()
 
@@ -255,6 +256,22 @@ def test_a_stopped_call_goes_on_from_what_is_kept(monkeypatch):
     sheet(z=1.2, name="top", role="horizon").save("top.ts")
     terrane.ensemble("p.json", realisations=2, engine="serial", keep="kept")
     assert made == [1, 2]  # nor of other surfaces
+
+
+@pytest.mark.parametrize("options, threads", [({"engine": "serial"}, 1), ({"engine": "serial", "threads": 3}, 3),
+                                              ({"workers": 2}, min(2, cores()))])
+def test_the_model_as_given_is_built_once_before_the_workers_start(monkeypatch, options, threads):
+    write_stack()
+    wanted = files_of(terrane.ensemble("p.json", realisations=2, engine="serial"))
+    made = []
+
+    def counted(task, number):
+        made.append((number, task.threads))
+        return _ensemble_work.built(task, number)
+
+    monkeypatch.setattr(_ensemble, "built", counted)
+    assert files_of(terrane.ensemble("p.json", realisations=2, **options)) == wanted
+    assert made == [(0, threads)]
 
 
 def rows_of(path):
