@@ -72,13 +72,14 @@ std::vector<CandidatePair> Rounding::contacts(const Run& run) {
     return pairs;
 }
 
-/// Finds the first contacts. Where triangles have so many parts that most of them are not in a
-/// sample, it ends as soon as the crowd is full.
+/// Finds the first contacts. Where a sample has less than half of the triangles, it tells enough of a
+/// crowd: the search ends as soon as the crowd is full.
 std::vector<CandidatePair> Rounding::first_contacts_until_full() {
     const Run run = part_of_stage(run_, "round", 0.2, 0.7);
-    if (!crowd_) return first_contacts(run);
-    sample_ = sample_of_parts(state_.parents_of, arrangement_.state->corners.size(),
-                              rounding_tuning.sampled);
+    const std::size_t inputs = arrangement_.state->corners.size();
+    if (!crowd_ || state_.triangles.size() < rounding_tuning.sampled * inputs)
+        return first_contacts(run); // most inputs: the sample would have most of the triangles
+    sample_ = sample_of_parts(state_.parents_of, inputs, rounding_tuning.sampled);
     if (2 * sample_.size() > state_.triangles.size()) {
         sample_.clear();
         return first_contacts(run);

@@ -48,12 +48,12 @@ ParentsInContact parents_in_contact(const RoundedMesh& rounded) {
 }
 
 std::vector<std::uint32_t> sample_of_parts(const IndexLists<std::uint32_t>& parents_of,
-                                           std::size_t input_triangles, std::size_t most_parts) {
+                                           std::size_t input_triangles, std::size_t parts) {
     std::vector<std::uint32_t> count(input_triangles, 0), seen(input_triangles, 0), sample;
     for (std::size_t t = 0; t < parents_of.size(); ++t) ++count[parents_of[t][0]];
     for (std::uint32_t t = 0; t < parents_of.size(); ++t) {
         const std::uint32_t parent = parents_of[t][0];
-        const std::size_t every = std::max<std::size_t>(count[parent] / most_parts, 1);
+        const std::size_t every = std::max<std::size_t>(count[parent] / parts, 1);
         if (seen[parent]++ % every == 0) sample.push_back(t);
     }
     return sample;

@@ -35,18 +35,18 @@ ParentsInContact parents_in_contact(std::span<const CandidatePair> contacts,
 /// Does the same for the contacts that remain after rounding.
 ParentsInContact parents_in_contact(const RoundedMesh& rounded);
 
-/// Returns some parts of each first parent, evenly chosen: all of few, and fewer than
-/// `2 * most_parts` of many. Ascending.
+/// Returns a sample of the triangles, ascending. It has all parts of a first parent with fewer than
+/// `parts`. Of another one it has at least `parts`, evenly chosen, and fewer than twice as many.
 std::vector<std::uint32_t> sample_of_parts(const IndexLists<std::uint32_t>& parents_of,
-                                           std::size_t input_triangles, std::size_t most_parts);
+                                           std::size_t input_triangles, std::size_t parts);
 
 /// Collects the parents of very many contacts, so that the contacts need neither be listed nor all
 /// be tested. Once it is full, a pair whose parents are known adds nothing. What is collected in
 /// the end does not depend on the order, so that threads may add at the same time.
 class CrowdedContacts {
 public:
-    /// Is full with `most` contacts, which must be more than ParentsInContact::most_contacts, or
-    /// from the start with 0.
+    /// The collector is full once it has `most` contacts: more than
+    /// ParentsInContact::most_contacts, or 0, so that it is full from the start.
     CrowdedContacts(const IndexLists<std::uint32_t>& parents_of, std::size_t input_triangles,
                     std::size_t most);
 

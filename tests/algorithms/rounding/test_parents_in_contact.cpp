@@ -125,7 +125,8 @@ TEST_CASE("parents in contact: a full collector still takes each pair with a new
           std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}, {1, 2}});
 }
 
-TEST_CASE("parents in contact: a sample has parts of each parent, all of few") {
+TEST_CASE(
+    "parents in contact: a sample has all parts of a parent with few, and some of one with many") {
     constexpr std::size_t most = 4;
     IndexLists<std::uint32_t> parents;
     for (const std::uint32_t count : {1U, 3U, 7U, 8U, 100U})
