@@ -32,7 +32,7 @@ def has_dask():
     return not SANITIZED  # its processes would need the sanitizer's library first
 
 
-needs_dask = pytest.mark.skipif(not has_dask(), reason="python3-distributed is not installed")
+needs_dask = pytest.mark.skipif(not has_dask(), reason="needs python3-distributed, and a library without sanitizer")
 
 
 def write_stack():
@@ -259,7 +259,7 @@ def test_a_stopped_call_goes_on_from_what_is_kept(monkeypatch):
 
 
 @pytest.mark.parametrize("options, threads", [({"engine": "serial"}, 1), ({"engine": "serial", "threads": 3}, 3),
-                                              ({"workers": 2}, min(2, cores()))])
+                                              pytest.param({"workers": 2}, min(2, cores()), marks=needs_dask)])
 def test_the_model_as_given_is_built_once_before_the_workers_start(monkeypatch, options, threads):
     write_stack()
     wanted = files_of(terrane.ensemble("p.json", realisations=2, engine="serial"))
