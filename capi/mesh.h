@@ -162,7 +162,8 @@ TERRANE_API const uint32_t* terrane_mesh_intersection_edges(const terrane_mesh* 
 TERRANE_API terrane_code terrane_mesh_get_rounding(const terrane_mesh* mesh,
                                                    terrane_rounding_report* report,
                                                    size_t struct_size);
-/// Returns the pairs of triangles of a rounded mesh that still meet improperly.
+/// Returns the pairs of triangles of a rounded mesh that still meet improperly; if they are more
+/// than 100 000, there may be more.
 TERRANE_API const terrane_contact* terrane_mesh_contacts(const terrane_mesh* mesh, size_t* count);
 /// Writes a mesh to a file whose extension, or options->format, selects the format. If it fails, no
 /// file is written. Errors: those of writing.

@@ -61,7 +61,9 @@ struct RoundingReport {
     /// may be more: the input is then moved at once.
     std::size_t naive_contacts = 0;
     static constexpr std::size_t most_counted = 100'000;
-    std::vector<ImproperContact> contacts; ///< remaining contacts; triangles of the mesh
+    /// Remaining contacts; triangles of the mesh. If they are more than most_counted, there may be
+    /// more: they are then the first ones, in the order of their triangles.
+    std::vector<ImproperContact> contacts;
     /// No point of the mesh is farther from the input triangles that it is part of, and no point of
     /// an input triangle is farther from its parts, except for what vanished; unit of the input.
     double surface_deviation = 0;

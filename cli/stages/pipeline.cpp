@@ -75,6 +75,11 @@ std::string set_aside(const Arrangement& a) {
                        counted(a.degenerate.size(), "triangle"), a.inputs.duplicates.size());
 }
 
+/// Returns the words before a number of contacts, if there may be more.
+std::string_view at_least(std::size_t contacts) {
+    return contacts > RoundingReport::most_counted ? "at least " : "";
+}
+
 std::string rounding_text(const RoundingReport& r) {
     std::string text = "doubles: every vertex is at its exact place";
     if (r.max_move > 0)
@@ -85,8 +90,7 @@ std::string rounding_text(const RoundingReport& r) {
                             r.surface_deviation);
     if (r.rounds > 0)
         text += fmt::format("; {} of snapping, for {}{} that met improperly",
-                            counted(r.rounds, "round"),
-                            r.naive_contacts > RoundingReport::most_counted ? "at least " : "",
+                            counted(r.rounds, "round"), at_least(r.naive_contacts),
                             counted(r.naive_contacts, "pair"));
     text += '\n';
     if (r.rounds > 0)
@@ -111,10 +115,10 @@ std::string rounding_text(const RoundingReport& r) {
                                 ? std::string("1 surface has")
                                 : fmt::format("{} surfaces have", r.lost_regions.size()));
     text += r.clean ? good("verified:") + " the doubles are a conforming mesh, by exact check\n"
-                    : fmt::format("{} {} of triangles still meet improperly, and no "
+                    : fmt::format("{} {}{} of triangles still meet improperly, and no "
                                   "surface may move by more than {:.3g} to separate them\n",
-                                  bad("NOT verified:"), counted(r.contacts.size(), "pair"),
-                                  r.max_allowed);
+                                  bad("NOT verified:"), at_least(r.contacts.size()),
+                                  counted(r.contacts.size(), "pair"), r.max_allowed);
     return text + text_of(r.pairs);
 }
 
@@ -332,7 +336,8 @@ std::string offending_pairs(const Inputs& inputs, const Arranged& arranged) {
                             name_of(c.kind), text_of(c.place));
     }
     if (contacts.size() > most_pairs)
-        text += fmt::format("  and {} more\n", contacts.size() - most_pairs);
+        text += fmt::format("  and {}{} more\n", at_least(contacts.size()),
+                            contacts.size() - most_pairs);
     return text;
 }
 

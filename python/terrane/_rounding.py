@@ -16,6 +16,8 @@ class RoundingReport(NamedTuple):
     ----------
     clean : bool
         Whether the doubles are a conforming mesh, by exact check.
+    contacts : list of Contact
+        Pairs of triangles of the mesh that still meet improperly; if they are more than 100 000, there may be more.
     surface_deviation : float
         No point of the mesh is farther from the triangles of the input that it is part of, and no point of these is
         farther from their parts, except for what vanished; at most `max_allowed`.

@@ -93,9 +93,9 @@ Error Rounding::too_far() const {
             "max_move"};
 }
 
-/// Returns how many contacts are left unless all are repaired.
+/// Returns how many contacts are too many to be repaired.
 std::size_t Rounding::left_from() const {
-    if (repairs_ == Repairs::possible) return hopeless_from();
+    if (repairs_ != Repairs::sparse) return hopeless_from();
     return std::max(rounding_tuning.many,
                     arrangement_.triangles.size() / rounding_tuning.crowded + 1);
 }
@@ -172,11 +172,12 @@ bool Rounding::snap_round(std::span<const CandidatePair> pairs, const SnapGrid& 
     changed_ = true;
     snap_corners(pairs, grid);
     state_.tidy(run_);
-    if (!divide_again(std::min(rounding_tuning.multiplied * pairs.size(), hopeless_from())))
+    if (state_.is_torn ||
+        !divide_again(std::min(rounding_tuning.multiplied * pairs.size(), hopeless_from())))
         return false;
     state_.end_round();
     state_.tidy(run_);
-    return true;
+    return !state_.is_torn;
 }
 
 void Rounding::snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
@@ -264,8 +265,9 @@ void Rounding::finish(std::span<const CandidatePair> pairs) {
             if (!changed_) mesh.surfaces_of = arrangement_.surfaces_of;
         });
     report_vanished();
-    out_.report.pairs =
-        count_decisions(state_, arrangement_.triangles, first_search_, options_.check, run_);
+    if (!is_hopeless_)
+        out_.report.pairs =
+            count_decisions(state_, arrangement_.triangles, first_search_, options_.check, run_);
     if (changed_) state_.drop_unused_points();
     for (const CandidatePair& p : pairs) {
         const auto contact =

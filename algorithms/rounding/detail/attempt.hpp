@@ -40,14 +40,15 @@ struct Task {
 enum class Repairs {
     sparse,   ///< fewer than are crowded
     possible, ///< fewer than are hopeless
-    all
+    all       ///< any number, but for a whole arrangement: see Rounding
 };
 
 /// Rounds an arrangement once. A moved input may have used up the limit: see surface_deviation.
 class Rounding {
 public:
     /// Rounds `a`, the input of which was moved. If there are more contacts than it repairs, it
-    /// leaves them all: what operator() returns then has no mesh.
+    /// leaves them all: what operator() returns then has no mesh. With Repairs::all it always has
+    /// one; if `a` is whole and contacts are hopelessly many, it reports the first of them.
     Rounding(const Arrangement& a, const MovedInput& moved, Repairs repairs, const Task& task) :
         arrangement_(a), moved_(moved), repairs_(repairs), task_(task), options_(task.options),
         run_(task.run) {}
@@ -56,22 +57,32 @@ public:
         to_nearest();
         if (moved_.largest == 0 && deviation() > task_.limit) return too_far();
         tell(0.2);
-        if (repairs_ != Repairs::all)
+        if (state_.is_torn && repairs_ == Repairs::possible) {
+            left_.emplace();
+            return std::move(out_);
+        }
+        if (repairs_ != Repairs::all || arrangement_.state->whole)
             crowd_.emplace(state_.parents_of, arrangement_.state->corners.size(),
                            std::max(left_from(), ParentsInContact::most_contacts + 1));
         auto pairs = first_contacts_until_full();
         tell(0.7); // the shares are estimates, not measured
         if (run_.stop.stop_requested()) return interrupted();
-        out_.report.naive_contacts = crowd_ && crowd_->is_full() ? crowd_->most() : pairs.size();
-        if (repairs_ != Repairs::all && out_.report.naive_contacts >= left_from()) {
+        const bool is_full = crowd_ && crowd_->is_full();
+        out_.report.naive_contacts = is_full ? crowd_->most() : pairs.size();
+        if (repairs_ != Repairs::all &&
+            (out_.report.naive_contacts >= left_from() || state_.is_torn)) {
             leave(pairs);
             return std::move(out_);
         }
         crowd_.reset();
-        state_.only_dirty(pairs);
+        is_hopeless_ = is_full || state_.is_torn;
+        if (is_full)
+            pairs = lowest_contacts(RoundingReport::most_counted + 1);
+        else
+            state_.only_dirty(pairs);
         find_first_regions();
         tell(0.9);
-        if (!pairs.empty()) repair(pairs);
+        if (!pairs.empty() && !is_hopeless_) repair(pairs);
         if (run_.stop.stop_requested()) return interrupted();
         finish(pairs);
         tell(1);
@@ -89,6 +100,7 @@ private:
     [[nodiscard]] std::size_t left_from() const;
     [[nodiscard]] std::size_t hopeless_from() const;
     void leave(std::span<const CandidatePair> pairs);
+    void take_sample();
     [[nodiscard]] ParentsInContact contacts_of_sample() const;
     void repair(std::vector<CandidatePair>& pairs);
     void search_nearby(std::vector<CandidatePair>& pairs);
@@ -101,6 +113,7 @@ private:
     bool is_found(const CandidatePair& p);
     std::vector<CandidatePair> first_contacts_until_full();
     std::vector<CandidatePair> first_contacts(const Run& run);
+    std::vector<CandidatePair> lowest_contacts(std::size_t most);
     [[nodiscard]] MovedParts moved_parts() const;
     [[nodiscard]] Pools find_pools() const;
     std::vector<CandidatePair>
@@ -126,7 +139,9 @@ private:
     RoundingState state_;
     std::optional<CrowdedContacts> crowd_; ///< of the first search, unless it repairs all
     std::vector<std::uint32_t> sample_;    ///< of parts, if it tells enough of a full crowd
-    std::stop_source full_;                ///< of the first search, if there is a sample
+    bool ends_when_full_ = false;          ///< the first search
+    std::stop_source full_;                ///< of the first search, if it ends then
+    bool is_hopeless_ = false;             ///< whether nothing was repaired
     std::optional<ParentsInContact> left_;
     FirstSearch first_search_;       ///< how the first search decided pairs, if they are counted
     bool changed_ = false;           ///< whether the triangles differ from the arrangement's

@@ -47,7 +47,7 @@ bool Rounding::is_found(const CandidatePair& p) {
     if (!is_improper(p)) return false;
     if (crowd_) {
         crowd_->add(p);
-        if (!sample_.empty() && crowd_->is_full()) full_.request_stop();
+        if (ends_when_full_ && crowd_->is_full()) full_.request_stop();
     }
     return true;
 }
@@ -72,22 +72,49 @@ std::vector<CandidatePair> Rounding::contacts(const Run& run) {
     return pairs;
 }
 
-/// Finds the first contacts. Where a sample has less than half of the triangles, it tells enough of a
-/// crowd: the search ends as soon as the crowd is full.
+/// Takes a sample of the parts, where it has less than half of the triangles.
+void Rounding::take_sample() {
+    const std::size_t inputs = arrangement_.state->corners.size();
+    // Otherwise most inputs have few parts, all of which the sample would have.
+    if (state_.triangles.size() < rounding_tuning.sampled * inputs) return;
+    sample_ = sample_of_parts(state_.parents_of, inputs, rounding_tuning.sampled);
+    if (2 * sample_.size() > state_.triangles.size()) sample_.clear();
+}
+
+/// Finds the first contacts. Where a sample tells enough of a crowd, or nobody asks about it, the
+/// search ends as soon as the crowd is full.
 std::vector<CandidatePair> Rounding::first_contacts_until_full() {
     const Run run = part_of_stage(run_, "round", 0.2, 0.7);
-    const std::size_t inputs = arrangement_.state->corners.size();
-    if (!crowd_ || state_.triangles.size() < rounding_tuning.sampled * inputs)
-        return first_contacts(run); // most inputs: the sample would have most of the triangles
-    sample_ = sample_of_parts(state_.parents_of, inputs, rounding_tuning.sampled);
-    if (2 * sample_.size() > state_.triangles.size()) {
-        sample_.clear();
-        return first_contacts(run);
-    }
+    if (!crowd_) return first_contacts(run);
+    if (repairs_ != Repairs::all) take_sample();
+    ends_when_full_ = repairs_ == Repairs::all || !sample_.empty();
+    if (!ends_when_full_) return first_contacts(run);
     const std::stop_callback also(run_.stop, [this] { full_.request_stop(); });
     Run until_full = run;
     until_full.stop = full_.get_token();
     return first_contacts(until_full);
+}
+
+/// Finds the lowest pairs that meet improperly: as many as asked for, or all.
+std::vector<CandidatePair> Rounding::lowest_contacts(std::size_t most) {
+    const std::size_t count = state_.triangles.size();
+    std::vector<CandidatePair> found;
+    for (std::size_t begin = 0, size = 256; begin < count && found.size() < most; size *= 2) {
+        const std::size_t end = std::min(begin + size, count);
+        std::vector<std::uint32_t> active(end - begin);
+        std::iota(active.begin(), active.end(), static_cast<std::uint32_t>(begin));
+        auto pairs = candidate_pairs_of(
+            {state_.points, state_.triangles}, active, {},
+            [&](const CandidatePair& p) {
+                return std::min(p.first, p.second) >= begin && is_improper(p);
+            },
+            quiet_);
+        sort_unique(pairs);
+        found.insert(found.end(), pairs.begin(), pairs.end());
+        begin = end;
+    }
+    if (found.size() > most) found.resize(most);
+    return found;
 }
 
 /// Finds the pairs that meet improperly right after rounding to nearest. Only pairs that neither

@@ -41,24 +41,33 @@ CollapsedTriangles::CollapsedTriangles(std::span<const Point3> points,
 PointsInSides CollapsedTriangles::within(const Triangle& t) const {
     PointsInSides result;
     if (is_corner_.empty()) return result;
-    for (unsigned i = 0; i < 3; ++i)
-        if (is_corner_[t[i]] && is_corner_[t[(i + 1) % 3]])
-            result[i] = within(t[i], t[(i + 1) % 3]);
+    for (unsigned i = 0; i < 3; ++i) {
+        if (!is_concerned(t, i)) continue;
+        const auto points = inside(t[i], t[(i + 1) % 3]);
+        result[i].assign(points.begin(), points.end());
+        if (points_[t[(i + 1) % 3]] < points_[t[i]])
+            std::reverse(result[i].begin(), result[i].end());
+    }
     return result;
 }
 
+std::size_t CollapsedTriangles::count_within(const Triangle& t) const {
+    std::size_t count = 0;
+    for (unsigned i = 0; i < 3 && !is_corner_.empty(); ++i)
+        if (is_concerned(t, i)) count += inside(t[i], t[(i + 1) % 3]).size();
+    return count;
+}
+
 /// The lexicographic order of points on a line is their order along it.
-std::vector<std::uint32_t> CollapsedTriangles::within(std::uint32_t from, std::uint32_t to) const {
+std::span<const std::uint32_t> CollapsedTriangles::inside(std::uint32_t from,
+                                                          std::uint32_t to) const {
     const auto line = line_of_.find({std::min(from, to), std::max(from, to)});
     if (line == line_of_.end()) return {};
     const auto& corners = corners_on_[line->second];
     const auto before = [&](std::uint32_t a, std::uint32_t b) { return points_[a] < points_[b]; };
     const auto [first, last] = std::minmax(from, to, before);
-    std::vector<std::uint32_t> result(
-        std::upper_bound(corners.begin(), corners.end(), first, before),
-        std::lower_bound(corners.begin(), corners.end(), last, before));
-    if (from != first) std::reverse(result.begin(), result.end());
-    return result;
+    return {std::upper_bound(corners.begin(), corners.end(), first, before),
+            std::lower_bound(corners.begin(), corners.end(), last, before)};
 }
 
 /// Cuts the triangle from the first point to the opposite corner, then divides both halves.

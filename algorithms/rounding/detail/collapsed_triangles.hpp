@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -34,9 +35,15 @@ public:
     /// Returns the points at which the sides of t must be divided. Cost: three look-ups if two
     /// corners of t are corners of lost triangles, else none.
     [[nodiscard]] PointsInSides within(const Triangle& t) const;
+    /// Returns their number, for the same cost.
+    [[nodiscard]] std::size_t count_within(const Triangle& t) const;
 
 private:
-    [[nodiscard]] std::vector<std::uint32_t> within(std::uint32_t from, std::uint32_t to) const;
+    /// Returns the points inside a side, from the lexicographically lower end on.
+    [[nodiscard]] std::span<const std::uint32_t> inside(std::uint32_t from, std::uint32_t to) const;
+    [[nodiscard]] bool is_concerned(const Triangle& t, unsigned i) const {
+        return is_corner_[t[i]] && is_corner_[t[(i + 1) % 3]];
+    }
 
     std::span<const Point3> points_;
     std::vector<bool> is_corner_;           ///< per point: whether a lost triangle has it

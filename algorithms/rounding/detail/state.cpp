@@ -13,6 +13,7 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
+#include <terrane/algorithms/rounding/detail/tuning.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane::rounding::detail {
@@ -254,8 +255,12 @@ bool RoundingState::tidy(const Run& run) {
 }
 
 /// Divides triangles at the points of collapsed triangles inside their sides. These points become
-/// dirty, because the corners between which they lie may be. Returns whether there are any.
+/// dirty, because the corners between which they lie may be. Returns whether it divided any.
 bool RoundingState::divide_sides(const CollapsedTriangles& lines) {
+    std::size_t inside = 0; // each divides a triangle in two
+    for (const Triangle& t : triangles) inside += lines.count_within(t);
+    is_torn |= inside > (rounding_tuning.multiplied - 1) * triangles.size();
+    if (inside == 0 || is_torn) return false;
     std::vector<Triangle> fresh;
     IndexLists<std::uint32_t> faces_of;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
@@ -266,7 +271,6 @@ bool RoundingState::divide_sides(const CollapsedTriangles& lines) {
         for (const auto& side : within)
             for (const std::uint32_t v : side) is_dirty[v] = true;
     }
-    if (fresh.size() == triangles.size()) return false;
     replace_triangles(std::move(fresh), faces_of);
     return true;
 }

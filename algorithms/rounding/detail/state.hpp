@@ -24,7 +24,8 @@ class CollapsedTriangles;
 ///     triangles without a dirty corner meet properly.
 /// (2) The parts of an input triangle stay connected, whatever moves, merges or collapses. When
 ///     triangles that became lines are dropped, the sides that met there are divided at the same
-///     points and therefore coincide again. So no move opens a slit between parts.
+///     points and therefore coincide again. So no move opens a slit between parts. Where that would
+///     multiply the triangles, the mesh is torn, and nothing moves any more.
 struct RoundingState {
     std::vector<Point3> points;
     std::vector<double> move;       ///< per point: upper bound of the distance from its exact point
@@ -39,6 +40,7 @@ struct RoundingState {
     std::size_t collapsed = 0;   ///< number of triangles that lost their area
     double deviation = 0;        ///< sum of the largest moves of all ended rounds
     double gaps = 0;             ///< sum of the largest gaps of all ended rounds
+    bool is_torn = false; ///< whether sides that met at dropped triangles do not coincide; see (2)
     std::vector<std::uint32_t>
         found_dirty; ///< dirty_triangles(), if the last tidy() changed nothing
 
@@ -62,8 +64,9 @@ struct RoundingState {
     void move_into(std::span<const Point3> cells, const Snap& snap);
 
     /// Merges equal points, drops triangles without area, divides the sides of their neighbours at
-    /// their corners and joins equal triangles. Returns whether anything changed. Cost: a pass over
-    /// all points, and exact tests for triangles with dirty corners only.
+    /// their corners and joins equal triangles. Returns whether anything changed. If division would
+    /// multiply the triangles, the mesh is torn instead. Cost: a pass over all points, and exact
+    /// tests for triangles with dirty corners only.
     bool tidy(const Run& run);
 
     /// Replaces all triangles by new ones. faces_of lists for each the old triangles that contain

@@ -2,6 +2,7 @@
 #include "support/read.hpp"
 #include "support/rounded.hpp"
 
+#include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/rounding/detail/attempt.hpp>
 #include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
@@ -10,9 +11,11 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <set>
@@ -146,9 +149,27 @@ TEST_CASE(
 TEST_CASE("parents in contact: rounding tells them from a sample where contacts are crowded") {
     const auto a = of_regression("016-crowded-contacts-listed.obj");
     const auto naive = rounded(a, {.max_rounds = 0});
-    REQUIRE(naive.report.naive_contacts > ParentsInContact::most_contacts);
-    REQUIRE(naive.report.contacts.size() == naive.report.naive_contacts);
-    const auto all = parents_in_contact(naive);
+    const Mesh& mesh = *naive.mesh;
+    std::vector<std::uint32_t> each(mesh.triangles.size());
+    std::iota(each.begin(), each.end(), 0U);
+    auto contacts =
+        candidate_pairs_of({mesh.vertices, mesh.triangles}, each, {},
+                           [&](const CandidatePair& p) {
+                               return improper_contact(mesh.vertices, mesh.triangles[p.first],
+                                                       mesh.triangles[p.second])
+                                   .has_value();
+                           },
+                           {});
+    std::sort(contacts.begin(), contacts.end());
+    REQUIRE(contacts.size() > 4 * a.triangles.size());
+    const auto all = parents_in_contact(contacts, mesh.parents_of);
+
+    CHECK(naive.report.naive_contacts > ParentsInContact::most_contacts);
+    REQUIRE(naive.report.contacts.size() == ParentsInContact::most_contacts + 1);
+    for (std::size_t k = 0; k < naive.report.contacts.size(); ++k) // the first of them
+        if (naive.report.contacts[k].triangles != std::array{contacts[k].first, contacts[k].second})
+            FAIL("contact " << k);
+
     const RoundingOptions options;
     const MovedInput unmoved;
     std::optional<ParentsInContact> first;

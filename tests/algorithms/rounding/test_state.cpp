@@ -47,6 +47,30 @@ TEST_CASE("rounding: triangles that became a line leave no corner inside their n
     CHECK_FALSE(state.tidy({}));
 }
 
+TEST_CASE(
+    "rounding: where the sides at collapsed triangles would multiply them, the mesh is torn") {
+    // A line of collapsed triangles at the spine of a book.
+    constexpr std::uint32_t pages = 12;
+    for (const std::uint32_t steps : {4U, 40U}) {
+        std::vector<Point3> points;
+        std::vector<Triangle> triangles;
+        for (std::uint32_t k = 0; k <= steps; ++k) points.push_back({double(k), 0, 0});
+        for (std::uint32_t p = 0; p < pages; ++p) {
+            triangles.push_back({0, steps, static_cast<std::uint32_t>(points.size())});
+            points.push_back({1, double(p) - 5, 7});
+        }
+        for (std::uint32_t k = 1; k < steps; ++k) triangles.push_back({0, k, k + 1});
+        auto state = state_of(points, triangles);
+        CHECK(state.tidy({}));
+        CHECK(state.collapsed == steps - 1);
+        CHECK(state.is_torn == (steps == 40));
+        if (state.is_torn)
+            CHECK(state.triangles == std::vector(triangles.begin(), triangles.begin() + pages));
+        else
+            CHECK(state.triangles.size() == pages * steps);
+    }
+}
+
 TEST_CASE("rounding: gaps are lines that collapsed triangles leave") {
     // Of each state triangle 0 remains, and the others are lines.
     SECTION("a line within a side of the triangle is no gap") {
