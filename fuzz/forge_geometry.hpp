@@ -48,14 +48,16 @@ inline double distance(const Point3& p, const Point3& a, const Point3& b) {
     return length(p - along(a, along_side, t));
 }
 
-/// Returns the distance of a point from a triangle.
+/// Returns the distance of a point from a triangle. In doubles the plane of a thin triangle is known
+/// worse than its sides, which are never nearer than the plane.
 inline double distance(const Point3& p, const std::array<Point3, 3>& t) {
     const Point3 normal = cross(t[1] - t[0], t[2] - t[0]);
     bool inside = length(normal) > 0;
     for (std::size_t i = 0; i < 3; ++i)
         inside = inside && dot(cross(t[(i + 1) % 3] - t[i], p - t[i]), normal) >= 0;
-    if (inside) return std::abs(dot(p - t[0], normal)) / length(normal);
-    return std::min({distance(p, t[0], t[1]), distance(p, t[1], t[2]), distance(p, t[2], t[0])});
+    const double to_sides =
+        std::min({distance(p, t[0], t[1]), distance(p, t[1], t[2]), distance(p, t[2], t[0])});
+    return inside ? std::min(to_sides, std::abs(dot(p - t[0], normal)) / length(normal)) : to_sides;
 }
 
 } // namespace terrane::fuzz

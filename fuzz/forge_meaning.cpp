@@ -167,11 +167,12 @@ std::string parts_flaw(const std::array<Point3, 3>& whole, const RoundedClaim& c
     const Point3 normal = area_vector(whole);
     const double area = length(normal), around = perimeter(whole);
     const double slack = 8 * accepted * around + 1e-9 * area;
+    const double of_plane = 1e-15 * around * around * around / area; // error of distances from it
     for (const auto& [t, first] : parts) {
         const auto part = corners(claim.vertices, claim.triangles[t]);
         if (first && dot(area_vector(part), normal) < -slack * area) return "a side";
         for (const Point3& p : part)
-            if (distance(p, whole) > 1.001 * accepted + 1e-12 * (around + length(p)))
+            if (distance(p, whole) > 1.001 * accepted + 1e-12 * (around + length(p)) + of_plane)
                 return "a corner outside of its parent";
     }
     const auto sums = moments_of(claim, parts);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
@@ -64,7 +65,8 @@ public:
         bool any = false;
         for (bool moved = true; moved && !run_.stop.stop_requested();) {
             moved = false;
-            for (const std::uint32_t v : vertices_) moved = improve(v) || moved;
+            for (const std::uint32_t v : vertices_)
+                if (around_.at(v).is_new) moved = improve(v) || moved;
             any = any || moved;
             if (moved) state_.end_round(); // so far each vertex has moved once at most
         }
@@ -72,11 +74,20 @@ public:
     }
 
 private:
+    /// What is around a vertex that may move.
+    struct Around {
+        std::vector<std::uint32_t> star;    ///< its triangles
+        std::vector<CandidatePair> pairs;   ///< of one of its triangles with one near it
+        std::vector<std::uint32_t> corners; ///< all other corners of these triangles
+        bool is_new = true;                 ///< whether anything moved since it did not improve
+    };
+
     void find_vertices(std::span<const CandidatePair> pairs);
     void find_near();
     bool improve(std::uint32_t v);
-    [[nodiscard]] std::size_t contacts_at(std::uint32_t v, std::size_t most) const;
-    [[nodiscard]] bool is_possible(std::uint32_t v) const;
+    std::size_t contacts_in(Around& around, std::size_t most) const;
+    [[nodiscard]] bool is_possible(std::uint32_t v, const Around& around) const;
+    void note_move(const Around& around);
     [[nodiscard]] bool meet_improperly(std::uint32_t t, std::uint32_t u) const;
 
     RoundingState& state_;
@@ -84,11 +95,8 @@ private:
     const double limit_;
     const Run& run_;
     const std::vector<Steps> steps_;
-    std::vector<std::uint32_t> vertices_;                       ///< may move: most contacts first
-    std::map<std::uint32_t, std::vector<std::uint32_t>> stars_; ///< their triangles
-    std::map<std::uint32_t, std::vector<CandidatePair>>
-        around_; ///< per vertex: pairs of one of its
-                 ///< triangles with one near it
+    std::vector<std::uint32_t> vertices_;    ///< may move: most contacts first
+    std::map<std::uint32_t, Around> around_; ///< per vertex that may move
 };
 
 void NeighbourSearch::find_vertices(std::span<const CandidatePair> pairs) {
@@ -110,7 +118,7 @@ void NeighbourSearch::find_near() {
     for (std::uint32_t t = 0; t < state_.triangles.size(); ++t)
         for (const std::uint32_t v : state_.triangles[t])
             if (may_move[v]) {
-                stars_[v].push_back(t);
+                around_[v].star.push_back(t);
                 active.push_back(t);
             }
     sort_unique(active);
@@ -119,49 +127,55 @@ void NeighbourSearch::find_near() {
     for (const CandidatePair& p : near) {
         std::vector<std::uint32_t> corners;
         for (const std::uint32_t t : {p.first, p.second})
-            for (const std::uint32_t v : state_.triangles[t])
-                if (may_move[v]) corners.push_back(v);
+            corners.insert(corners.end(), state_.triangles[t].begin(), state_.triangles[t].end());
         sort_unique(corners);
-        for (const std::uint32_t v : corners) around_[v].push_back(p);
+        for (const std::uint32_t v : corners) {
+            if (!may_move[v]) continue;
+            Around& around = around_[v];
+            around.pairs.push_back(p);
+            for (const std::uint32_t w : corners)
+                if (w != v) around.corners.push_back(w);
+        }
     }
+    for (auto& [v, around] : around_) sort_unique(around.corners);
 }
 
 bool NeighbourSearch::meet_improperly(std::uint32_t t, std::uint32_t u) const {
     return improper_contact(state_.points, state_.triangles[t], state_.triangles[u]).has_value();
 }
 
-/// Returns the number of pairs round v that meet improperly, or `most` if it is not less.
-std::size_t NeighbourSearch::contacts_at(std::uint32_t v, std::size_t most) const {
-    const auto at = around_.find(v);
-    if (at == around_.end()) return 0;
+/// Returns the number of pairs that meet improperly, or `most` if it is not less. These come first
+/// the next time, as pairs that met often still do.
+std::size_t NeighbourSearch::contacts_in(Around& around, std::size_t most) const {
     std::size_t count = 0;
-    for (const CandidatePair& p : at->second) {
-        if (count >= most) break;
-        count += meet_improperly(p.first, p.second) ? 1 : 0;
-    }
+    for (std::size_t k = 0; k < around.pairs.size() && count < most; ++k)
+        if (meet_improperly(around.pairs[k].first, around.pairs[k].second))
+            std::swap(around.pairs[count++], around.pairs[k]);
     return count;
 }
 
 /// Tells whether the triangles of v have areas, and no other point near is where v is.
-bool NeighbourSearch::is_possible(std::uint32_t v) const {
+bool NeighbourSearch::is_possible(std::uint32_t v, const Around& around) const {
     const auto& points = state_.points;
-    for (const std::uint32_t t : stars_.at(v)) {
+    for (const std::uint32_t t : around.star) {
         const Triangle& c = state_.triangles[t];
         if (collinear(points[c[0]], points[c[1]], points[c[2]])) return false;
     }
-    const auto at = around_.find(v);
-    if (at == around_.end()) return true;
-    return std::all_of(at->second.begin(), at->second.end(), [&](const CandidatePair& p) {
-        for (const std::uint32_t t : {p.first, p.second})
-            for (const std::uint32_t w : state_.triangles[t])
-                if (w != v && points[w] == points[v]) return false;
-        return true;
-    });
+    return std::none_of(around.corners.begin(), around.corners.end(),
+                        [&](std::uint32_t w) { return points[w] == points[v]; });
+}
+
+/// Notes that a vertex has moved. Others that are not near would find what they have found before.
+void NeighbourSearch::note_move(const Around& around) {
+    for (const std::uint32_t w : around.corners)
+        if (const auto at = around_.find(w); at != around_.end()) at->second.is_new = true;
 }
 
 /// Moves v to the nearest place with the fewest contacts, if there are fewer than now.
 bool NeighbourSearch::improve(std::uint32_t v) {
-    std::size_t fewest = contacts_at(v, SIZE_MAX);
+    Around& around = around_.at(v);
+    around.is_new = false;
+    std::size_t fewest = contacts_in(around, SIZE_MAX);
     if (fewest == 0) return false;
     const Point3 from = state_.points[v];
     std::optional<Point3> best;
@@ -171,15 +185,18 @@ bool NeighbourSearch::improve(std::uint32_t v) {
                         stepped(from.z, s[2], kept_[2])};
         if (state_.deviation + distance(from, to) > limit_) continue;
         state_.points[v] = to;
-        if (!is_possible(v)) continue;
-        const std::size_t count = contacts_at(v, fewest);
+        if (!is_possible(v, around)) continue;
+        const std::size_t count = contacts_in(around, fewest);
         if (count >= fewest) continue;
         fewest = count;
         best = to;
     }
     state_.points[v] = from;
-    if (best) state_.move_point(v, *best);
-    return best.has_value();
+    if (!best) return false;
+    state_.move_point(v, *best);
+    around.is_new = true; // it may gain more from there
+    note_move(around);
+    return true;
 }
 
 } // namespace
