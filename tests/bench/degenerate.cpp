@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Measures how the cost of arranging and rounding grows with the result for inputs in which
-// everything coincides. Each family is measured at n, 2 n and 4 n, each in a process of its own,
-// since a peak of memory never falls. The last row of a family states the exponents fitted to its
-// three sizes. The size of a result is the number of its triangles, of their parents and of the neighbours of regions: n
-// coplanar triangles, each in the next, have 2 n - 1 parts with n^2 parents, and n regions that
-// meet at one edge have n - 1 neighbours each.
+// Measures how the cost of arranging and rounding grows with the result, for inputs in which
+// everything coincides. It measures each family at n, 2 n and 4 n, and starts a process for each
+// size, because the peak memory of a process never falls. The last row of a family states the
+// exponents that fit its three sizes. The size of a result counts its triangles, their parents and
+// the neighbours of regions: n coplanar triangles, each in the next, have 2 n - 1 parts with n^2
+// parents, and n regions that meet at one edge have n - 1 neighbours each.
 //   terrane_bench_degenerate [--exact] [--wall] [FAMILY...]
 // --exact: without rounding. Seconds are those of the processor, or with --wall of a clock.
 #include <malloc.h>

@@ -139,8 +139,8 @@ private:
     RoundingState state_;
     std::optional<CrowdedContacts> crowd_; ///< of the first search, unless it repairs all
     std::vector<std::uint32_t> sample_;    ///< of parts, if it tells enough of a full crowd
-    bool ends_when_full_ = false;          ///< the first search
-    std::stop_source full_;                ///< of the first search, if it ends then
+    bool ends_when_full_ = false;          ///< whether the first search ends once the crowd is full
+    std::stop_source full_;                ///< stops the first search then
     bool is_hopeless_ = false;             ///< whether nothing was repaired
     std::optional<ParentsInContact> left_;
     FirstSearch first_search_;       ///< how the first search decided pairs, if they are counted

@@ -39,7 +39,7 @@ public:
     [[nodiscard]] std::size_t count_within(const Triangle& t) const;
 
 private:
-    /// Returns the points inside a side, from the lexicographically lower end on.
+    /// Returns the points inside a side, in lexicographic order.
     [[nodiscard]] std::span<const std::uint32_t> inside(std::uint32_t from, std::uint32_t to) const;
     [[nodiscard]] bool is_concerned(const Triangle& t, unsigned i) const {
         return is_corner_[t[i]] && is_corner_[t[(i + 1) % 3]];

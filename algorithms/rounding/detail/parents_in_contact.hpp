@@ -35,8 +35,8 @@ ParentsInContact parents_in_contact(std::span<const CandidatePair> contacts,
 /// Does the same for the contacts that remain after rounding.
 ParentsInContact parents_in_contact(const RoundedMesh& rounded);
 
-/// Returns a sample of the triangles, ascending. It has all parts of a first parent with fewer than
-/// `parts`. Of another one it has at least `parts`, evenly chosen, and fewer than twice as many.
+/// Returns a sample of the triangles, ascending. If a first parent has fewer than `parts` parts, the
+/// sample contains them all. Otherwise it contains `parts` to 2 * `parts` - 1 of them, evenly chosen.
 std::vector<std::uint32_t> sample_of_parts(const IndexLists<std::uint32_t>& parents_of,
                                            std::size_t input_triangles, std::size_t parts);
 

@@ -24,8 +24,8 @@ class CollapsedTriangles;
 ///     triangles without a dirty corner meet properly.
 /// (2) The parts of an input triangle stay connected, whatever moves, merges or collapses. When
 ///     triangles that became lines are dropped, the sides that met there are divided at the same
-///     points and therefore coincide again. So no move opens a slit between parts. Where that would
-///     multiply the triangles, the mesh is torn, and nothing moves any more.
+///     points and therefore coincide again. So no move opens a slit between parts. If this would
+///     multiply the triangles, the sides stay undivided: the mesh is torn, and no point may move.
 struct RoundingState {
     std::vector<Point3> points;
     std::vector<double> move;       ///< per point: upper bound of the distance from its exact point

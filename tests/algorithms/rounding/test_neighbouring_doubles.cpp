@@ -74,7 +74,7 @@ double stepped(double x, int steps) {
     return x;
 }
 
-/// A vertex, and the pairs that its triangles were in when the search began.
+/// A vertex, and the pairs of its triangles with those whose boxes overlapped theirs before the search.
 struct Vertex {
     std::uint32_t index;
     std::vector<CandidatePair> pairs{};
