@@ -329,6 +329,16 @@ bool has_several_files(Format format) {
     return format == Format::ugi || format == Format::ogs || format == Format::geos;
 }
 
+bool may_be_beside(Format format, const fs::path& first, const fs::path& other) {
+    if (!has_several_files(format)) return false;
+    const auto extension = other.extension();
+    const bool fits =
+        format == Format::ugi ? extension == ".txt" || extension == ".ss" : extension == ".vtu";
+    const auto folder_of = [](const fs::path& file) { return fs::absolute(file).parent_path(); };
+    return fits && other.filename().string().starts_with(first.stem().string() + "_") &&
+           are_same(folder_of(first), folder_of(other));
+}
+
 std::optional<Format> format_named(std::string_view name) {
     for (const auto& [known, format] : names)
         if (same_ignoring_case(name, known)) return format;

@@ -11,14 +11,16 @@
 #include <system_error>
 #include <vector>
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/volume_options.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/stages/kept_stages.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/file_set.hpp>
+#include <terrane/io/files.hpp>
 #include <terrane/io/meshes/pvtp.hpp>
 #include <terrane/io/project_inputs.hpp>
 
@@ -222,6 +224,34 @@ Status check_project_files(const CLI::App& command, const Project& project) {
     if (auto sound = check_inputs_stay(outputs, inputs); !sound) return sound;
     if (FileSet::current() != nullptr)
         for (const NamedFile& in : inputs) FileSet::current()->keep(in.path);
+    return Done{};
+}
+
+Status check_files_beside(const CLI::App& command, const std::vector<Output>& outputs) {
+    const FilesOfCommand files = files_of(command);
+    std::vector<NamedFile> named = files.inputs;
+    for (const NamedFile& file : files.outputs) named.push_back(file);
+    for (const Output& output : outputs) {
+        const auto refused = [&](const fs::path& file, const std::string& option) {
+            return Error{ErrorCode::bad_option,
+                         fmt::format("{} may be one of the files beside {}, whose names begin with "
+                                     "{}_",
+                                     file.string(), output.path,
+                                     fs::path(output.path).stem().string()),
+                         option};
+        };
+        for (const NamedFile& file : named)
+            if (may_be_beside(output.format, output.path, followed(file.path)))
+                return refused(file.path, file.option);
+        for (const Output& other : outputs) {
+            const fs::path path = other.path;
+            const auto beside =
+                path.parent_path() /
+                (path.stem().string() + "_" + (other.format == Format::ugi ? ".ss" : ".vtu"));
+            if (&other != &output && may_be_beside(output.format, output.path, beside))
+                return refused("a file beside " + other.path, "--output");
+        }
+    }
     return Done{};
 }
 

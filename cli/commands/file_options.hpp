@@ -7,6 +7,7 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/project/project.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/files.hpp>
 
 namespace terrane::cli {
 
@@ -19,6 +20,10 @@ Status check_file_options(const CLI::App& command);
 /// Does the same for a command that builds a project, with all files that this names and the folder
 /// of its results, and keeps the files from being replaced later.
 Status check_project_files(const CLI::App& command, const Project& project);
+
+/// Refuses, before any work, a command of which an output or an input may be one of the files beside an
+/// output of tetrahedra. Errors: bad_option with the option.
+Status check_files_beside(const CLI::App& command, const std::vector<Output>& outputs);
 
 /// Returns the files that the command reads, without those that it is asked to replace.
 std::vector<std::filesystem::path> files_to_keep(const CLI::App& command);

@@ -18,6 +18,7 @@
 #include <terrane/algorithms/tetgen/fill_blocks.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/commands/file_options.hpp>
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/column.hpp>
 #include <terrane/cli/options/roles.hpp>
@@ -190,6 +191,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (!wishes) return wishes.error();
     const auto outputs = plan_outputs(files, OutputKind::tetrahedra);
     if (!outputs) return outputs.error();
+    if (const auto sound = check_files_beside(*files.app, *outputs); !sound) return sound.error();
     if (const auto sound = check_call(command, *outputs); !sound) return sound.error();
     auto page = plan_page(files);
     if (!page) return page.error();

@@ -295,15 +295,35 @@ TEST_CASE("cli: build replaces no file that the project names", "[cli][outputs]"
 TEST_CASE("cli: files beside an output are not replaced by another one", "[cli][outputs]") {
     const Inputs in;
     const std::string mesh = "tetrahedralize" + bounded + "--quiet ";
+    const std::string begins = ", whose names begin with t_";
     in.check_refused(mesh + "-o t.vtm --output-format geos --stats t_main.vtu",
-                     "t_main.vtu: two results of this run would be in the same place");
-    in.check_refused(mesh + "-o t.ugi --stats ./t_below_base.txt", "t_below_base.txt: two results");
-    in.check_refused(mesh + "-o t.vtu --output-format ogs -o t_F_front.vtu",
-                     "t_F_front.vtu: two results");
-    REQUIRE(in.folder.shell("cp in/fault.obj t_below_base.txt").status == 0);
+                     "--stats: t_main.vtu may be one of the files beside t.vtm" + begins);
+    in.check_refused(mesh + "-o ./t.ugi --stats $PWD/t_below_base.txt",
+                     "may be one of the files beside ./t.ugi" + begins);
+    in.check_refused(mesh + "-o t.ugi --report t_below_base.ss", "beside t.ugi" + begins);
+    in.check_refused(mesh + "-o t.vtu --output-format ogs -o t_F_front.vtu", "t.vtu" + begins);
+    for (const char* const other : {"t_a.vtm", "./t.vtu", "$PWD/t_.vtm"})
+        in.check_refused(mesh + "-o t.vtm --output-format geos -o " + other, begins);
     in.check_refused("tetrahedralize in/in.obj t_below_base.txt --input-format obj --box "
                      "0,0,0,8,8,8 --quiet -o t.ugi",
-                     "t_below_base.txt: a result of this run would replace this file");
+                     "IN: t_below_base.txt may be one of the files beside t.ugi" + begins);
+    // A link to a name that may be taken is that name.
+    REQUIRE(in.folder.shell("ln -s t_main.vtu other.json; mkdir t_more").status == 0);
+    in.check_refused(mesh + "-o t.vtm --output-format geos --stats other.json", "beside t.vtm");
+    const auto apart = in.folder.run(mesh + "-o t.vtm --output-format geos -o t_more/t.vtm "
+                                            "--stats t_main.json --report t.html");
+    INFO(apart.err);
+    CHECK(apart.status == 0);
+}
+
+TEST_CASE("cli: a file beside an output takes the place of no other, whatever names are",
+          "[cli][outputs]") {
+    // The link is in the place of a file that is known when blocks are.
+    const Inputs in;
+    REQUIRE(in.folder.shell("ln -s s.json t_main.vtu").status == 0);
+    in.check_refused("tetrahedralize" + bounded +
+                         "--quiet -o t.vtm --output-format geos --stats s.json",
+                     "two results of this run would be in the same place");
 }
 
 TEST_CASE("cli: pieces of a mesh are not replaced by another output", "[cli][outputs]") {

@@ -198,7 +198,7 @@ TEST_CASE("parents in contact: rounding tells them from a sample where contacts 
 
 // Its first attempt has a million contacts. To divide the triangles there took minutes.
 TEST_CASE("rounding: an attempt with hopelessly many contacts is left") {
-    const auto a = of_regression("018-attempts-beyond-repair.obj");
+    const auto a = of_regression("slow/018-attempts-beyond-repair.obj");
     most_searched = 0;
     terrane::detail::work_hook = note_searched;
     const auto r = rounded(a, {.max_move = 1e30});
