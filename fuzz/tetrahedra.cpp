@@ -98,10 +98,11 @@ std::string flaw(std::span<const Surface> surfaces) {
                    : "a mesh that is not conforming is not refused as such";
     if (!made) {
         const Error& error = made.error();
+        const bool without_helper = error.code == ErrorCode::cannot_open; // nothing was looked at
         const bool by_tetgen = error.sentence.find("TetGen") != std::string::npos;
         const bool allowed = error.code == ErrorCode::unsupported ||
                              error.code == ErrorCode::bad_number || by_tetgen;
-        return allowed ? "" : error.message();
+        return allowed && !without_helper ? "" : error.message();
     }
     if (!std::equal(mesh.vertices.begin(), mesh.vertices.end(), made.value().vertices.begin()))
         return "a vertex of the mesh was moved";

@@ -222,6 +222,10 @@ void Rounding::report_moves() {
     r.surface_deviation = deviation();
     r.max_allowed = task_.limit;
     r.lost_length = state_.total_gaps();
+    if (r.lost_length > 0) // a sum over rounds, each of which can lose all of a needle
+        r.lost_length =
+            std::min(r.lost_length, largest_distance(state_.points, state_.triangles,
+                                                     arrangement_.state->points.inputs()));
     r.deviation = r.lost_length == 0 ? r.surface_deviation
                                      : (r.surface_deviation + r.lost_length) * (1 + 0x1p-51);
     std::vector<double> moves = state_.move;

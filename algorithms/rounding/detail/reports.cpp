@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
@@ -44,6 +45,20 @@ std::vector<std::uint32_t> vanished(const Arrangement& a,
         if (!present[p]) result.push_back(p);
     sort_unique(result);
     return result;
+}
+
+double largest_distance(std::span<const Point3> points, std::span<const Triangle> triangles,
+                        std::span<const Point3> others) {
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    Point3 low{inf, inf, inf}, high{-inf, -inf, -inf};
+    const auto add = [&](const Point3& p) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    };
+    for (const Triangle& t : triangles)
+        for (const std::uint32_t v : t) add(points[v]);
+    for (const Point3& p : others) add(p);
+    return length_bound(high.x - low.x, high.y - low.y, high.z - low.z);
 }
 
 std::array<std::size_t, 32> decades_of(std::span<const double> moves) {

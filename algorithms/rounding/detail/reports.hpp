@@ -21,6 +21,10 @@ namespace terrane::rounding::detail {
 std::vector<std::uint32_t> vanished(const Arrangement& arrangement,
                                     const IndexLists<std::uint32_t>& parents_of);
 
+/// Returns a bound for the distances between corners of triangles and other points.
+double largest_distance(std::span<const Point3> points, std::span<const Triangle> triangles,
+                        std::span<const Point3> others);
+
 /// Counts moves of vertices in decades: see RoundingReport::moves.
 std::array<std::size_t, 32> decades_of(std::span<const double> moves);
 
