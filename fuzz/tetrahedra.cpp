@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 namespace terrane::fuzz {
@@ -63,8 +64,8 @@ std::string volume_flaw(const TetrahedralMesh& mesh) {
     return sum == 6 * size[0] * size[1] * size[2] ? "" : "the volumes do not add up to the box";
 }
 
-/// Compares faces with triangles: an undivided face equals its triangle; the normals of parts,
-/// which are not rounded, add up to that of the triangle.
+/// Compares faces with triangles: an undivided one equals its triangle; the normals of parts, whose
+/// new corners are rounded, add up to that of the triangle but for rounding.
 std::string faces_flaw(const Mesh& mesh, const TetrahedralMesh& made) {
     std::map<std::uint32_t, Vector> sums;
     std::map<std::uint32_t, std::size_t> parts;
@@ -77,9 +78,16 @@ std::string faces_flaw(const Mesh& mesh, const TetrahedralMesh& made) {
         ++parts[t];
     }
     if (sums.size() != mesh.triangles.size()) return "a triangle without a face";
-    for (const auto& [t, sum] : sums)
-        if (parts[t] == 1 && sum != normal(mesh.vertices, mesh.triangles[t]))
-            return "a face is not the triangle that it names";
+    Rational largest = 0;
+    for (const Point3& p : made.vertices)
+        for (const double c : {p.x, p.y, p.z}) largest = std::max(largest, Rational(std::fabs(c)));
+    const Rational rounding = largest * largest * Rational(0x1p-44);
+    for (const auto& [t, sum] : sums) {
+        const Vector whole = normal(mesh.vertices, mesh.triangles[t]);
+        if (parts[t] == 1 && sum != whole) return "a face is not the triangle that it names";
+        for (unsigned k = 0; k < 3; ++k)
+            if (abs(sum[k] - whole[k]) > rounding) return "parts of a triangle do not add up to it";
+    }
     return "";
 }
 
@@ -89,7 +97,9 @@ std::string flaw(std::span<const Surface> surfaces) {
     const auto arranged = arrange(surfaces);
     if (!arranged) return arranged.error().message();
     const auto rounded = round_to_doubles(arranged.value());
-    if (!rounded || rounded.value().mesh->triangles.empty()) return "";
+    if (!rounded) // what is constructed may be beyond the largest double
+        return rounded.error().code == ErrorCode::bad_number ? "" : rounded.error().message();
+    if (rounded.value().mesh->triangles.empty()) return "";
     const Mesh& mesh = rounded.value().mesh;
     const auto made = tetrahedralize(mesh, {.time_limit = 1}, {}); // TetGen may loop for ever
     if (!rounded.value().report.clean)

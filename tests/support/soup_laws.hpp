@@ -13,6 +13,7 @@
 #include <terrane/algorithms/verify/verify_certificate.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -114,6 +115,32 @@ inline std::string idempotence_flaw(const Mesh& mesh) {
     return "";
 }
 
+/// Checks the sentences about --max-move: the limit is 1024 spacings of the doubles at the largest
+/// coordinate, or what was asked for, and no part of a surface is farther from its input triangle
+/// than is said, which keeps the limit. What vanished has no part.
+inline std::string movement_flaw(const Surfaces& surfaces, const Arrangement& a,
+                                 const RoundedMesh& rounded, const RoundingOptions& options) {
+    const RoundingReport& report = rounded.report;
+    double largest = 0;
+    for (const Surface& s : surfaces)
+        for (const Point3& p : s.vertices)
+            largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    const double spacing =
+        std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
+    const double allowed = options.max_move.value_or(largest == 0 ? 0x1p-1000 : 1024 * spacing);
+    if (!(report.max_allowed <= allowed)) return "more movement is allowed than is documented";
+    if (!(report.surface_deviation <= report.max_allowed))
+        return "surfaces are said to be farther away than is allowed";
+    auto claim = claim_of(a, rounded);
+    claim.deviation = report.surface_deviation;
+    const auto verdict = verify_rounded(surfaces, test_support::claim_of(a), claim,
+                                        {.max_deviation = std::numeric_limits<double>::max()});
+    const auto far = std::ranges::find_if(verdict.violations, [](const Violation& v) {
+        return v.rule == Rule::R13_deviation && v.elements.size() == 2; // a corner and a parent
+    });
+    return far == verdict.violations.end() ? "" : sentence({&*far, 1});
+}
+
 /// Checks that the rounded mesh is conforming or stated not to be, and that its other claims are
 /// true.
 inline std::string rounding_flaw(const Surfaces& surfaces, const Arrangement& a,
@@ -139,6 +166,7 @@ inline std::string rounding_flaw(const Surfaces& surfaces, const Arrangement& a,
                std::ranges::binary_search(rounded.report.vanished, v.elements[0]);
     });
     if (!broken.empty()) return sentence(broken);
+    if (auto what = movement_flaw(surfaces, a, rounded, options); !what.empty()) return what;
     return rounded.report.clean ? idempotence_flaw(rounded.mesh) : "";
 }
 
