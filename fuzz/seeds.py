@@ -5,6 +5,7 @@
 Every seed is a case with a name, in the language that the target reads its bytes in: see
 shapes.cpp, corefine.cpp, predicates.cpp, search.cpp and forge.cpp. The same files come out each time.
 """
+import base64
 import pathlib
 import struct
 import sys
@@ -408,6 +409,41 @@ def forge_sealed():
                 yield (f"{name}_{model}_{place}", bytes([3]) + change + bytes(16) + bytes([model]))
 
 
+def pieces():
+    """Numbers of which pieces are made, right and wrong, and files (pieces.cpp)."""
+    def piece(vertices, triangles):
+        made = bytes([0, 0, 0, len(vertices)]) + b"".join(bytes([v, 0]) for v in vertices)
+        return made + bytes([len(triangles)]) + b"".join(
+            bytes([0, number, *corners, 0, 1, 0]) for number, corners in triangles)
+
+    whole = piece([0, 1, 2, 3], [(1, (0, 1, 2)), (0, (1, 2, 3))])
+    yield "whole", bytes([0, 0]) + whole
+    yield "two", bytes([0, 1]) + piece([0, 1, 2], [(1, (0, 1, 2))]) + piece([2, 1, 3], [(0, (0, 1, 2))])
+    yield "three", bytes([0, 2]) + piece([2], []) + whole + piece([], [])
+    yield "gap", bytes([0, 0]) + piece([0, 1, 3], [(0, (0, 1, 2))])
+    yield "twice", bytes([0, 1]) + whole + whole
+    names = b'<VTKFile type="PPolyData"><PPolyData><Piece Source="0.vtp"/></PPolyData></VTKFile>'
+    points = base64_block("<9d", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+    array = '<DataArray type="%s" Name="%s" format="binary">%s</DataArray>'
+    def numbers(name, *values):
+        return array % ("Int64", name, base64_block("<%dq" % len(values), *values))
+    text = "116 111 112 0"
+    data = ('<VTKFile type="PolyData" header_type="UInt64"><PolyData><FieldData>'
+            f'<Array Name="surface_name">{text}</Array><Array Name="surface_role">0</Array></FieldData>'
+            f'<Piece><PointData>{numbers("GlobalNodeIds", 0, 1, 2)}</PointData>'
+            f'<CellData>{numbers("GlobalElementIds", 0)}{numbers("surface", 0)}{numbers("region", 0)}'
+            f'{numbers("parent", 0)}</CellData><Points>{array % ("Float64", "Points", points)}</Points>'
+            f'<Polys>{numbers("connectivity", 0, 1, 2)}</Polys></Piece></PolyData></VTKFile>')
+    yield "files", b"\1" + names + b"\x1e" + data.encode()
+    yield "no_piece", b"\1" + names
+
+
+def base64_block(form, *values):
+    """A block of binary data in VTK's XML formats, with its length before it."""
+    data = struct.pack(form, *values)
+    return base64.b64encode(struct.pack("<Q", len(data)) + data).decode()
+
+
 def other_programs():
     """Small files that VTK, gmsh and meshio wrote, by format, and DXF and GeoJSON as others write them."""
     data = pathlib.Path(__file__).parent.parent / "tests" / "data" / "other_programs"
@@ -457,7 +493,7 @@ def main():
                "forge_improved": forge_kind, "forge_filled": forge_kind,
                "forge_layered": lambda: forge_kind(5), "forge_cut": lambda: forge_kind(4, 1),
                "forge_sealed": forge_sealed,
-               "arrange": soups, "rounding": soups, "crowded": crowded, "regions": soups, "volumes": soups, "tetrahedra": soups}
+               "arrange": soups, "rounding": soups, "crowded": crowded, "pieces": pieces, "regions": soups, "volumes": soups, "tetrahedra": soups}
     seeds = {t: dict(make()) for t, make in targets.items()}
     for fmt, files in (FILES | other_programs()).items():
         seeds["read_" + fmt] = {n: f if isinstance(f, bytes) else f.encode()

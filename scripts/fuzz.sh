@@ -14,7 +14,7 @@ seconds=${1:-60}
 shift || true
 targets=("$@")
 [[ ${#targets[@]} -gt 0 ]] ||
-    targets=(corefine arrange rounding crowded tetrahedra predicates tri_tri search regions volumes
+    targets=(corefine arrange rounding crowded tetrahedra predicates tri_tri search regions volumes pieces
              forge_arrangement forge_volumes forge_tetrahedra forge_improved forge_filled
              forge_layered forge_cut forge_sealed
              read_ts read_ml read_obj read_off read_stl read_ply read_irap read_zmap read_cps3
@@ -34,6 +34,9 @@ rm -rf "$results" && mkdir -p "$results" "$findings" "$corpora"
 # Record only the innermost caller of each allocation: whole stacks took a third of the time.
 export ASAN_OPTIONS=malloc_context_size=1${ASAN_OPTIONS:+:$ASAN_OPTIONS}
 
+# The target pieces writes files for each input.
+[[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm
+
 # A finding ends the target, as the first finding is to be fixed first.
 run_target() {
     local target=$1 options=(-max_len=400 -len_control=10 -entropic=0)
@@ -43,7 +46,7 @@ run_target() {
     if [[ $target == read_* ]]; then
         options=(-max_len=4096 -malloc_limit_mb=256 "-dict=$PWD/fuzz/dictionaries/${target#read_}.dict")
     fi
-    [[ $target != forge_arrangement ]] || options[0]=-max_len=4096 # it has an OBJ file in it
+    [[ $target != forge_arrangement && $target != pieces ]] || options[0]=-max_len=4096 # with files in them
     # len_control lets inputs grow sooner. entropic is off, as its cost is linear in the features of
     # a run and took two thirds of the time.
     "$binaries/fuzz_$target" "${options[@]}" -seed="$seed" -max_total_time="$seconds" -timeout=20 \

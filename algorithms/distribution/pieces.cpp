@@ -52,6 +52,7 @@ Status PieceJoiner::add(const BlockPiece& piece) {
         m.parents_of.size() != count)
         return bad_piece("the lists of a piece do not fit its vertices and triangles");
     if (mesh_.surfaces.empty()) mesh_.surfaces = m.surfaces;
+    if (mesh_.surfaces != m.surfaces) return bad_piece("two pieces name different surfaces");
     for (std::size_t v = 0; v < m.vertices.size(); ++v) {
         const std::uint32_t id = piece.vertex_ids[v];
         if (id >= has_vertex_.size()) return bad_piece(fmt::format("there is no vertex {}", id));

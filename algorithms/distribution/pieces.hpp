@@ -22,7 +22,8 @@ class PieceJoiner {
 public:
     PieceJoiner(std::size_t vertices, std::size_t triangles);
 
-    /// Adds a piece. Errors: bad_index (law 2, or lists of the wrong length).
+    /// Adds a piece. Errors: bad_index (law 2, lists of the wrong length, or other surfaces than those
+    /// of the first piece).
     Status add(const BlockPiece& piece);
     /// Returns the mesh. Errors: bad_index (a number is missing).
     Result<Mesh> finish() &&;

@@ -2,7 +2,9 @@
 #include <terrane/io/meshes/pvtp.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -136,6 +138,8 @@ private:
         const auto x = values<double>(piece.child("Points").child("DataArray"), "Points");
         for (std::size_t i = 0; i + 2 < x.size(); i += 3)
             out_.mesh.vertices.push_back({x[i], x[i + 1], x[i + 2]});
+        if (!std::all_of(x.begin(), x.end(), [](double c) { return std::isfinite(c); }))
+            note("a coordinate is not finite");
         out_.vertex_ids = numbers(named(piece.child("PointData"), node_ids), node_ids);
     }
 
@@ -219,9 +223,13 @@ Result<std::vector<fs::path>> paths_of_pieces(const fs::path& path) {
         return Error{ErrorCode::bad_syntax, "this is no file in VTK's XML format PPolyData",
                      path.string()};
     std::vector<fs::path> pieces;
+    std::set<fs::path> named;
     for (const pugi::xml_node piece : data.children("Piece")) {
         auto found = path_of_piece(path, piece.attribute("Source").value());
         if (!found) return found.error();
+        if (!named.insert(*found).second)
+            return Error{ErrorCode::bad_syntax, "a piece is named twice: " + found->string(),
+                         path.string()};
         pieces.push_back(std::move(*found));
     }
     if (pieces.empty())
