@@ -493,7 +493,8 @@ def main():
                "forge_improved": forge_kind, "forge_filled": forge_kind,
                "forge_layered": lambda: forge_kind(5), "forge_cut": lambda: forge_kind(4, 1),
                "forge_sealed": forge_sealed,
-               "arrange": soups, "rounding": soups, "crowded": crowded, "pieces": pieces, "regions": soups, "volumes": soups, "tetrahedra": soups}
+               "arrange": soups, "rounding": soups, "crowded": crowded, "regions": soups,
+               "volumes": soups, "tetrahedra": soups, "pieces": pieces}
     seeds = {t: dict(make()) for t, make in targets.items()}
     for fmt, files in (FILES | other_programs()).items():
         seeds["read_" + fmt] = {n: f if isinstance(f, bytes) else f.encode()
