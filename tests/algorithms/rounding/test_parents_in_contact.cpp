@@ -54,8 +54,8 @@ void take_in(CrowdedContacts& crowd, std::span<const CandidatePair> pairs) {
         if (!crowd.adds_nothing(p)) crowd.add(p);
 }
 
-Arrangement of_regression(const char* file) {
-    return arranged(read_surfaces(test_data() + "/regression/" + file).value());
+Arrangement of_regression(const char* file, const char* folder = "/regression/") {
+    return arranged(read_surfaces(test_data() + folder + file).value());
 }
 
 std::atomic<std::size_t> most_searched{0}; ///< triangles of a mesh that is searched for contacts
@@ -198,7 +198,7 @@ TEST_CASE("parents in contact: rounding tells them from a sample where contacts 
 
 // Its first attempt has a million contacts. To divide the triangles there took minutes.
 TEST_CASE("rounding: an attempt with hopelessly many contacts is left") {
-    const auto a = of_regression("slow/018-attempts-beyond-repair.obj");
+    const auto a = of_regression("018-attempts-beyond-repair.obj", "/regression_slow/");
     most_searched = 0;
     terrane::detail::work_hook = note_searched;
     const auto r = rounded(a, {.max_move = 1e30});
