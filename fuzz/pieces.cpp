@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Property: a mesh in pieces is joined exactly if each number occurs as documented, all coordinates are
-// finite and all pieces name the same surfaces; the result is then what the numbers say, and can be
-// written and read. Any other bytes in the files give a mesh that can be written, or an error with a
-// sentence and a place.
-// The first byte tells which: if it is odd, files follow, with the byte 30 between them: the one that
-// names the pieces, then the pieces 0.vtp, 1.vtp, ...; else numbers follow, of which pieces are made.
+// Property: the reader of .pvtp files joins pieces if and only if each number occurs as documented, all
+// coordinates are finite and all pieces name the same surfaces. Other code joins the same pieces, and
+// both meshes are equal. For any other files, the reader returns a mesh that can be written, or an
+// error with a sentence and a place.
+// If the first byte is odd, the others are files, separated by the byte 30: the .pvtp file, then the
+// pieces 0.vtp, 1.vtp, ...; if it is even, they are numbers, of which the target makes pieces.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -65,9 +65,9 @@ bool holds_tetrahedra(Format format);
 bool holds_second_order(Format format);
 /// Whether tetrahedra in the format are several files, of which the user names the first.
 bool has_several_files(Format format);
-/// Tells whether tetrahedra in the format, with the first file at `first`, may need a file at `other`:
-/// the files beside STEM.EXT are named STEM_NAME and an extension, where NAME is known when all is
-/// computed.
+/// Tells whether a mesh of tetrahedra whose first file is `first` may have a file `other`. Its files are
+/// named STEM_NAME and an extension, where STEM is that of `first`, and NAME is that of a block or a
+/// surface.
 bool may_be_beside(Format format, const std::filesystem::path& first,
                    const std::filesystem::path& other);
 /// Whether the vertices or lines of surfaces, but not their triangles, can be written in the format.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Meshes in pieces: what fits together is joined, and all else is refused with the file. The fuzz
-// target `pieces` compares random ones with what their numbers say.
+// The reader of .pvtp files joins pieces that fit together, and names the file of a piece that does
+// not. The fuzz target `pieces` makes random pieces and joins them by other code.
 #include "support/files.hpp"
 
 #include <terrane/io/meshes/pvtp.hpp>

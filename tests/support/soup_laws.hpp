@@ -121,9 +121,9 @@ inline std::string idempotence_flaw(const Mesh& mesh) {
     return "";
 }
 
-/// Checks the sentences about --max-move: the limit is 1024 spacings of the doubles at the largest
-/// coordinate, or what was asked for, and no part of a surface is farther from its input triangle
-/// than is said, which keeps the limit. What vanished has no part.
+/// Checks what is documented about --max-move: its default is 1024 spacings of the doubles at the
+/// largest coordinate, surface_deviation is at most the limit, and no part of an input triangle is
+/// farther from it than surface_deviation.
 inline std::string movement_flaw(const Surfaces& surfaces, const RoundedMesh& rounded,
                                  const RoundingOptions& options) {
     const RoundingReport& report = rounded.report;
@@ -137,7 +137,7 @@ inline std::string movement_flaw(const Surfaces& surfaces, const RoundedMesh& ro
     if (!(report.max_allowed <= allowed)) return "more movement is allowed than is documented";
     if (!(report.surface_deviation <= report.max_allowed))
         return "surfaces are said to be farther away than is allowed";
-    // A triangle is convex, so no point of a part is farther away than its corners.
+    // The distance from a triangle is a convex function, so a corner of the part is the farthest point.
     std::vector<Point3> points;
     std::vector<Triangle> inputs;
     for (const Surface& surface : surfaces) {

@@ -222,7 +222,7 @@ void Rounding::report_moves() {
     r.surface_deviation = deviation();
     r.max_allowed = task_.limit;
     r.lost_length = state_.total_gaps();
-    if (r.lost_length > 0) // a sum over rounds, each of which can lose all of a needle
+    if (r.lost_length > 0) // it is a sum over rounds, and each can lose the same needle
         r.lost_length =
             std::min(r.lost_length, largest_distance(state_.points, state_.triangles,
                                                      arrangement_.state->points.inputs()));
