@@ -166,7 +166,9 @@ std::string parts_flaw(const std::array<Point3, 3>& whole, const RoundedClaim& c
                        const std::array<double, 4>& moments, double accepted) {
     const Point3 normal = area_vector(whole);
     const double area = length(normal), around = perimeter(whole);
-    const double slack = 8 * accepted * around + 1e-9 * area;
+    const double of_areas = 1e-15 * around * around; // error of areas of thin triangles, in doubles
+    const double slack =
+        8 * accepted * around + 1e-9 * area + static_cast<double>(1 + parts.size()) * of_areas;
     const double of_plane = 1e-15 * around * around * around / area; // error of distances from it
     for (const auto& [t, first] : parts) {
         const auto part = corners(claim.vertices, claim.triangles[t]);
