@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -267,6 +268,9 @@ const std::array<Change, 15> changes_of_arrangements{{
 
 /// Changes the triangles of filled surfaces, whose numbers are counted again.
 bool change_filled(FilledClaim& filled, const PartChange& made, const Arguments& n) {
+    std::uint64_t stated = 0; // an earlier change may have made it billions
+    for (const auto& s : filled.surfaces) stated += s.triangles;
+    if (stated != filled.triangles.size()) return false;
     IndexLists<std::uint32_t> surface_of;
     for (std::uint32_t s = 0; s < filled.surfaces.size(); ++s)
         for (std::uint32_t t = 0; t < filled.surfaces[s].triangles; ++t)
