@@ -268,7 +268,7 @@ const std::array<Change, 15> changes_of_arrangements{{
 
 /// Changes the triangles of filled surfaces, whose numbers are counted again.
 bool change_filled(FilledClaim& filled, const PartChange& made, const Arguments& n) {
-    std::uint64_t stated = 0; // an earlier change may have made it billions
+    std::uint64_t stated = 0; // an earlier change can have stated billions
     for (const auto& s : filled.surfaces) stated += s.triangles;
     if (stated != filled.triangles.size()) return false;
     IndexLists<std::uint32_t> surface_of;
