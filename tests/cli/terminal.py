@@ -34,6 +34,7 @@ HORIZON = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nf 1 2 3\nf 1 3 4\n"
 FAULT = "v 1 -1 -1\nv 1 5 -1\nv 1 2 3\nf 5 6 7\n"
 TURNING = "\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"
 HOSTILE = "\x1b[31mred\x1b[2J\x1b]0;title\x07\x9b32m\x7f" + TURNING + "<script>"
+LONG = "0.05"  # an edge length with which improving takes far longer than the seconds after which it is interrupted
 findings = []
 
 
@@ -145,6 +146,7 @@ def check_progress(folder):
         left = [int(x) for x in re.findall(stage + r" \d+ % \(\d+ s, (\d+) s left", seen.text)]
         expect(all(a >= b >= 0 for a, b in zip(left, left[1:])), f"the time left of {stage} never rises", left)
     expect(not any(re.search(r" \(\d+ s", line) for line in seen.lines()), "progress is cleared", seen.lines())
+    command = (*command[:-1], LONG)
     quiet = on_terminal(*command, "--quiet", interrupt_after=1.25, folder=folder)
     expect(quiet.lines() == ["^Cterrane: interrupted, nothing written"], "there is no progress with --quiet", quiet.lines())
     with subprocess.Popen([PROGRAM, *command], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
