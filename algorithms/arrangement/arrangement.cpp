@@ -96,6 +96,12 @@ std::vector<char> divided_faces(const Soup& soup, const Retriangulation& divisio
     return has_constructed;
 }
 
+/// What the search for candidates leaves out besides pairs within one patch.
+struct LeftOut {
+    Pencils pencils;
+    bool any_crowded = false; ///< pairs at crowded vertices
+};
+
 /// Returns the sets of triangles within which the search for candidates leaves pairs out: those at
 /// crowded vertices, and the pencils.
 IndexLists<std::uint32_t> sets_with_pairs_left_out(const Soup& soup,
@@ -147,14 +153,17 @@ bool add_pairs_of_sets(const IndexLists<std::uint32_t>& sets, const Soup& soup,
 /// Finds the near pairs of which at least one triangle has a constructed point, as input triangles,
 /// and the triangles of which pairs are left out.
 void find_neighbours_of_divided(const Soup& soup, const Retriangulation& division,
-                                const Pencils& pencils, std::span<const std::uint32_t> patch_of,
+                                const LeftOut& left_out, std::span<const std::uint32_t> patch_of,
                                 ExactState& state) {
     const auto has_constructed = divided_faces(soup, division);
     for (const CandidatePair& p : division.near)
         if (has_constructed[p.first] != 0 || has_constructed[p.second] != 0)
             state.neighbours.push_back({soup.input_of[p.first], soup.input_of[p.second]});
-    const auto crowded = crowded_vertices(division.points.input_count(), soup.triangles);
-    if (crowded.empty() && pencils.of.empty()) return;
+    const Pencils& pencils = left_out.pencils;
+    if (!left_out.any_crowded && pencils.of.empty()) return;
+    std::vector<bool> crowded;
+    if (left_out.any_crowded)
+        crowded = crowded_vertices(division.points.input_count(), soup.triangles);
     if (add_pairs_of_sets(sets_with_pairs_left_out(soup, crowded, pencils), soup, division,
                           patch_of, has_constructed, state))
         return;
@@ -209,16 +218,17 @@ std::vector<std::uint32_t> name_vertices(Arrangement& a, const PointStore& point
     return vertex_of;
 }
 
-/// Finds the pairs of triangles that are to be tested, and the pencils among those that are not.
+/// Finds the pairs of triangles that are to be tested, and what they leave out.
 std::vector<CandidatePair> find_candidates(const Soup& soup, std::span<const std::uint32_t> patches,
-                                           Search method, Pencils& pencils, const Run& run) {
+                                           Search method, LeftOut& left_out, const Run& run) {
+    Pencils& pencils = left_out.pencils;
     const TriangleSoup all{soup.points, soup.triangles};
     const auto find_crowds = [&](std::span<const std::uint32_t> busy) {
         pencils = find_pencils(all, busy, run);
         return pencils.of;
     };
-    auto candidates =
-        candidate_pairs({soup.points, soup.triangles}, patches, method, run, find_crowds);
+    auto candidates = candidate_pairs({soup.points, soup.triangles}, patches, method, run,
+                                      find_crowds, &left_out.any_crowded);
     if (pencils.list.empty()) return candidates;
     const auto coplanar = coplanar_pairs(all, pencils, patches, run);
     std::vector<CandidatePair> both_kinds;
@@ -257,13 +267,13 @@ ArrangeStatistics statistics_of(std::size_t candidates, const Retriangulation& d
 
 /// Makes one mesh of the triangles after division, with what later stages ask of it.
 void assemble(Arrangement& a, Soup soup, InjectivePatches patches, Retriangulation division,
-              const Pencils& pencils, const Run& run) {
+              const LeftOut& left_out, const Run& run) {
     a.inputs = {soup.first_input_triangle, soup.first_input_vertex, soup.duplicates};
     a.degenerate = soup.degenerate;
     const auto state = std::make_shared<ExactState>();
     a.state = state;
     state->corners = std::move(soup.input_corners);
-    find_neighbours_of_divided(soup, division, pencils, patches.of, *state);
+    find_neighbours_of_divided(soup, division, left_out, patches.of, *state);
     if (!division.pools.empty()) {
         state->pools.assign(state->corners.size(), no_group);
         for (std::size_t f = 0; f < division.pools.size(); ++f)
@@ -308,24 +318,25 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     // (b) candidate pairs
     step.next("search");
     const Search used = method_used(options.search, soup.triangles.size());
-    Pencils pencils;
+    LeftOut left_out;
     const auto candidates =
-        find_candidates(soup, patches.of, used, pencils, part_of_stage(run, "arrange", 0.1, 0.3));
+        find_candidates(soup, patches.of, used, left_out, part_of_stage(run, "arrange", 0.1, 0.3));
     TERRANE_ASSERT_PARANOID(is_sorted_unique(candidates));
     step.stop();
     report(0.3);
     if (run.stop.stop_requested()) return interrupted();
 
     // (c) contacts, (d) equal points, (e) triangulation of the faces with contacts
-    Retriangulation division = retriangulate(std::move(soup.points), soup.triangles, candidates,
-                                             pencils, part_of_stage(run, "arrange", 0.3, 0.85));
+    Retriangulation division =
+        retriangulate(std::move(soup.points), soup.triangles, candidates, left_out.pencils,
+                      part_of_stage(run, "arrange", 0.3, 0.85));
     if (run.stop.stop_requested()) return interrupted();
     a.statistics = statistics_of(candidates.size(), division);
     a.statistics.search = used;
 
     // (f) one mesh
     step.next("assemble");
-    assemble(a, std::move(soup), std::move(patches), std::move(division), pencils, run);
+    assemble(a, std::move(soup), std::move(patches), std::move(division), left_out, run);
     a.statistics.triangles = a.triangles.size();
     a.statistics.vertices = a.vertices.size();
     step.stop();

@@ -132,19 +132,23 @@ public:
     }
 
     void settle() {
-        merge_points();
+        if (merge_points()) name_again();
         drop_repeated_pieces();
     }
 
+    /// Merges what is left and returns all pieces.
     std::vector<FaceConstraint> pieces() && {
+        merge_points();
+        drop_repeated_pieces();
         return by_face(std::move(pieces_[0]), std::move(pieces_[1]));
     }
 
 private:
     /// Appends the new points to the store and keeps one of equal ones, with the lowest of their
-    /// constructions.
-    void merge_points() {
+    /// constructions. Returns whether there were equal ones; if so, the table is out of date.
+    bool merge_points() {
         PointStore& store = contacts_.points;
+        equal_.reserve(table_.constructions().size());
         const auto fresh = table_.constructions().subspan(settled_);
         const auto start = static_cast<PointIndex>(first_ + settled_);
         const auto end = static_cast<PointIndex>(start + fresh.size());
@@ -163,13 +167,18 @@ private:
             now[p - start] = next++;
         }
         settled_ = next - first_;
-        if (next == end) return;
+        if (next == end) return false;
         rename_ends(start, now);
         std::vector<PointIndex> kept(settled_);
         std::iota(kept.begin(), kept.end(), first_);
         store.keep_constructed(kept);
+        return true;
+    }
+
+    void name_again() {
         table_ = ConstructionTable(first_);
-        for (PointIndex p = first_; p < next; ++p) table_.enter(store.construction(p));
+        for (PointIndex p = first_; p < first_ + settled_; ++p)
+            table_.enter(contacts_.points.construction(p));
     }
 
     void rename_ends(PointIndex start, const std::vector<PointIndex>& now) {
@@ -257,7 +266,6 @@ Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
         if (collector.is_full()) collector.settle();
         report_part(run, "contacts", 0, 1, start + pairs.size(), candidates.size());
     }
-    collector.settle();
     contacts.pieces = std::move(collector).pieces();
     return contacts;
 }

@@ -12,17 +12,16 @@ namespace terrane {
 
 namespace {
 
-/// Calls visit(low, high, triangle) for the sides of the triangles [first, last).
-template <class Visit>
-void for_sides(std::span<const Triangle> triangles, std::size_t first, std::size_t last,
-               const Visit& visit) {
-    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
-        const auto [a, b, c] = triangles[t];
-        visit(std::min(a, b), std::max(a, b), t);
-        visit(std::min(b, c), std::max(b, c), t);
-        visit(std::min(c, a), std::max(c, a), t);
-    }
-}
+/// A triangle by its corners in ascending order. Its sides are low-middle, low-high, middle-high, so
+/// that two of them have `low` as their smaller vertex.
+struct AscendingCorners {
+    std::uint32_t low, middle, high;
+
+    explicit AscendingCorners(const Triangle& t) :
+        low(std::min({t[0], t[1], t[2]})),
+        middle(std::max(std::min(t[0], t[1]), std::min(std::max(t[0], t[1]), t[2]))),
+        high(std::max({t[0], t[1], t[2]})) {}
+};
 
 /// Sorts sides by their larger vertex; they are given in the order of the triangles.
 void sort_by_high(std::span<EdgeSides::Side> sides) {
@@ -60,8 +59,11 @@ EdgeSides group_edges(std::span<const Triangle> triangles, std::size_t vertex_co
     };
     for_shares([&](auto& counts, std::size_t first, std::size_t last) {
         counts.assign(vertex_count, 0);
-        for_sides(triangles, first, last,
-                  [&](std::uint32_t low, std::uint32_t, std::uint32_t) { ++counts[low]; });
+        for (std::size_t t = first; t < last; ++t) {
+            const AscendingCorners c(triangles[t]);
+            counts[c.low] += 2;
+            ++counts[c.middle];
+        }
     });
     EdgeSides e;
     e.starts.resize(vertex_count + 1);
@@ -73,10 +75,13 @@ EdgeSides group_edges(std::span<const Triangle> triangles, std::size_t vertex_co
     e.starts[vertex_count] = total;
     e.sides.resize(total);
     for_shares([&](auto& next, std::size_t first, std::size_t last) {
-        for_sides(triangles, first, last,
-                  [&](std::uint32_t low, std::uint32_t high, std::uint32_t t) {
-                      e.sides[next[low]++] = {high, t};
-                  });
+        for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+            const AscendingCorners c(triangles[t]);
+            const std::uint32_t at = std::exchange(next[c.low], next[c.low] + 2);
+            e.sides[at] = {c.middle, t};
+            e.sides[at + 1] = {c.high, t};
+            e.sides[next[c.middle]++] = {c.high, t};
+        }
     });
     for_ranges(vertex_count, run, [&](std::size_t first, std::size_t last) {
         for (std::size_t v = first; v < last; ++v)

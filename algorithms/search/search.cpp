@@ -150,9 +150,12 @@ Search method_used(Search method, std::size_t boxes) {
 
 std::vector<CandidatePair> candidate_pairs(const BoxSource& source,
                                            std::span<const std::uint32_t> groups, Search method,
-                                           const Run& run, const CrowdFinder& find_crowds) {
+                                           const Run& run, const CrowdFinder& find_crowds,
+                                           bool* any_crowded) {
     method = method_used(method, source.size());
-    if (method == Search::bvh) return search::bvh_pairs(source, groups, run, find_crowds);
+    if (method == Search::bvh)
+        return search::bvh_pairs(source, groups, run, find_crowds, any_crowded);
+    if (any_crowded != nullptr) *any_crowded = false;
     Pairs pairs = pairs_by(method, source.listed(), groups, run.stop);
     if (!find_crowds) return pairs;
     const auto crowds = search::crowds_of_busy(source, groups, run, find_crowds);

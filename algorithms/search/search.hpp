@@ -91,10 +91,11 @@ using CrowdFinder = std::function<std::vector<std::uint32_t>(std::span<const std
 /// if they certainly meet in common corners and the edge between them only. With any method,
 /// find_crowds (if any) is called where some boxes overlap very many others, with the same ones. Once a
 /// stop is requested, pairs are missing. Search::bvh reports its progress as stage "search".
+/// *any_crowded (if any) tells whether pairs with a crowded vertex in common may have been left out.
 std::vector<CandidatePair> candidate_pairs(const BoxSource& boxes,
                                            std::span<const std::uint32_t> groups, Search method,
-                                           const Run& run = {},
-                                           const CrowdFinder& find_crowds = {});
+                                           const Run& run = {}, const CrowdFinder& find_crowds = {},
+                                           bool* any_crowded = nullptr);
 
 /// Decides whether a pair is kept. Called from several threads, each under an UpwardRounding.
 using PairFilter = std::function<bool(const CandidatePair&)>;

@@ -53,38 +53,25 @@ FaceTriangulation::operator()(const PointStore& points, std::span<const std::uin
     return result_;
 }
 
-// Sorts the triangles by counting how many have each point as their lowest corner: few have the same
-// one. The rank of each point is looked up once, not for each triangle.
+// No two triangles have the same directed edge, so the ranks of its first two corners tell a triangle
+// from all others.
 std::span<const std::array<PointIndex, 3>> FaceTriangulation::in_order() {
     if (result_.size() < 2) return result_;
-    const auto count = static_cast<Local>(points_.size());
-    order_.clear();
-    for (Local p = 0; p < count; ++p) order_.emplace_back(rank_of(p), p);
-    std::sort(order_.begin(), order_.end());
-    place_.resize(count);
-    for (Local k = 0; k < count; ++k) place_[order_[k].second] = k;
-
-    placed_.clear();
-    next_of_.assign(count + 1, 0);
+    ranks_.clear();
+    for (Local p = 0; p < points_.size(); ++p) ranks_.push_back(rank_of(p));
+    keyed_.clear();
     for (const Cell& cell : cells_) {
-        std::array<Local, 3> t{place_[cell.v[0]], place_[cell.v[1]], place_[cell.v[2]]};
-        if (is_reversed_) std::swap(t[1], t[2]);
-        auto& [a, b, c] = t;
-        if (b < a && b < c)
-            t = {b, c, a};
-        else if (c < a)
-            t = {c, a, b};
-        placed_.push_back(t);
-        ++next_of_[t[0] + 1];
+        auto [a, b, c] = cell.v;
+        if (is_reversed_) std::swap(b, c);
+        if (ranks_[b] < ranks_[a] && ranks_[b] < ranks_[c])
+            std::tie(a, b, c) = std::tuple(b, c, a);
+        else if (ranks_[c] < ranks_[a])
+            std::tie(a, b, c) = std::tuple(c, a, b);
+        keyed_.push_back(
+            {std::uint64_t{ranks_[a]} << 32 | ranks_[b], {points_[a], points_[b], points_[c]}});
     }
-    std::partial_sum(next_of_.begin(), next_of_.end(), next_of_.begin());
-    result_.resize(placed_.size());
-    for (const auto& t : placed_) result_[next_of_[t[0]]++] = t;
-    for (Local a = 0, first = 0; a < count; first = next_of_[a++])
-        if (next_of_[a] - first > 1)
-            std::sort(&result_[first], &result_[first] + (next_of_[a] - first));
-    for (auto& t : result_)
-        for (PointIndex& corner : t) corner = points_[order_[corner].second];
+    std::ranges::sort(keyed_, {}, &Keyed::key);
+    for (std::size_t k = 0; k < keyed_.size(); ++k) result_[k] = keyed_[k].corners;
     return result_;
 }
 

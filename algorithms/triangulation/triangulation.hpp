@@ -104,6 +104,11 @@ private:
         PointIndex point;
     };
 
+    struct Keyed {         ///< a triangle that starts with its lowest corner
+        std::uint64_t key; ///< the ranks of its first two corners
+        std::array<PointIndex, 3> corners;
+    };
+
     void start(const FaceInput& face);
     void take_points(const FaceInput& face);
     void order_inner_points(const FaceInput& face);
@@ -162,15 +167,11 @@ private:
     std::vector<Cell> cells_;
     std::vector<Side> todo_;
     std::vector<std::array<Local, 2>> crossed_;
-    std::vector<std::pair<std::uint64_t, PointIndex>>
-        order_;                ///< inner points by level and rank; in
-                               ///< the end, each Local by rank
-    std::vector<Inner> inner_; ///< inner points as inserted
+    std::vector<std::pair<std::uint64_t, PointIndex>> order_; ///< inner points by level and rank
+    std::vector<Inner> inner_;                                ///< inner points as inserted
     std::vector<SegmentEdge> segment_edges_;
-    std::vector<Local> place_;                 ///< per point: its place in the order of ranks
-    std::vector<std::array<Local, 3>> placed_; ///< triangles as places of their corners
-    std::vector<std::uint32_t> next_of_; ///< per place: where the next triangle goes whose lowest
-                                         ///< corner this is
+    std::vector<std::uint32_t> ranks_; ///< of all points, while triangles are sorted
+    std::vector<Keyed> keyed_;
     std::vector<std::array<PointIndex, 3>> result_;
     bool is_reversed_ = false; ///< the corners are clockwise in the projection
 };

@@ -192,6 +192,12 @@ void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run
             return block;
         });
 
+    std::size_t count = 0;
+    for (const CrossingBlock& block : blocks) {
+        contacts.predicates += block.predicates;
+        count += block.crossings.size();
+    }
+    if (count == 0) return;
     // Contacts have already constructed some of the crossings (two edges of coplanar triangles).
     ConstructionTable table(static_cast<PointIndex>(soup.points.size()));
     for (PointIndex p = static_cast<PointIndex>(soup.points.size()); p < contacts.points.size();
@@ -199,11 +205,9 @@ void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run
         table.enter(contacts.points.construction(p));
     const std::size_t known = table.constructions().size();
     const bool any_merged = !contacts.crossings.empty();
-    for (const CrossingBlock& block : blocks) {
-        contacts.predicates += block.predicates;
+    for (const CrossingBlock& block : blocks)
         for (const NewCrossing& c : block.crossings)
             contacts.crossings.push_back({c.face, c.pieces, table.enter(c.how)});
-    }
     if (any_merged)
         std::stable_sort(
             contacts.crossings.begin(), contacts.crossings.end(),

@@ -19,11 +19,16 @@ class EqualPoints {
 public:
     explicit EqualPoints(const PointStore& store) : store_(store), slots_(64, none) {}
 
+    /// Makes room for so many points.
+    void reserve(std::size_t count) {
+        if (2 * count > slots_.size()) rebuild(std::bit_ceil(2 * count));
+    }
+
     /// Returns the slot of the point that has been entered and is equal to p, or of p, which is
     /// then entered; the caller may store another name of that point there. Returns nullptr if so
     /// many unequal points have the same nearest doubles that the search was given up.
     PointIndex* enter(PointIndex p) {
-        if (2 * count_ >= slots_.size()) grow();
+        if (2 * count_ >= slots_.size()) rebuild(2 * slots_.size());
         const std::size_t mask = slots_.size() - 1;
         unsigned tries = 0;
         for (std::size_t s = hash(store_.nearest(p)) & mask;; s = (s + 1) & mask) {
@@ -49,8 +54,8 @@ private:
         return h ^ (h >> 32);
     }
 
-    void grow() {
-        std::vector<PointIndex> old(2 * slots_.size(), none);
+    void rebuild(std::size_t size) {
+        std::vector<PointIndex> old(size, none);
         old.swap(slots_);
         const std::size_t mask = slots_.size() - 1;
         for (const PointIndex p : old) {

@@ -260,11 +260,13 @@ std::vector<CandidatePair> sorted(const PairBlocks& blocks, std::size_t count) {
 }
 
 std::vector<CandidatePair> bvh_pairs(const BoxSource& boxes, std::span<const std::uint32_t> groups,
-                                     const Run& run, const CrowdFinder& find_crowds) {
+                                     const Run& run, const CrowdFinder& find_crowds,
+                                     bool* any_crowded) {
     const PairFilter none;
     const Selection selection =
         groups.empty() ? select_all(boxes) : select_meeting(boxes, groups, run);
     const Stars stars = find_stars(boxes, selection.indices);
+    if (any_crowded != nullptr) *any_crowded = !stars.vertices.empty();
     const Task task{boxes, groups, stars.of, none, run};
     const auto parts = groups.empty() ? std::vector<Selection>{} : by_group(selection, groups);
     PairBlocks blocks = parts.empty() ? join_all(selection, task, find_crowds)

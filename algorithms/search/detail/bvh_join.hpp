@@ -19,7 +19,8 @@ namespace terrane::search {
 /// of boxes without group also with itself. Cost: linear in boxes and pairs, up to a factor for the
 /// depth of the trees.
 std::vector<CandidatePair> bvh_pairs(const BoxSource& boxes, std::span<const std::uint32_t> groups,
-                                     const Run& run, const CrowdFinder& find_crowds = {});
+                                     const Run& run, const CrowdFinder& find_crowds = {},
+                                     bool* any_crowded = nullptr);
 
 /// Returns what find_crowds says of the boxes for which bvh_pairs would ask it; empty if it would not.
 std::vector<std::uint32_t> crowds_of_busy(const BoxSource& boxes,

@@ -17,16 +17,16 @@ constexpr std::uint32_t crowd = 128;
 
 } // namespace
 
+// Counts no further than to a crowd, so that a count is a byte, and most of them stay in the cache.
 std::vector<bool> crowded_vertices(std::size_t vertex_count, std::span<const Triangle> triangles) {
-    std::vector<std::uint32_t> counts(vertex_count, 0);
+    std::vector<std::uint8_t> counts(vertex_count, 0);
     for (const Triangle& t : triangles)
-        for (const std::uint32_t v : t) ++counts[v];
-    std::uint32_t most = 0;
-    for (const std::uint32_t c : counts) most = std::max(most, c);
+        for (const std::uint32_t v : t)
+            counts[v] = static_cast<std::uint8_t>(counts[v] + (counts[v] < crowd ? 1 : 0));
     std::vector<bool> crowded;
-    if (most < crowd) return crowded;
+    if (std::ranges::find(counts, crowd) == counts.end()) return crowded;
     crowded.resize(vertex_count);
-    for (std::size_t v = 0; v < vertex_count; ++v) crowded[v] = counts[v] >= crowd;
+    for (std::size_t v = 0; v < vertex_count; ++v) crowded[v] = counts[v] == crowd;
     return crowded;
 }
 
