@@ -52,7 +52,7 @@ template <class Number>
 void append_shortest(std::string& out, Number value) {
     char buffer[32];
     const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-    out.append(buffer, end);
+    out.append(buffer, static_cast<std::size_t>(end - buffer));
 }
 
 } // namespace
@@ -110,7 +110,8 @@ void append_number(std::string& out, float value) {
     append_shortest(out, value);
 }
 void append_number(std::string& out, std::uint64_t value) {
-    append_shortest(out, value);
+    const fmt::format_int digits(value);
+    out.append(digits.data(), digits.size());
 }
 
 void append_point(std::string& out, const Point3& point) {
