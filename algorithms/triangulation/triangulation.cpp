@@ -53,13 +53,16 @@ FaceTriangulation::operator()(const PointStore& points, std::span<const std::uin
     return result_;
 }
 
-// No two triangles have the same directed edge, so the ranks of its first two corners tell a triangle
-// from all others.
+// The triangles are sorted by their lowest corner; few have the same one. These are sorted by their
+// second corner, of which no two are the same, as a directed edge belongs to one triangle.
 std::span<const std::array<PointIndex, 3>> FaceTriangulation::in_order() {
+    constexpr std::size_t many = 512; // triangles for which sorting digit by digit is faster
     if (result_.size() < 2) return result_;
     ranks_.clear();
     for (Local p = 0; p < points_.size(); ++p) ranks_.push_back(rank_of(p));
+    const std::uint32_t least = *std::ranges::min_element(ranks_);
     keyed_.clear();
+    turned_.clear();
     for (const Cell& cell : cells_) {
         auto [a, b, c] = cell.v;
         if (is_reversed_) std::swap(b, c);
@@ -67,11 +70,23 @@ std::span<const std::array<PointIndex, 3>> FaceTriangulation::in_order() {
             std::tie(a, b, c) = std::tuple(b, c, a);
         else if (ranks_[c] < ranks_[a])
             std::tie(a, b, c) = std::tuple(c, a, b);
-        keyed_.push_back(
-            {std::uint64_t{ranks_[a]} << 32 | ranks_[b], {points_[a], points_[b], points_[c]}});
+        keyed_.push_back({ranks_[a] - least, static_cast<std::uint32_t>(turned_.size())});
+        turned_.push_back({a, b, c});
     }
-    std::ranges::sort(keyed_, {}, &Keyed::key);
-    for (std::size_t k = 0; k < keyed_.size(); ++k) result_[k] = keyed_[k].corners;
+    const auto second = [&](const Keyed& k) { return ranks_[turned_[k.position][1]]; };
+    if (keyed_.size() < many) {
+        std::ranges::sort(keyed_, [&](const Keyed& k, const Keyed& l) {
+            return k.key != l.key ? k.key < l.key : second(k) < second(l);
+        });
+    } else {
+        sort_by_key(keyed_, scratch_);
+        for (auto first = keyed_.begin(), last = first; first != keyed_.end(); first = last) {
+            while (last != keyed_.end() && last->key == first->key) ++last;
+            if (last - first > 1) std::ranges::sort(first, last, {}, second);
+        }
+    }
+    for (std::size_t k = 0; k < keyed_.size(); ++k)
+        for (unsigned i = 0; i < 3; ++i) result_[k][i] = points_[turned_[keyed_[k].position][i]];
     return result_;
 }
 

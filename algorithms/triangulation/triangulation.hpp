@@ -14,6 +14,7 @@
 #include <stop_token>
 #include <vector>
 
+#include <terrane/algorithms/core/sort_by_key.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/kernel/point_store.hpp>
 
@@ -104,11 +105,6 @@ private:
         PointIndex point;
     };
 
-    struct Keyed {         ///< a triangle that starts with its lowest corner
-        std::uint64_t key; ///< the ranks of its first two corners
-        std::array<PointIndex, 3> corners;
-    };
-
     void start(const FaceInput& face);
     void take_points(const FaceInput& face);
     void order_inner_points(const FaceInput& face);
@@ -170,8 +166,9 @@ private:
     std::vector<std::pair<std::uint64_t, PointIndex>> order_; ///< inner points by level and rank
     std::vector<Inner> inner_;                                ///< inner points as inserted
     std::vector<SegmentEdge> segment_edges_;
-    std::vector<std::uint32_t> ranks_; ///< of all points, while triangles are sorted
-    std::vector<Keyed> keyed_;
+    std::vector<std::uint32_t> ranks_;         ///< of all points, while triangles are sorted
+    std::vector<std::array<Local, 3>> turned_; ///< triangles from their lowest corners
+    std::vector<Keyed> keyed_, scratch_;       ///< positions in turned_ by lowest corner
     std::vector<std::array<PointIndex, 3>> result_;
     bool is_reversed_ = false; ///< the corners are clockwise in the projection
 };

@@ -5,26 +5,10 @@
 #include <bit>
 #include <utility>
 
+#include <terrane/algorithms/core/sort_by_key.hpp>
+
 namespace terrane::search {
 namespace {
-
-struct Keyed {
-    std::uint32_t key, position;
-};
-
-/// Sorts stably by key, with one pass per digit of 11 bits.
-void sort_by_key(std::vector<Keyed>& items) {
-    constexpr std::uint32_t digits = 1u << 11;
-    std::vector<Keyed> sorted(items.size());
-    for (unsigned shift = 0; shift < 32; shift += 11) {
-        std::array<std::uint32_t, digits> next{};
-        for (const Keyed& i : items) ++next[(i.key >> shift) % digits];
-        std::uint32_t sum = 0;
-        for (std::uint32_t& n : next) n = std::exchange(sum, sum + n);
-        for (const Keyed& i : items) sorted[next[(i.key >> shift) % digits]++] = i;
-        items.swap(sorted);
-    }
-}
 
 std::uint32_t extent(const PackedBox& b, unsigned axis) {
     return b.high_of(axis) - b.low_of(axis);
@@ -109,12 +93,12 @@ std::vector<EightBoxes> boxes_of_eight(std::span<const EightBoxes> boxes, std::s
 PackedTree::PackedTree(const Selection& selection, std::span<const std::uint32_t> crowd_of) {
     const std::size_t n = selection.boxes.size();
     const Curve curve(selection);
-    std::vector<Keyed> order(n);
+    std::vector<Keyed> order(n), scratch;
     for (std::uint32_t i = 0; i < n; ++i) order[i] = {curve.key(selection.boxes[i]), i};
-    sort_by_key(order);
+    sort_by_key(order, scratch);
     if (!crowd_of.empty()) {
         for (Keyed& k : order) k.key = crowd_of[selection.indices[k.position]];
-        sort_by_key(order);
+        sort_by_key(order, scratch);
     }
     indices_.reserve(n);
     auto& boxes = levels_.emplace_back((n + 7) / 8);

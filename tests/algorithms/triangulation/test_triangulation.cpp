@@ -164,6 +164,14 @@ Triangles triangulate(const Sheet& s, const FaceInput& face) {
     return {result.begin(), result.end()};
 }
 
+Triangles triangulate_in_order(const Sheet& s, const FaceInput& face) {
+    const UpwardRounding guard;
+    FaceTriangulation triangulation(guard);
+    triangulation(s.store, s.rank, face);
+    const auto result = triangulation.in_order();
+    return {result.begin(), result.end()};
+}
+
 Triangle sorted(Triangle t) {
     std::sort(t.begin(), t.end());
     return t;
@@ -294,6 +302,35 @@ TEST_CASE("face triangulation does not depend on the order of anything") {
             REQUIRE(covers(sheet, other, again)); // oriented as the corners
         }
     });
+}
+
+TEST_CASE("face triangulation: triangles in order start with their lowest corner and are sorted") {
+    const auto check = [](Random& random, const Sheet& sheet, const FaceInput& face) {
+        const Triangles triangles = triangulate_in_order(sheet, face);
+        const auto ranks = [&](const Triangle& t) {
+            return std::array{sheet.rank[t[0]], sheet.rank[t[1]], sheet.rank[t[2]]};
+        };
+        REQUIRE(as_set(triangles) == as_set(triangulate(sheet, face)));
+        REQUIRE(covers(sheet, face, triangles));
+        REQUIRE(triangles == triangulate_in_order(sheet, shuffled(random, face, false)));
+        REQUIRE(std::ranges::is_sorted(triangles, {}, ranks));
+        for (const Triangle& t : triangles) REQUIRE(std::ranges::min(ranks(t)) == sheet.rank[t[0]]);
+    };
+    for_faces(76, 2000, [&](Random& random, const Sheet& sheet, const FaceInput& face) {
+        if (face.edge_points[0].empty() && face.edge_points[1].empty() &&
+            face.edge_points[2].empty() && face.inner_points.empty())
+            return;
+        check(random, sheet, face);
+    });
+    Random random(77);
+    for (int i = 0; i < 4; ++i) { // about 1 500 triangles
+        const Sheet sheet(random, 40);
+        FaceInput face;
+        face.axis = sheet.axis;
+        face.corners = {0, 39, 40 * 39};
+        add_points(random, sheet, face, i == 0 ? 100 : 95);
+        check(random, sheet, face);
+    }
 }
 
 TEST_CASE("two coplanar triangles triangulate a common part in the same way") {
