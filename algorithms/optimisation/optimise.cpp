@@ -100,6 +100,7 @@ public:
         if (Status done = improve_passes(most); !done) return done;
         for (unsigned pass = 0; pass < 2; ++pass)
             if (const auto changed = remesh(); !changed) return changed.error();
+        if (Status done = improve_shapes(); !done) return done;
         report.after = worst();
         report.effort = budget_.spent();
         report.is_cut_short = budget_.is_spent();
@@ -162,6 +163,22 @@ private:
             if (is_short || depth == Depth::insertions)
                 if (Status done = improve_at(depth); !done) return done;
         return Done{};
+    }
+
+    /// Improves shapes as well, where improving angles has left effort for it. For that, no angle is
+    /// made that is worse than 10 degrees, or than the worst one before if that is better.
+    Status improve_shapes() {
+        if (budget_.is_over()) return Done{};
+        std::vector<double> by_angles;
+        for (std::uint32_t c = 0; c < cells_.size(); ++c) by_angles.push_back(cells_.quality(c));
+        cells_.judge_by({std::max(report.before.quality, constants.bad)});
+        auto& tried = tried_[static_cast<std::size_t>(Depth::insertions)];
+        tried.resize(cells_.size(), none);
+        for (std::uint32_t c = 0; c < cells_.size(); ++c)
+            if (cells_.quality(c) < by_angles[c]) tried[c] = none;
+        Status done = improve_at(Depth::insertions);
+        cells_.judge_by({});
+        return done;
     }
 
     Status improve_at(Depth depth) {
@@ -417,6 +434,7 @@ std::vector<NamedConstant> optimise_constants() {
             {"least_gain", constants.least_gain},
             {"most_around_edge", static_cast<double>(constants.most_around_edge)},
             {"obtuse_share", constants.obtuse_share},
+            {"shape_share", constants.shape_share},
             {"relaxed", constants.relaxed},
             {"bad", constants.bad},
             {"most_in_cavity", static_cast<double>(constants.most_in_cavity)},

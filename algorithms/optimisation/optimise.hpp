@@ -63,6 +63,9 @@ struct OptimiseReport {
 ///     that of those that it replaces. So the sorted vector of qualities grows with each change,
 ///     and the worst tetrahedron never gets worse. No sine of a dihedral angle becomes less than
 ///     the least one before.
+///     At last tetrahedra with good angles become less like needles: quality is then twice the
+///     power 3/2 of the mean ratio if that is less, but no less than the sine of 10 degrees or the
+///     least quality before. So no angle is made worse for it than these are.
 /// (4) Where qualities can't be computed reliably in doubles, tetrahedra stay as they are.
 /// (5) The same mesh gives the same result, with any number of threads.
 ///

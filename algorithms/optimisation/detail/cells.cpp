@@ -60,11 +60,9 @@ Cells::Cells(const TetrahedralMesh& mesh) :
     for (const Point3& p : mesh.vertices) points_.push_back(times(p, -exponent_));
     for (const Triangle& face : mesh.faces)
         for (const std::uint32_t v : face) is_fixed_[v] = true;
-    for (std::uint32_t c = 0; c < cells_.size(); ++c) {
-        const Quality quality = measure(cells_[c]);
-        quality_.push_back(quality.is_trusted ? quality.value : HUGE_VAL);
+    for (std::uint32_t c = 0; c < cells_.size(); ++c)
         for (const std::uint32_t v : cells_[c]) cell_of_[v] = c;
-    }
+    judge_by({});
     match_all();
     std::vector<std::array<std::uint32_t, 3>> walls;
     for (Triangle face : mesh.faces) {
@@ -77,6 +75,16 @@ Cells::Cells(const TetrahedralMesh& mesh) :
             if (beside_[c][k] == none ||
                 std::binary_search(walls.begin(), walls.end(), face_of(cells_[c], c, k).corners))
                 walls_[c] = static_cast<std::uint8_t>(walls_[c] | 1U << k);
+}
+
+void Cells::judge_by(const Measure& by) {
+    measure_ = by;
+    quality_.resize(cells_.size());
+    for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+        if (!is_alive(c)) continue;
+        const Quality quality = measure(cells_[c]);
+        quality_[c] = quality.is_trusted ? quality.value : HUGE_VAL;
+    }
 }
 
 void Cells::match_all() {

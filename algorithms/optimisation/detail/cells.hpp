@@ -73,8 +73,12 @@ public:
         return quality.is_trusted ? quality.value : -1;
     }
     [[nodiscard]] Quality measure(const Corners& c) const {
-        return detail::quality_of(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]);
+        return detail::quality_of(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]],
+                                  measure_);
     }
+    [[nodiscard]] const Measure& judged_by() const { return measure_; }
+    /// Measures all cells anew.
+    void judge_by(const Measure& by);
     [[nodiscard]] std::uint32_t region(std::uint32_t c) const { return region_[c]; }
     /// Returns six times the volume, in floating point, in a unit of its own.
     [[nodiscard]] double volume_of(const Corners& c) const;
@@ -139,6 +143,7 @@ private:
     std::vector<Corners> beside_;
     std::vector<std::uint8_t> walls_; ///< per cell: bit k for the face opposite to corner k
     std::vector<std::uint32_t> region_;
+    Measure measure_; ///< angles alone, unless judge_by() is called
     std::vector<double> quality_;
     std::uint32_t time_ = 0;
     std::vector<std::uint32_t> changed_; ///< per cell

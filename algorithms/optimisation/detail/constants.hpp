@@ -17,6 +17,9 @@ struct OptimiseConstants {
     /// The sine of an obtuse angle counts this share, so that 166 degrees are as bad as 9.8 degrees.
     /// Less: the greatest angles become better, the least ones worse.
     double obtuse_share = 0.7;
+    /// The mean ratio to the power of 3/2 counts this much where shapes count, too, so that a mean
+    /// ratio of 0.2 is as bad as an angle of 10.3 degrees. Less: shapes become better, angles worse.
+    double shape_share = 2;
     /// A change must raise the least quality by this. Larger: fewer changes that hardly matter.
     double least_gain = 5e-3;
     /// Edges with more tetrahedra around them are not removed: the work grows with the cube.

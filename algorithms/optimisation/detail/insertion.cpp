@@ -81,7 +81,8 @@ private:
             const auto f = face_opposite(cells_.corners(c), k);
             const auto& points = cells_.points();
             ++effort_;
-            const Quality quality = quality_of(points[f[0]], points[f[1]], points[f[2]], p_);
+            const Quality quality =
+                quality_of(points[f[0]], points[f[1]], points[f[2]], p_, cells_.judged_by());
             sides_.push_back({c, k, quality.is_trusted ? quality.value : -1});
         }
         members_.push_back(c);
@@ -104,7 +105,7 @@ Point3 mean_of(const Cells& cells, std::uint32_t c) {
 }
 
 FacesAround faces_of(const Cells& cells, const std::vector<std::array<std::uint32_t, 3>>& all) {
-    FacesAround faces;
+    FacesAround faces(cells.judged_by());
     for (const auto& [a, b, c] : all)
         faces.add(cells.points()[a], cells.points()[b], cells.points()[c]);
     return faces;

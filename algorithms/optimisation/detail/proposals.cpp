@@ -56,7 +56,7 @@ bool makes_more_bad(const Cells& cells, const Change& change) {
             p[k] = c[k] == change.vertex ? change.places[0]
                    : none - c[k] < count ? change.places[none - c[k]]
                                          : cells.points()[c[k]];
-        return quality_of(p[0], p[1], p[2], p[3]).value < constants.bad;
+        return quality_of(p[0], p[1], p[2], p[3], {}).value < constants.bad;
     };
     std::ptrdiff_t more = 0;
     for (const std::uint32_t c : change.old) {

@@ -29,28 +29,39 @@ struct Normals {
 
 /// The squares of sines are 9 V^2 |edge|^2 / (4 A^2 A'^2) for the volume V and the areas A, A' of
 /// the two faces at an edge. Extended by the areas of the other two faces, all six have the
-/// denominator `areas`, and the numerators 36 V^2 times these.
+/// denominator `areas`, and the numerators 36 V^2 times these. The cube of the mean ratio is
+/// 432 * 36 V^2 over the cube of the sum of all |edge|^2; it is brought to the same denominator.
 struct Numerators {
-    double sine = 0, value = 0; ///< least of all; least with the share of obtuse angles
+    double sine = 0, value = 0; ///< least of all sines; least of all that counts, with its shares
     double areas = 0;           ///< product of the squares of twice the areas
 };
 
-inline Numerators numerators_of(const Edges& e, const Normals& n) {
+inline Numerators numerators_of(const Edges& e, const Normals& n, double volume,
+                                const Measure& measure) {
     constexpr double share = constants.obtuse_share * constants.obtuse_share;
+    constexpr double shape_share = 432 * constants.shape_share * constants.shape_share;
     const double ab = e.ab * n.a * n.b, ac = e.ac * n.a * n.c, ad = e.ad * n.a * n.d,
                  bc = e.bc * n.b * n.c, bd = e.bd * n.b * n.d, cd = e.cd * n.c * n.d;
     const auto weighed = [](double number, double product) {
         return product > 0 ? share * number : number;
     };
-    return {std::min({ab, ac, ad, bc, bd, cd}),
-            std::min({weighed(ab, n.cd), weighed(ac, n.bd), weighed(ad, n.bc), weighed(bc, n.ad),
-                      weighed(bd, n.ac), weighed(cd, n.ab)}),
-            n.a * n.b * n.c * n.d};
+    const double areas = n.a * n.b * n.c * n.d;
+    Numerators least{std::min({ab, ac, ad, bc, bd, cd}),
+                     std::min({weighed(ab, n.cd), weighed(ac, n.bd), weighed(ad, n.bc),
+                               weighed(bc, n.ad), weighed(bd, n.ac), weighed(cd, n.ab)}),
+                     areas};
+    if (measure.least < HUGE_VAL) {
+        const double sum = e.ab + e.ac + e.ad + e.bc + e.bd + e.cd, ratio = measure.least / volume;
+        least.value =
+            std::min(least.value, areas * std::max(ratio * ratio, shape_share / (sum * sum * sum)));
+    }
+    return least;
 }
 
 } // namespace
 
-Quality quality_of(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+Quality quality_of(const Point3& a, const Point3& b, const Point3& c, const Point3& d,
+                   const Measure& measure) {
     const Point3 ab = minus(b, a), ac = minus(c, a), ad = minus(d, a);
     const Point3 bc = minus(c, b), bd = minus(d, b), cd = minus(d, c);
     const Point3 of_a = cross(bd, bc), of_b = cross(ac, ad), of_c = cross(ad, ab),
@@ -59,8 +70,8 @@ Quality quality_of(const Point3& a, const Point3& b, const Point3& c, const Poin
     const Normals n{square(of_a),    square(of_b),    square(of_c),    square(of_d),
                     dot(of_a, of_b), dot(of_a, of_c), dot(of_a, of_d), dot(of_b, of_c),
                     dot(of_b, of_d), dot(of_c, of_d)};
-    const Numerators least = numerators_of(e, n);
     const double volume = dot(ad, of_d);
+    const Numerators least = numerators_of(e, n, volume, measure);
     Quality quality{volume * std::sqrt(least.value / least.areas),
                     volume * std::sqrt(least.sine / least.areas), false};
     // A normal is wrong by less than 2^-50 of the product of two edges, so its length by less than
@@ -82,7 +93,7 @@ void FacesAround::add(const Point3& a, const Point3& b, const Point3& c) {
         {a, b, c, ab, ac, normal, square(ab), square(ac), square(minus(c, b)), square(normal)});
 }
 
-double FacesAround::square_quality(const Face& face, const Point3& p) {
+double FacesAround::square_quality(const Face& face, const Point3& p) const {
     const Point3 ad = minus(p, face.a);
     const double volume = dot(ad, face.normal);
     if (!(volume > 0)) return 0;
@@ -101,7 +112,7 @@ double FacesAround::square_quality(const Face& face, const Point3& p) {
     n.ac = -(n.c + n.bc + n.cd);
     n.ad = -(n.d + n.bd + n.cd);
     n.a = -(n.ab + n.ac + n.ad);
-    const Numerators least = numerators_of(e, n);
+    const Numerators least = numerators_of(e, n, volume, measure_);
     const double result = volume * volume * least.value / least.areas;
     return result > 0 && result < HUGE_VAL ? result : 0;
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // How good a tetrahedron is: the least sine of its dihedral angles, where that of an obtuse angle
-// counts less.
+// counts less, and, if asked for, its mean ratio.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -13,23 +14,34 @@
 
 namespace terrane::optimisation::detail {
 
+/// What counts besides angles: constants.shape_share times the mean ratio to the power of 3/2, but no
+/// less than `least`. So only tetrahedra whose angles are better than `least` are judged by it.
+struct Measure {
+    double least = HUGE_VAL; ///< infinite: angles alone
+};
+
 /// A tetrahedron's quality in floating point.
 struct Quality {
     double value = 0; ///< least sine of the six dihedral angles, that of an obtuse angle times
-                      ///< constants.obtuse_share; negative for one that is inverted
-    double sine = 0;  ///< the same where obtuse angles count as the others
+                      ///< constants.obtuse_share, or what else counts if that is less; negative for
+                      ///< one that is inverted
+    double sine = 0;  ///< least sine alone
     bool is_trusted = false; ///< whether the errors of both are below a fifth of the least gain
 };
 
-/// Measures a tetrahedron. Needles with good angles count as good.
-/// Source: Freitag and Ollivier-Gooch 1997; Klingner and Shewchuk 2007, biased minimum sine.
-Quality quality_of(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+/// Measures a tetrahedron. By angles alone, needles with good angles count as good.
+/// Source: Freitag and Ollivier-Gooch 1997; Klingner and Shewchuk 2007, biased minimum sine; Liu and
+/// Joe 1994, mean ratio.
+Quality quality_of(const Point3& a, const Point3& b, const Point3& c, const Point3& d,
+                   const Measure& measure);
 
 using FaceCorners = std::array<Point3, 3>;
 
 /// The faces around a point that is to be placed. They see it on their positive side.
 class FacesAround {
 public:
+    explicit FacesAround(const Measure& measure) : measure_(measure) {}
+
     /// Adds a face.
     void add(const Point3& a, const Point3& b, const Point3& c);
 
@@ -57,8 +69,9 @@ private:
         double square_ab = 0, square_ac = 0, square_bc = 0, square_area = 0;
     };
 
-    [[nodiscard]] static double square_quality(const Face& face, const Point3& p);
+    [[nodiscard]] double square_quality(const Face& face, const Point3& p) const;
 
+    Measure measure_;
     std::vector<Face> faces_;
     std::size_t effort_ = 0;
 };

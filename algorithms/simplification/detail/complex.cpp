@@ -43,6 +43,12 @@ void Past::unite(const Past& other) {
     slack = std::max(slack, other.slack);
 }
 
+void Past::add(double share, const Past& other) {
+    low = plus(low, share, other.low);
+    high = plus(high, share, other.high);
+    slack += share * other.slack;
+}
+
 Complex::Complex(std::vector<Point3> points, std::vector<Past> past, const std::vector<Cell>& cells,
                  std::span<const SurfaceInfo> surfaces) :
     points_(std::move(points)),
@@ -119,11 +125,8 @@ PlacedVertex Complex::between(std::span<const std::uint32_t> corners,
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const Point3& q = points_[corners[i]];
         const double w = weights[i];
-        const Past& past = past_[corners[i]];
         v.place = plus(v.place, w, q);
-        v.past.low = plus(v.past.low, w, past.low);
-        v.past.high = plus(v.past.high, w, past.high);
-        v.past.slack += w * past.slack;
+        v.past.add(w, past_[corners[i]]);
         const Freedom& other = freedom_[corners[i]];
         v.freedom.is_pinned = v.freedom.is_pinned && other.is_pinned;
         for (unsigned axis = 0; axis < 3; ++axis)

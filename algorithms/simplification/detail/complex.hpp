@@ -64,6 +64,8 @@ struct Past {
     }
     /// Stands for the points of another vertex, too.
     void unite(const Past& other);
+    /// Adds a share of where another vertex was: for points between vertices, whose shares add up to 1.
+    void add(double share, const Past& other);
 };
 
 /// A vertex, or one that a division would make.

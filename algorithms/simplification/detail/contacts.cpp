@@ -446,7 +446,7 @@ Found find_contacts(const Complex& complex, const CurveNetwork& curves, double r
             return std::find(to.begin(), to.end(), v) != to.end();
         });
         const bool is_crossing =
-            c.from.size + c.to.size > 2 && c.distance < tuning.crossing * resolution;
+            c.from.size > 1 && c.to.size > 1 && c.distance < tuning.crossing * resolution;
         return have_common || is_crossing;
     });
     sort_and_unite(contacts);

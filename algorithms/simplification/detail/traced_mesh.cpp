@@ -2,9 +2,11 @@
 #include <terrane/algorithms/simplification/detail/traced_mesh.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
-#include <limits>
 #include <numeric>
+#include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -39,6 +41,19 @@ FlatSoup flattened(const MovedSoup& soup) {
             flat.triangles.push_back({first + t[0], first + t[1], first + t[2]});
     }
     return flat;
+}
+
+/// Where the points were that a place within a triangle stands for, by the shares of its corners.
+Past past_within(const Point3& p, const Triangle& t, std::span<const Point3> points,
+                 std::span<const Past> past) {
+    std::array<double, 3> share{};
+    for (std::size_t i = 0; i < 3; ++i)
+        share[i] =
+            length(cross(minus(points[t[(i + 1) % 3]], p), minus(points[t[(i + 2) % 3]], p)));
+    const double sum = share[0] + share[1] + share[2];
+    Past result;
+    for (std::size_t i = 0; i < 3; ++i) result.add(sum > 0 ? share[i] / sum : 1.0 / 3, past[t[i]]);
+    return result;
 }
 
 } // namespace
@@ -107,27 +122,22 @@ MovedSoup soup_of(const Complex& complex, std::span<const SurfaceInfo> surfaces)
 
 TracedMesh traced(const Mesh& mesh, const MovedSoup& soup, double rounded) {
     const FlatSoup flat = flattened(soup);
-    std::vector<std::pair<Point3, Past>> known; // of soup vertices, by place
-    for (std::size_t v = 0; v < flat.points.size(); ++v)
-        known.emplace_back(flat.points[v], soup.past[v]);
-    std::stable_sort(known.begin(), known.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
     TracedMesh result;
     result.mesh = mesh;
-    // A vertex that is in no place of the soup lies in all triangles whose parts have it.
-    constexpr double endless = std::numeric_limits<double>::infinity();
-    for (const Point3& p : mesh.vertices) result.past.push_back({p, p, endless});
+    std::vector<std::optional<Past>> past(mesh.vertices.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         Cell cell{mesh.triangles[t], {}};
         const Point3 normal = normal_of(mesh.vertices, cell.corners);
         for (const std::uint32_t parent : mesh.parents_of[t]) {
             CellLayer layer = soup.layers[parent];
             const Triangle& whole = flat.triangles[parent];
-            double most = 0;
-            for (const std::uint32_t v : whole)
-                most = std::max(most, soup.past[v].reach(flat.points[v]));
-            for (const std::uint32_t v : cell.corners)
-                result.past[v].slack = std::min(result.past[v].slack, most + rounded);
+            for (const std::uint32_t v : cell.corners) {
+                const Past there = past_within(mesh.vertices[v], whole, flat.points, soup.past);
+                if (past[v])
+                    past[v]->unite(there);
+                else
+                    past[v] = there;
+            }
             if (!cell.layers.empty() && cell.layers.back().surface == layer.surface) continue;
             layer.is_turned = dot(normal, normal_of(flat.points, whole)) < 0;
             cell.layers.push_back(layer);
@@ -135,14 +145,8 @@ TracedMesh traced(const Mesh& mesh, const MovedSoup& soup, double rounded) {
         result.cells.push_back(std::move(cell));
     }
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        const auto at =
-            std::lower_bound(known.begin(), known.end(), mesh.vertices[v],
-                             [](const auto& entry, const Point3& p) { return entry.first < p; });
-        if (at == known.end() || at->first != mesh.vertices[v]) continue;
-        result.past[v] = at->second;
-        for (auto k = at; k != known.end() && k->first == mesh.vertices[v]; ++k)
-            result.past[v].unite(k->second);
-        result.past[v].slack += rounded;
+        result.past.push_back(past[v].value_or(Past{mesh.vertices[v], mesh.vertices[v], 0}));
+        result.past.back().slack += rounded;
     }
     return result;
 }

@@ -22,8 +22,9 @@ struct Tuning {
     double to_corner = 0.3;
     /// The same for edges.
     double to_edge = 0.2;
-    /// Places nearer than this share of the resolution, of which one is no vertex, are left to the
-    /// arrangement, which makes a curve of them.
+    /// Places nearer than this share of the resolution, none of them a vertex, are left to the
+    /// arrangement, which makes a curve of them. A vertex is joined even so: the arrangement would
+    /// leave a sliver between it and the edge or the cell.
     double crossing = 1e-3;
     /// Edges longer than this multiple of the resolution are divided where surfaces are near.
     /// Larger: fewer triangles, less exact limits of what is zipped.

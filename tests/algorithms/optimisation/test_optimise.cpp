@@ -221,6 +221,18 @@ TEST_CASE("optimise: tetrahedra fill the same space, and the worst never gets wo
     }
 }
 
+TEST_CASE("optimise: needles become better, though their angles are good", "[optimisation]") {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        TetrahedralMesh mesh = Cubes(8, 0, 0.45, seed).mesh;
+        REQUIRE(optimise(mesh));
+        CHECK(sines(mesh)[0] > std::sin(bad_angle * std::numbers::pi / 180));
+        double least = 1;
+        for (const Cell& c : mesh.tetrahedra)
+            least = std::min(least, mean_ratio(corners_of(mesh, c)));
+        CHECK(least >= 0.25);
+    }
+}
+
 TEST_CASE("optimise: a sheet that ends inside of a region stays", "[optimisation]") {
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
         TetrahedralMesh before = Cubes(6, 3, 0.45, seed).mesh;

@@ -265,6 +265,17 @@ Surface cross_wall(double y, double from, double to, std::string name) {
     return quad({from, y, -10}, {to, y, -10}, {to, y, 70}, {from, y, 70}, std::move(name));
 }
 
+/// The least distance from a vertex to a triangle of which it is no corner.
+double least_gap(const Mesh& mesh) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [a, b, c] : mesh.triangles)
+        for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
+            if (v != a && v != b && v != c)
+                least = std::min(least, distance_to_triangle(mesh.vertices[v], mesh.vertices[a],
+                                                             mesh.vertices[b], mesh.vertices[c]));
+    return least;
+}
+
 bool touch_now(const Simplified& s, const std::string& a, const std::string& b) {
     const std::uint32_t i = named(s.rounded.mesh, a), j = named(s.rounded.mesh, b);
     return std::any_of(
@@ -381,6 +392,22 @@ TEST_CASE("simplify: walls that end at a wall next to each other are joined", "[
     const auto s = simplified(a, 5);
     CHECK(blocks_of(s.rounded.mesh) == 4);
     CHECK(touch_now(s, "left", "right"));
+}
+
+TEST_CASE("simplify: what hardly misses an edge or a triangle is joined, too", "[simplification]") {
+    for (const double gap : {1e-3, 1e-6}) { // of a resolution of 5
+        INFO("gap " << gap);
+        const auto borders =
+            in_box({quad({10, 10, 30}, {50, 10, 30}, {50, 70, 30}, {10, 70, 30}, "a"),
+                    quad({50 + gap, 13, 30}, {90, 13, 50}, {90, 61, 50}, {50 + gap, 61, 30}, "b")});
+        REQUIRE(least_gap(*borders.rounded.mesh) < 1.1 * gap);
+        CHECK(least_gap(simplified(borders, 5).rounded.mesh) > 0.5);
+        const auto edge = in_box(
+            {sheet_over_box([](double x) { return 30 + 0.3 * (x - 50); }, "inclined"),
+             quad({20, 20, -10}, {20, 60, -10}, {20, 60, 21 - gap}, {20, 20, 21 - gap}, "wall")});
+        REQUIRE(least_gap(*edge.rounded.mesh) < 1.1 * gap);
+        CHECK(least_gap(simplified(edge, 5).rounded.mesh) > 0.5);
+    }
 }
 
 TEST_CASE("simplify: bad options", "[simplification]") {
