@@ -17,7 +17,7 @@ namespace terrane {
 struct OptimiseOptions {
     double wanted_angle = 18; ///< degrees, in (0, 60): tetrahedra whose dihedral angles are all
                               ///< between it and 180 degrees less it are left alone
-    unsigned max_passes = 6;  ///< passes over all others, at most
+    unsigned max_passes = 6;  ///< passes over all others, at most; and as many for shapes
     bool outside = true;  ///< whether region 0 is improved, too; not needed if it is dropped later
     bool may_grow = true; ///< whether a new tetrahedron may be larger than all that it replaces:
                           ///< false where their volumes are bounded

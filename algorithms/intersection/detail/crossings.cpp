@@ -197,7 +197,7 @@ void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run
         contacts.predicates += block.predicates;
         count += block.crossings.size();
     }
-    if (count == 0) return;
+    if (count == 0) return; // those of merged segments are in the order of faces
     // Contacts have already constructed some of the crossings (two edges of coplanar triangles).
     ConstructionTable table(static_cast<PointIndex>(soup.points.size()));
     for (PointIndex p = static_cast<PointIndex>(soup.points.size()); p < contacts.points.size();
