@@ -8,13 +8,14 @@
 
 namespace terrane {
 
-/// A position that is sorted by a key.
+/// A position and the key by which it is sorted.
 struct Keyed {
     std::uint32_t key, position;
 };
 
-/// Sorts stably by key, with one pass per digit of 11 bits. `scratch` keeps its memory for the next
-/// call. Cost: linear, plus 2048 steps per digit of the largest key.
+/// Sorts items stably by key: a radix sort with digits of 11 bits. A caller that sorts often passes
+/// the same `scratch` each time, so that no memory is allocated again. Each digit of the largest key
+/// costs one step per item and 2048 more.
 inline void sort_by_key(std::vector<Keyed>& items, std::vector<Keyed>& scratch) {
     constexpr unsigned bits = 11;
     constexpr std::uint32_t digits = 1u << bits;

@@ -17,7 +17,7 @@ namespace terrane {
 struct OptimiseOptions {
     double wanted_angle = 18; ///< degrees, in (0, 60): tetrahedra whose dihedral angles are all
                               ///< between it and 180 degrees less it are left alone
-    unsigned max_passes = 6;  ///< passes over all others, at most; and as many for shapes
+    unsigned max_passes = 6;  ///< most passes over all others for angles, and for shapes
     bool outside = true;  ///< whether region 0 is improved, too; not needed if it is dropped later
     bool may_grow = true; ///< whether a new tetrahedron may be larger than all that it replaces:
                           ///< false where their volumes are bounded
@@ -63,9 +63,10 @@ struct OptimiseReport {
 ///     that of those that it replaces. So the sorted vector of qualities grows with each change,
 ///     and the worst tetrahedron never gets worse. No sine of a dihedral angle becomes less than
 ///     the least one before.
-///     At last tetrahedra with good angles become less like needles: quality is then twice the
-///     power 3/2 of the mean ratio if that is less, but no less than the sine of 10 degrees or the
-///     least quality before. So no angle is made worse for it than these are.
+///     The last passes raise the mean ratio of needles with good angles. There, the quality is the
+///     smaller one of that above and of twice the power 3/2 of the mean ratio; the latter counts as
+///     the sine of 10 degrees, or as the least quality before, where it is below that. These passes
+///     therefore make no angle that is worse.
 /// (4) Where qualities can't be computed reliably in doubles, tetrahedra stay as they are.
 /// (5) The same mesh gives the same result, with any number of threads.
 ///

@@ -53,8 +53,8 @@ FaceTriangulation::operator()(const PointStore& points, std::span<const std::uin
     return result_;
 }
 
-// The triangles are sorted by their lowest corner; few have the same one. These are sorted by their
-// second corner, of which no two are the same, as a directed edge belongs to one triangle.
+// This function sorts the triangles by their lowest corner, and those with the same lowest corner by
+// their second one. Two triangles never share both, because a directed edge belongs to one triangle.
 std::span<const std::array<PointIndex, 3>> FaceTriangulation::in_order() {
     constexpr std::size_t many = 512; // triangles for which sorting digit by digit is faster
     if (result_.size() < 2) return result_;

@@ -77,7 +77,7 @@ public:
                                   measure_);
     }
     [[nodiscard]] const Measure& judged_by() const { return measure_; }
-    /// Measures all cells anew.
+    /// Computes the qualities of all cells again, by this measure.
     void judge_by(const Measure& by);
     [[nodiscard]] std::uint32_t region(std::uint32_t c) const { return region_[c]; }
     /// Returns six times the volume, in floating point, in a unit of its own.
@@ -143,7 +143,7 @@ private:
     std::vector<Corners> beside_;
     std::vector<std::uint8_t> walls_; ///< per cell: bit k for the face opposite to corner k
     std::vector<std::uint32_t> region_;
-    Measure measure_; ///< angles alone, unless judge_by() is called
+    Measure measure_; ///< by which qualities are computed
     std::vector<double> quality_;
     std::uint32_t time_ = 0;
     std::vector<std::uint32_t> changed_; ///< per cell

@@ -14,10 +14,10 @@
 
 namespace terrane::optimisation::detail {
 
-/// What counts besides angles: constants.shape_share times the mean ratio to the power of 3/2, but no
-/// less than `least`. So only tetrahedra whose angles are better than `least` are judged by it.
+/// Tells how the mean ratio limits the quality: it is at most constants.shape_share times the mean
+/// ratio to the power of 3/2, or at most `least` if that is more.
 struct Measure {
-    double least = HUGE_VAL; ///< infinite: angles alone
+    double least = HUGE_VAL; ///< infinite: the mean ratio does not limit it
 };
 
 /// A tetrahedron's quality in floating point.
@@ -29,9 +29,9 @@ struct Quality {
     bool is_trusted = false; ///< whether the errors of both are below a fifth of the least gain
 };
 
-/// Measures a tetrahedron. By angles alone, needles with good angles count as good.
-/// Source: Freitag and Ollivier-Gooch 1997; Klingner and Shewchuk 2007, biased minimum sine; Liu and
-/// Joe 1994, mean ratio.
+/// Measures a tetrahedron. Angles alone do not tell a needle with good angles from a good tetrahedron.
+/// Sources: Freitag and Ollivier-Gooch (1997) and Klingner and Shewchuk (2007) define the biased
+/// minimum sine, Liu and Joe (1994) the mean ratio.
 Quality quality_of(const Point3& a, const Point3& b, const Point3& c, const Point3& d,
                    const Measure& measure);
 

@@ -17,7 +17,7 @@ constexpr std::uint32_t crowd = 128;
 
 } // namespace
 
-// Counts no further than to a crowd, so that a count is a byte, and most of them stay in the cache.
+// Counts end at a crowd. So each fits into a byte, and more of them fit into the cache.
 std::vector<bool> crowded_vertices(std::size_t vertex_count, std::span<const Triangle> triangles) {
     std::vector<std::uint8_t> counts(vertex_count, 0);
     for (const Triangle& t : triangles)

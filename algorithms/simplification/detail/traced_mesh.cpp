@@ -43,7 +43,8 @@ FlatSoup flattened(const MovedSoup& soup) {
     return flat;
 }
 
-/// Where the points were that a place within a triangle stands for, by the shares of its corners.
+/// Returns where the points were that a place in a triangle stands for: the mean of the pasts of the
+/// corners, weighted by barycentric coordinates.
 Past past_within(const Point3& p, const Triangle& t, std::span<const Point3> points,
                  std::span<const Past> past) {
     std::array<double, 3> share{};

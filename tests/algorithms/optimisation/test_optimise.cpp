@@ -221,7 +221,7 @@ TEST_CASE("optimise: tetrahedra fill the same space, and the worst never gets wo
     }
 }
 
-TEST_CASE("optimise: needles become better, though their angles are good", "[optimisation]") {
+TEST_CASE("optimise: the mean ratio of needles with good angles is raised", "[optimisation]") {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         TetrahedralMesh mesh = Cubes(8, 0, 0.45, seed).mesh;
         REQUIRE(optimise(mesh));

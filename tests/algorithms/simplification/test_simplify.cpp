@@ -265,7 +265,7 @@ Surface cross_wall(double y, double from, double to, std::string name) {
     return quad({from, y, -10}, {to, y, -10}, {to, y, 70}, {from, y, 70}, std::move(name));
 }
 
-/// The least distance from a vertex to a triangle of which it is no corner.
+/// Returns the least distance between a vertex and a triangle that does not have it as a corner.
 double least_gap(const Mesh& mesh) {
     double least = std::numeric_limits<double>::infinity();
     for (const auto& [a, b, c] : mesh.triangles)
