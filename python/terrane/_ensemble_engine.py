@@ -127,9 +127,10 @@ def _by_dask(engine: Engine, task: Task, numbers: List[int]) -> Iterator[Outcome
         done = distributed.as_completed(sent(_AHEAD * workers), loop=client.loop)
         for future in done:
             number = numbered.pop(future.key)
-            error = future.exception() if future.status == "error" else None
             try:
-                if future.status in ("cancelled", "lost"):
+                # A result that is lost with its worker is computed again; exception() waits for that.
+                error = future.exception() if future.status in ("error", "lost") else None
+                if future.status == "cancelled":
                     raise ConnectionError
                 data, seconds = future.result() if error is None else (None, 0.0)
             except (OSError, concurrent.futures.CancelledError):  # of the connection: tasks' own errors are not raised here

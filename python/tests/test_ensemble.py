@@ -11,6 +11,7 @@ import signal
 import statistics
 import subprocess
 import sys
+import threading
 import time
 
 import numpy as np
@@ -139,6 +140,25 @@ def wait_for_realisations(folder, count):
     end = time.monotonic() + 120
     while len(list(pathlib.Path(".").glob(f"{folder}.realisations/*/*.npz"))) < count and time.monotonic() < end:
         time.sleep(0.01)
+
+
+@needs_dask
+def test_a_result_that_is_lost_with_its_worker_is_awaited(monkeypatch):
+    import distributed
+    write_stack()
+    wanted = files_of(terrane.ensemble("p.json", realisations=3, engine="serial"))
+
+    class Losing(distributed.as_completed):
+        """Loses each result after it has come, as when its worker ends then, and has it back soon."""
+
+        def __next__(self):
+            future = super().__next__()
+            future._state.lose()
+            threading.Timer(0.2, future.client.loop.add_callback, [future._state.finish]).start()
+            return future
+
+    monkeypatch.setattr(distributed, "as_completed", Losing)
+    assert files_of(terrane.ensemble("p.json", realisations=3, engine="dask", workers=1)) == wanted
 
 
 @needs_dask
