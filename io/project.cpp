@@ -326,6 +326,8 @@ private:
         if (const Json* v = in_.find(json, "outside")) t.outside = in_.truth(*v, path + ".outside");
         if (const Json* v = in_.find(json, "optimise"))
             t.optimise = in_.truth(*v, path + ".optimise");
+        if (const Json* v = in_.find(json, "move_vertices"))
+            t.move_vertices = in_.truth(*v, path + ".move_vertices");
         if (const Json* v = in_.find(json, "refine_bad"))
             t.refine_bad = rounds(*v, path + ".refine_bad");
         if (const Json* v = in_.find(json, "order")) t.order = order(*v, path + ".order");

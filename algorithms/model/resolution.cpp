@@ -57,16 +57,22 @@ Status simplify_to(const Resolution& resolution, ImproveOptions& options,
     });
 }
 
-bool is_within_resolution(const AtResolution& simplified, const Mesh& improved, const Run& run) {
+std::vector<std::uint32_t> beyond_resolution(const AtResolution& simplified, const Mesh& improved,
+                                             const Run& run) {
     const SimplifyReport& r = simplified.report;
+    std::vector<std::uint32_t> beyond;
     for (std::uint32_t s = 0; s < improved.surfaces.size(); ++s) {
         if (std::find(r.vanished.begin(), r.vanished.end(), s) != r.vanished.end()) continue;
         const Surface old = surface_of_mesh(*simplified.before, s);
         const Surface now = surface_of_mesh(improved, s);
         if (!is_within(now, old, r.resolution, run) || !is_within(old, now, r.resolution, run))
-            return false;
+            beyond.push_back(s);
     }
-    return true;
+    return beyond;
+}
+
+bool is_within_resolution(const AtResolution& simplified, const Mesh& improved, const Run& run) {
+    return beyond_resolution(simplified, improved, run).empty();
 }
 
 Result<ImprovedAtResolution>

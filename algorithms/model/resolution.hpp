@@ -4,6 +4,9 @@
 // together have moved no surface by more than the resolution. Experimental, see simplify.hpp.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -49,6 +52,12 @@ Result<ImprovedAtResolution> improve_at_resolution(const ConformingMesh& mesh,
 /// arrangement and mesh become the simplified ones, and `simplified` says what changed.
 Status simplify_to(const Resolution& resolution, ImproveOptions& options,
                    const RoundingOptions& rounding, Arranged& arranged, const Run& run = {});
+
+/// Returns the surfaces of the improved mesh, in their order, that are not shown to be within the
+/// resolution of what they were before simplify_to(), and those within the resolution of them.
+/// Surfaces that vanished do not count. Cost: that of is_within().
+std::vector<std::uint32_t> beyond_resolution(const AtResolution& simplified, const Mesh& improved,
+                                             const Run& run = {});
 
 /// Tells whether each surface of the improved mesh is shown to be within the resolution of what it
 /// was before simplify_to(), and that within the resolution of it. Surfaces that vanished do not

@@ -75,6 +75,11 @@ public:
         spent_ += effort;
         credit_ -= static_cast<double>(effort);
     }
+    /// Adds as much again.
+    void renew(std::size_t most, std::size_t cells) {
+        most_ = spent_ + most;
+        credit_ = static_cast<double>(constants.effort_per_cell * cells);
+    }
     /// Adds what a change is worth to the effort that may be made in vain.
     void reward() { credit_ += static_cast<double>(constants.effort_per_change); }
 
@@ -100,6 +105,7 @@ public:
         if (Status done = improve_passes(most); !done) return done;
         for (unsigned pass = 0; pass < 2; ++pass)
             if (const auto changed = remesh(); !changed) return changed.error();
+        if (Status done = loosen(most); !done) return done;
         if (Status done = improve_shapes(); !done) return done;
         report.after = worst();
         report.effort = budget_.spent();
@@ -142,6 +148,28 @@ private:
             if (quality.is_trusted) least = std::min(least, quality.sine);
         }
         return least;
+    }
+
+    /// Moves vertices on surfaces that are free where cells are bad, and improves what is around them.
+    /// That is done with an effort of its own, as hopeless cells may have taken all.
+    Status loosen(std::size_t most) {
+        if (options_.freedom.is_free.empty()) return Done{};
+        const Permission permission{options_.may_grow, floor_, constants.urgent};
+        budget_.renew(most, cells_.size());
+        for (unsigned pass = 0; pass < constants.loosening_passes; ++pass) {
+            const auto is_bad = [&](std::uint32_t c) {
+                return cells_.is_alive(c) && cells_.quality(c) < constants.bad;
+            };
+            const auto changed = in_batches(
+                Queue(cells_below(constants.bad)), is_bad,
+                [&](std::uint32_t c) { return claim_corners(c); },
+                [&](std::uint32_t c) { return loosening_at(cells_, c, permission); },
+                [](std::uint32_t, std::uint32_t) {});
+            if (!changed) return changed.error();
+            if (*changed == 0) break;
+            if (Status done = improve_at(Depth::insertions); !done) return done;
+        }
+        return Done{};
     }
 
     /// Returns how many tetrahedra may be measured: more where most of them are good, since bad ones
@@ -350,6 +378,7 @@ private:
     bool make_and_count(Change& change) {
         if (!make(cells_, change, {cells_.least_quality(change.old), floor_})) return false;
         count(change.kind);
+        if (change.kind == Change::Kind::move && cells_.is_fixed(change.vertex)) ++report.loosened;
         return true;
     }
 
@@ -403,6 +432,13 @@ Status check_lists(const TetrahedralMesh& mesh) {
     return Error{ErrorCode::bad_index, "the lists of the tetrahedra do not fit each other", ""};
 }
 
+Status check_freedom(const TetrahedralMesh& mesh, const VertexFreedom& freedom) {
+    if (freedom.is_free.empty() ||
+        (freedom.is_free.size() == mesh.vertices.size() && freedom.place))
+        return Done{};
+    return Error{ErrorCode::bad_option, "the freedom of vertices is that of all or of none", ""};
+}
+
 Result<OptimiseReport> optimise_valid(TetrahedralMesh& mesh, const OptimiseOptions& options,
                                       const Run& run) {
     if (!(options.wanted_angle > 0 && options.wanted_angle < 60))
@@ -410,7 +446,9 @@ Result<OptimiseReport> optimise_valid(TetrahedralMesh& mesh, const OptimiseOptio
     if (!mesh.twins.empty())
         return Error{ErrorCode::bad_option, "tetrahedra with split nodes can't be improved", ""};
     if (Status sound = check_lists(mesh); !sound) return sound.error();
+    if (Status sound = check_freedom(mesh, options.freedom); !sound) return sound.error();
     Cells cells(mesh);
+    cells.set_free(options.freedom);
     Optimiser optimiser(cells, options, run);
     Status done = Done{};
     with_threads(run, [&] { done = optimiser.run(); });
@@ -438,6 +476,12 @@ std::vector<NamedConstant> optimise_constants() {
             {"shape_share", constants.shape_share},
             {"relaxed", constants.relaxed},
             {"bad", constants.bad},
+            {"loose_enough", constants.loose_enough},
+            {"largest_step", constants.largest_step},
+            {"first_small_step", constants.first_small_step},
+            {"loosening_passes", static_cast<double>(constants.loosening_passes)},
+            {"urgent", constants.urgent},
+            {"steps_of_a_size", static_cast<double>(constants.steps_of_a_size)},
             {"most_in_cavity", static_cast<double>(constants.most_in_cavity)},
             {"most_in_remeshing", static_cast<double>(constants.most_in_remeshing)},
             {"remeshing_passes", static_cast<double>(constants.remeshing_passes)},

@@ -4,6 +4,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include <terrane/algorithms/core/named_constant.hpp>
@@ -12,6 +15,14 @@
 #include <terrane/algorithms/mesh/mesh.hpp>
 
 namespace terrane {
+
+/// Where vertices on surfaces may be.
+struct VertexFreedom {
+    std::vector<bool> is_free{}; ///< per vertex of the mesh; those on no surface are free anyhow
+    /// Returns the place nearest to p, about, where vertex v may be; none where it does not know one.
+    /// Called by several threads at a time.
+    std::function<std::optional<Point3>(std::uint32_t v, const Point3& p)> place{};
+};
 
 /// Options of optimise().
 struct OptimiseOptions {
@@ -24,6 +35,8 @@ struct OptimiseOptions {
     std::size_t max_effort = 0; ///< tetrahedra that are measured at most, apart from those of the
         ///< last 64 proposals; 0: 150 000 000, or 4000 for each one by which
         ///< good ones are more than bad ones if that is more
+    VertexFreedom freedom{}; ///< how vertices on surfaces may move where tetrahedra are bad; empty:
+                             ///< they stay
 };
 
 /// The worst shapes among some tetrahedra.
@@ -41,6 +54,7 @@ struct OptimiseReport {
     std::size_t removed_edges = 0; ///< edges removed, with 3 and more tetrahedra around them
     std::size_t removed_faces = 0; ///< faces removed
     std::size_t moved = 0;         ///< moves of vertices
+    std::size_t loosened = 0;      ///< of these: moves of vertices on surfaces
     std::size_t contracted = 0;    ///< vertices that joined a neighbour
     std::size_t inserted = 0;      ///< vertices that were added
     std::size_t remeshed = 0; ///< neighbourhoods of bad tetrahedra in which several of these were
@@ -58,6 +72,8 @@ struct OptimiseReport {
 /// angle counts 0.7 times.
 ///
 /// (1) Faces on surfaces and on the box stay, and so do their vertices, bit by bit, in their order.
+///     Where bad tetrahedra are left then, of a quality below the sine of 10 degrees, vertices on
+///     surfaces move as options.freedom lets them; faces keep their corners.
 /// (2) Each tetrahedron has a positive volume, by exact predicates; regions fill what they did.
 /// (3) A change is made only if the least quality of the tetrahedra that it makes is larger than
 ///     that of those that it replaces. So the sorted vector of qualities grows with each change,
@@ -76,8 +92,8 @@ struct OptimiseReport {
 /// a quarter of a microsecond each. Where that does not suffice for all, changes that take little
 /// are looked for everywhere before others are.
 ///
-/// Precondition: tetrahedra as tetrahedralize() makes them, without twins. Errors: bad_option,
-/// bad_index, interrupted, out_of_memory.
+/// Precondition: tetrahedra as tetrahedralize() makes them, without twins. Errors: bad_option
+/// (also where freedom is given for some vertices only), bad_index, interrupted, out_of_memory.
 ///
 /// Source: Klingner and Shewchuk 2007, Aggressive tetrahedral mesh improvement; the choice of new
 /// tetrahedra around a removed edge is Klincsek's (1980).

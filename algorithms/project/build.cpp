@@ -14,6 +14,7 @@
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/project/detail/kept_results.hpp>
+#include <terrane/algorithms/project/detail/loosening.hpp>
 #include <terrane/algorithms/project/detail/refinement.hpp>
 
 namespace terrane {
@@ -24,6 +25,8 @@ using project::detail::BadPlaces;
 using project::detail::bytes_of;
 using project::detail::improved_from;
 using project::detail::key_of;
+using project::detail::loosen;
+using project::detail::Loosened;
 using project::detail::refinement_shares;
 using project::detail::scaled;
 using project::detail::tetrahedra_from;
@@ -82,6 +85,7 @@ private:
         unsigned number = 0;
         std::vector<std::vector<LocalSize>> refinements; ///< that led to it
         BadPlaces places;
+        LoosenedVertices loosened;
         std::optional<ImprovedAndMeasured> improved;
         std::optional<Model> model;
         std::optional<FilledBlocks> filled;
@@ -135,17 +139,17 @@ private:
 
     /// Improves the mesh; again, with smaller triangles where tetrahedra are bad or misshapen, as
     /// often as the project says. Each round refines the best one so far, which counts at last: then
-    /// blocks and tetrahedra are there, too.
+    /// blocks and tetrahedra are there, too. They are also if the surfaces were simplified, since
+    /// vertices move where tetrahedra are bad.
     Status improve_in_rounds() {
         if (auto done = improve_mesh(); !done) return done;
         const unsigned rounds =
             project_.outputs.tetrahedra.empty() ? 0 : project_.tetrahedra.refine_bad;
-        if (rounds == 0) return Done{};
+        if (rounds == 0) return is_loosened() ? find_blocks_and_fill() : Done{};
         std::optional<Round> best;
         std::size_t failed = 0; // rounds since the best one
         for (unsigned round = 0;; ++round) {
-            if (auto done = find_blocks(); !done) return done;
-            if (auto done = fill_with_tetrahedra(); !done) return done;
+            if (auto done = find_blocks_and_fill(); !done) return done;
             Round now = take_round(round);
             const bool is_best = !best || is_better(round, best->number);
             failed = is_best ? 0 : failed + 1;
@@ -157,6 +161,7 @@ private:
             if (auto done = improve_mesh(); !done) return done;
         }
         built_.kept_round = best->number;
+        built_.loosened = best->loosened;
         built_.improved = std::move(best->improved);
         built_.model = std::move(best->model);
         built_.filled = std::move(best->filled);
@@ -171,6 +176,18 @@ private:
         return badness(round) < badness(than);
     }
 
+    /// Tells whether vertices of surfaces may move for the sake of tetrahedra.
+    [[nodiscard]] bool is_loosened() const {
+        return project_.tetrahedra.move_vertices && built_.improved &&
+               built_.improved->improved.report.sides_kept &&
+               !project_.outputs.tetrahedra.empty() && project_.tetrahedra.optimise;
+    }
+
+    Status find_blocks_and_fill() {
+        if (auto done = find_blocks(); !done) return done;
+        return fill_with_tetrahedra();
+    }
+
     [[nodiscard]] double smallest() const { return project_.improve->smallest.value_or(0); }
 
     Round take_round(unsigned number) {
@@ -181,6 +198,7 @@ private:
         return {number,
                 refinements_,
                 std::move(places),
+                built_.loosened,
                 std::exchange(built_.improved, std::nullopt),
                 std::exchange(built_.model, std::nullopt),
                 std::exchange(built_.filled, std::nullopt)};
@@ -205,6 +223,7 @@ private:
             for (const std::uint32_t s : found) options.edge_length_of[s] = length;
         }
         if (auto done = simplify_surfaces(options); !done) return done;
+        improve_options_ = options;
         const std::string key = key_for([&] { return key_of(rounded(), options); });
         if (const auto kept = found(BuildStage::improve, key)) {
             auto improved = improved_from(*kept, rounded(), options, run_);
@@ -259,24 +278,49 @@ private:
     Status fill_with_tetrahedra() {
         if (built_.filled) return Done{}; // since improve_in_rounds()
         const TetrahedraRequest request = request_of(project_);
-        const Model& model = *built_.model;
-        const std::string key = key_for([&] { return key_of(model, request); });
+        const std::string key = key_for([&] { return key_of(*built_.model, request); });
         if (const auto kept = found(BuildStage::tetrahedra, key))
             if (auto mesh = tetrahedra_from(*kept)) {
-                auto filled = fill_blocks(model, request, std::move(*mesh), run_);
-                if (!filled) return filled.error();
-                if (filled->report.violations.empty()) {
-                    built_.filled = std::move(*filled);
-                    return taken(BuildStage::tetrahedra);
-                }
+                if (auto done = fill_with(request, std::move(*mesh)); !done) return done;
+                if (built_.filled->report.violations.empty()) return taken(BuildStage::tetrahedra);
+                built_.filled.reset();
             }
-        auto made = make_tetrahedra(model, request, run_);
+        auto made = make_tetrahedra(*built_.model, request, run_);
         if (!made) return made.error();
         if (store_.keep) store_.keep(BuildStage::tetrahedra, key, bytes_of(*made));
-        auto filled = fill_blocks(model, request, std::move(*made), run_);
+        return fill_with(request, std::move(*made));
+    }
+
+    /// Improves and checks tetrahedra; moves vertices of improved surfaces for their sake.
+    Status fill_with(TetrahedraRequest request, TetrahedralMesh made) {
+        built_.loosened = {};
+        std::optional<OptimiseReport> optimised;
+        if (is_loosened()) {
+            auto loosened = loosen(
+                {built_.arranged, *built_.improved, improve_options_, *built_.model, request, made},
+                run_);
+            if (!loosened) return loosened.error();
+            if (*loosened) {
+                if (auto done = take(**loosened, made); !done) return done;
+                optimised = (*loosened)->optimised;
+                request.options.optimise.reset();
+            }
+        }
+        auto filled = fill_blocks(*built_.model, request, std::move(made), run_);
         if (!filled) return filled.error();
+        if (optimised) filled->optimised = optimised;
         built_.filled = std::move(*filled);
         return Done{};
+    }
+
+    /// Takes a mesh whose vertices have moved, its tetrahedra and its blocks.
+    Status take(Loosened& loosened, TetrahedralMesh& made) {
+        made = std::move(loosened.tetrahedra);
+        if (!loosened.improved) return Done{};
+        built_.improved = std::move(*loosened.improved);
+        built_.loosened = loosened.moved;
+        built_.model.reset();
+        return find_blocks();
     }
 
     /// Computes a key, if results are kept.
@@ -301,6 +345,7 @@ private:
     const StageStore& store_;
     std::vector<std::vector<LocalSize>> refinements_; ///< per round: lengths wanted where
                                                       ///< tetrahedra were bad
+    ImproveOptions improve_options_;                  ///< of the last improvement
     Built built_;
 };
 

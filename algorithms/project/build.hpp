@@ -53,6 +53,12 @@ struct RefinementRound {
                                 ///< misshapen_tetrahedra()
 };
 
+/// The vertices of simplified surfaces that were moved once more where tetrahedra were bad.
+struct LoosenedVertices {
+    std::size_t count = 0;
+    double farthest = 0; ///< how far one of them moved at most
+};
+
 /// The model of a project, and the result of each stage.
 struct Built {
     Preprocessed preprocessed{};       ///< filled holes and ordered layers; empty: none asked for
@@ -61,6 +67,7 @@ struct Built {
     std::optional<ImprovedAndMeasured> improved{}; ///< where the project asks for it
     std::vector<RefinementRound> rounds{}; ///< with tetrahedra.refine_bad: the first is the one
                                            ///< without; empty: not asked for
+    LoosenedVertices loosened{};           ///< with improve.resolution: of the improved mesh
     std::size_t kept_round = 0;            ///< whose results these are
     std::optional<Model> model{};          ///< there at the end
     std::optional<FilledBlocks> filled{};  ///< where the project has outputs.tetrahedra

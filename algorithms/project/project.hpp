@@ -98,10 +98,12 @@ struct ProjectTetrahedra {
     bool split_surfaces = false;         ///< triangles of surfaces may be divided for `quality`
     std::optional<double> max_volume{};  ///< of a tetrahedron, cubic unit
     bool optimise = true;                ///< whether their shapes are improved
-    unsigned refine_bad = 0; ///< how often, with `improve`, triangles are made smaller where
-                             ///< tetrahedra are bad, and tetrahedra made again
-    unsigned order = 1;      ///< in files: 1, or 2 with nodes on edges
-    double time_limit = 600; ///< seconds, > 0
+    bool move_vertices = true; ///< whether, with `improve` and `optimise`, vertices of the
+                               ///< improved surfaces may move where tetrahedra are bad
+    unsigned refine_bad = 0;   ///< how often, with `improve`, triangles are made smaller where
+                               ///< tetrahedra are bad, and tetrahedra made again
+    unsigned order = 1;        ///< in files: 1, or 2 with nodes on edges
+    double time_limit = 600;   ///< seconds, > 0
     Mesher mesher = Mesher::automatic;  ///< who makes them
     std::vector<ProjectSize> size_of{}; ///< by surface
     std::vector<ProjectSize> size_in{}; ///< by number or name of a block

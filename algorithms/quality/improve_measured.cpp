@@ -9,7 +9,6 @@
 #include <terrane/algorithms/quality/improve_back.hpp>
 
 namespace terrane {
-
 bool ImprovedAndMeasured::is_near_back() const {
     for (std::size_t s = 0; s < bounds_back.size(); ++s)
         if (!(bounds_back[s] <= improved.report.bound_of[s])) return false;
@@ -40,6 +39,36 @@ Result<ImprovedAndMeasured> improve_and_measure(const ConformingMesh& mesh,
                              mesh->surfaces[s].name};
         if (run.progress) run.progress("measure", 1);
         return ImprovedAndMeasured{std::move(*improved), std::move(deviations), std::move(*back)};
+    });
+}
+
+Result<std::optional<ImprovedAndMeasured>> with_vertices_at(const ConformingMesh& before,
+                                                            const ImprovedAndMeasured& improved,
+                                                            std::vector<Point3> points,
+                                                            const Run& run) {
+    using Moved = std::optional<ImprovedAndMeasured>;
+    return guarded("to measure the mesh", "improve", [&]() -> Result<Moved> {
+        const StageTimer timer(run, "measure");
+        Mesh mesh = improved.improved.mesh;
+        mesh.vertices = std::move(points);
+        auto proof = prove_conforming(std::move(mesh), run);
+        if (!proof && proof.error().code == ErrorCode::improper_contact) return Moved();
+        if (!proof) return proof.error();
+        auto volumes = find_volumes(**proof, run);
+        if (!volumes) return volumes.error();
+        if (volumes->of_sides != improved.improved.volumes.of_sides) return Moved();
+        ImprovedAndMeasured moved = improved;
+        Improved& now = moved.improved;
+        now.conforming = std::move(*proof);
+        now.mesh = now.conforming->mesh();
+        now.volumes = std::move(*volumes);
+        now.report.after = measure_quality(now.mesh->vertices, now.mesh->triangles, run);
+        if (now.report.after.worst != improved.improved.report.after.worst)
+            now.report.worst_cause = WorstCause::shape;
+        moved.deviations = deviations_of(before, now.mesh, run);
+        if (run.stop.stop_requested())
+            return Error{ErrorCode::interrupted, "stopped on request", ""};
+        return Moved(std::move(moved));
     });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <terrane/algorithms/check/conforming.hpp>
@@ -26,5 +27,13 @@ struct ImprovedAndMeasured {
 /// where the measured deviation exceeds the bound.
 Result<ImprovedAndMeasured> improve_and_measure(const ConformingMesh& mesh,
                                                 const ImproveOptions& options, const Run& run = {});
+
+/// Returns the improved mesh with its vertices at other places, proven conforming again, and measures
+/// it again; bounds are left as they are. None if it is not conforming, or if other volumes are at
+/// its triangles. `points`: one per vertex. Errors: bad_number; interrupted, out_of_memory.
+Result<std::optional<ImprovedAndMeasured>> with_vertices_at(const ConformingMesh& before,
+                                                            const ImprovedAndMeasured& improved,
+                                                            std::vector<Point3> points,
+                                                            const Run& run = {});
 
 } // namespace terrane

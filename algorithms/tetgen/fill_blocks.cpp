@@ -167,6 +167,23 @@ Result<TetrahedralMesh> make_tetrahedra(const Model& model, const TetrahedraRequ
     });
 }
 
+Result<std::optional<OptimiseReport>> improve_tetrahedra(const Model& model,
+                                                         const TetrahedraRequest& request,
+                                                         VertexFreedom freedom,
+                                                         TetrahedralMesh& made, const Run& run) {
+    using Report = std::optional<OptimiseReport>;
+    return guarded("for the tetrahedra", "tetrahedralize", [&]() -> Result<Report> {
+        auto options = options_of(model, unique_labels(model.mesh->surfaces), request);
+        if (!options) return options.error();
+        if (!options->optimise) return Report();
+        const Volumes volumes = volumes_as_found(model);
+        if (!check_tetrahedra(made, model.mesh, volumes).violations.empty()) return Report();
+        options->optimise->outside = options->optimise->outside && request.outside;
+        options->optimise->freedom = std::move(freedom);
+        return tetgen::detail::improve_shapes(made, *model.mesh, volumes, *options, run);
+    });
+}
+
 Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& request,
                                  TetrahedralMesh made, const Run& run) {
     return guarded("for the tetrahedra", "tetrahedralize", [&]() -> Result<FilledBlocks> {

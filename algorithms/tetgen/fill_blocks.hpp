@@ -61,6 +61,14 @@ Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& re
 Result<TetrahedralMesh> make_tetrahedra(const Model& model, const TetrahedraRequest& request,
                                         const Run& run = {});
 
+/// Improves tetrahedra that make_tetrahedra made of the same model, as fill_blocks() does, with
+/// vertices on surfaces as free as `freedom` says, see OptimiseOptions. None, and nothing is changed, if
+/// the checks find violations before, or the options ask for nothing. Errors: bad_option, those of
+/// optimise().
+Result<std::optional<OptimiseReport>>
+improve_tetrahedra(const Model& model, const TetrahedraRequest& request, VertexFreedom freedom,
+                   TetrahedralMesh& made, const Run& run = {});
+
 /// Checks and improves tetrahedra that make_tetrahedra made of the same model, now or earlier,
 /// checks what became of them, and splits nodes.
 /// Nothing of them is trusted. Errors: those of fill_blocks that are left.

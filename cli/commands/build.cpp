@@ -248,9 +248,10 @@ private:
             return doubt(*built.model);
         case BuildStage::tetrahedra:
             add_statistics(statistics_, *built.filled, session_.times());
-            add_rounds(statistics_, built);
+            add_changes(statistics_, built);
             page_.add_tetrahedra(*built.filled);
-            return journal_.say(rounds_text(built) + filled_text(*built.filled, inputs_.unit));
+            return journal_.say(changes_text(built, inputs_.unit) +
+                                filled_text(*built.filled, inputs_.unit));
         }
     }
 

@@ -157,6 +157,7 @@ Json optimised_json(const OptimiseReport& report) {
             {"removed_edges", report.removed_edges},
             {"removed_faces", report.removed_faces},
             {"moved", report.moved},
+            {"on_surfaces", report.loosened},
             {"contracted", report.contracted},
             {"inserted", report.inserted},
             {"remeshed", report.remeshed},
@@ -257,7 +258,7 @@ void add_statistics(Json& json, const FilledBlocks& filled, const StageTimes& ti
     json["tetrahedra"]["check"] = report_json(filled.report);
 }
 
-std::string rounds_text(const Built& built) {
+std::string changes_text(const Built& built, const std::string& unit) {
     std::string text;
     for (std::size_t k = 0; k < built.rounds.size(); ++k) {
         const RefinementRound& round = built.rounds[k];
@@ -268,10 +269,18 @@ std::string rounds_text(const Built& built) {
                         k, round.triangles, round.tetrahedra, round.bad, bad_angle, round.apart,
                         round.misshapen, k == built.kept_round ? "; taken" : "");
     }
-    return text.empty() ? text : "smaller triangles where tetrahedra were bad:\n" + text;
+    if (!text.empty()) text.insert(0, "smaller triangles where tetrahedra were bad:\n");
+    if (const LoosenedVertices& moved = built.loosened; moved.count > 0)
+        text +=
+            fmt::format("{} of improved surfaces moved by at most {} where tetrahedra were bad\n",
+                        moved.count == 1 ? "1 vertex" : fmt::format("{} vertices", moved.count),
+                        Quantities(unit).length(moved.farthest));
+    return text;
 }
 
-void add_rounds(Json& json, const Built& built) {
+void add_changes(Json& json, const Built& built) {
+    json["tetrahedra"]["moved_vertices"] = {{"count", built.loosened.count},
+                                            {"farthest", built.loosened.farthest}};
     if (built.rounds.empty()) return;
     Json rounds = Json::array();
     for (const RefinementRound& round : built.rounds)

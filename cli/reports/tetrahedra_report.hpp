@@ -29,11 +29,11 @@ std::string filled_text(const FilledBlocks& filled, const std::string& unit);
 /// Adds counts, volumes, checks and times of the tetrahedra.
 void add_statistics(Json& json, const FilledBlocks& filled, const StageTimes& times);
 
-/// Says what the rounds came to in which triangles became smaller where tetrahedra were bad; empty
-/// if there were none.
-std::string rounds_text(const Built& built);
+/// Says what was done to the improved surfaces where tetrahedra were bad: what the rounds came to in
+/// which triangles became smaller, and how far vertices moved; empty if nothing was done.
+std::string changes_text(const Built& built, const std::string& unit);
 
-/// Adds these rounds to the statistics of the tetrahedra, which are there.
-void add_rounds(Json& json, const Built& built);
+/// Adds these changes to the statistics of the tetrahedra, which are there.
+void add_changes(Json& json, const Built& built);
 
 } // namespace terrane::cli

@@ -30,9 +30,10 @@ inline constexpr std::array<std::string_view, 2> polygon_level{"corners", "betwe
 inline constexpr std::array<std::string_view, 7> improve_level{
     "edge_length", "max_deviation", "edge_length_of", "layers_in_gaps",
     "smallest",    "resolution",    "dissolve"};
-inline constexpr std::array<std::string_view, 13> tetrahedra_level{
-    "edge_length", "max_volume", "quality", "split_surfaces", "size_of",    "size_in", "split",
-    "outside",     "time_limit", "mesher",  "optimise",       "refine_bad", "order"};
+inline constexpr std::array<std::string_view, 14> tetrahedra_level{
+    "edge_length", "max_volume", "quality", "split_surfaces", "size_of",
+    "size_in",     "split",      "outside", "time_limit",     "mesher",
+    "optimise",    "refine_bad", "order",   "move_vertices"};
 inline constexpr unsigned most_rounds = 20; ///< of tetrahedra.refine_bad
 inline constexpr std::array<std::string_view, 3> meshers{"auto", "tetgen", "gmsh"};
 inline constexpr std::array<std::string_view, 5> outputs_level{"surfaces", "tetrahedra", "blocks",

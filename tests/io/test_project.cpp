@@ -49,7 +49,7 @@ json full() {
         "tetrahedra": {"edge_length": 2, "max_volume": 3.5, "quality": 1.4, "split_surfaces": true,
                        "size_of": {"F1": 0.5, "top": 1}, "size_in": {"2": 0.25, "top/base": 1},
                        "split": ["fault", "top"], "outside": true, "time_limit": 60, "mesher": "gmsh", "optimise": false,
-                       "order": 2, "refine_bad": 3},
+                       "order": 2, "refine_bad": 3, "move_vertices": false},
         "outputs": {"surfaces": ["vtp", "obj"], "tetrahedra": ["vtu", "msh", "msh22"],
                     "blocks": "vtp", "certificate": false, "gocad": true}})");
 }
@@ -298,6 +298,7 @@ TEST_CASE("project: all keys are read", "[io][project]") {
     CHECK(p.tetrahedra.refine_bad == 3);
     CHECK(p.tetrahedra.mesher == Mesher::gmsh);
     CHECK_FALSE(p.tetrahedra.optimise);
+    CHECK_FALSE(p.tetrahedra.move_vertices);
     CHECK(p.outputs.surfaces == std::vector<std::string>{"vtp", "obj"});
     CHECK(p.outputs.tetrahedra == std::vector<std::string>{"vtu", "msh", "msh22"});
     CHECK(p.outputs.blocks == "vtp");
@@ -328,6 +329,7 @@ TEST_CASE("project: all kinds of volumes are read", "[io][project]") {
     CHECK(least.tetrahedra.time_limit == 600);
     CHECK(least.tetrahedra.mesher == Mesher::automatic);
     CHECK(least.tetrahedra.optimise);
+    CHECK(least.tetrahedra.move_vertices);
     CHECK(least.tetrahedra.refine_bad == 0);
     CHECK_FALSE(least.tetrahedra.outside.has_value());
     CHECK_FALSE(least.surfaces[0].role.has_value());

@@ -77,6 +77,12 @@ Cells::Cells(const TetrahedralMesh& mesh) :
                 walls_[c] = static_cast<std::uint8_t>(walls_[c] | 1U << k);
 }
 
+std::optional<Point3> Cells::free_place(std::uint32_t v, const Point3& p) const {
+    const auto found = freedom_.place(v, times(p, exponent_));
+    if (!found) return std::nullopt;
+    return times(*found, -exponent_);
+}
+
 void Cells::judge_by(const Measure& by) {
     measure_ = by;
     quality_.resize(cells_.size());

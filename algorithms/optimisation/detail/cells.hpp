@@ -10,11 +10,14 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/optimisation/detail/constants.hpp>
+
 #include <terrane/algorithms/optimisation/detail/quality.hpp>
+#include <terrane/algorithms/optimisation/optimise.hpp>
 
 namespace terrane::optimisation::detail {
 
@@ -65,7 +68,16 @@ public:
     [[nodiscard]] const std::vector<Point3>& points() const { return points_; }
     /// Returns a point in the unit of the mesh.
     [[nodiscard]] Point3 place(std::uint32_t v) const;
+    /// Tells whether a vertex is on walls: no operation but loosened() moves it.
     [[nodiscard]] bool is_fixed(std::uint32_t v) const { return is_fixed_[v]; }
+    /// Lets vertices on walls move.
+    void set_free(VertexFreedom freedom) { freedom_ = std::move(freedom); }
+    /// Tells whether a vertex is on walls and may move.
+    [[nodiscard]] bool is_free(std::uint32_t v) const {
+        return v < freedom_.is_free.size() && is_fixed_[v] && freedom_.is_free[v];
+    }
+    /// Returns the place nearest to p where a vertex on walls may be, or none.
+    [[nodiscard]] std::optional<Point3> free_place(std::uint32_t v, const Point3& p) const;
 
     /// Returns the quality of a cell that may be made; negative if it can't be trusted.
     [[nodiscard]] double quality_of(const Corners& c) const {
@@ -108,7 +120,7 @@ public:
     /// them, and all walls between old ones are faces of new ones. Returns whether it did.
     bool replace(std::span<const std::uint32_t> old, std::span<const Corners> added,
                  const Demand& demand);
-    /// Moves a vertex that is not fixed, if all cells at it are as good as demanded then and stay
+    /// Moves a vertex that is free or not fixed, if all cells at it are as good as demanded then and stay
     /// positive, exactly. Returns whether it did.
     bool move(std::uint32_t v, const Point3& to, const Demand& demand);
 
@@ -138,6 +150,7 @@ private:
     int exponent_; ///< points are those of the mesh times 2^-exponent
     std::vector<Point3> points_;
     std::vector<bool> is_fixed_;
+    VertexFreedom freedom_;              ///< of the vertices of the mesh that was given
     std::vector<std::uint32_t> cell_of_; ///< per vertex: one of its cells
     std::vector<Corners> cells_;         ///< none: free
     std::vector<Corners> beside_;

@@ -53,6 +53,10 @@ std::optional<Change> contracted(const Cells& cells, std::uint32_t gone,
 std::optional<Change> moved(const Cells& cells, std::uint32_t v,
                             const std::vector<std::uint32_t>& star, std::size_t& effort);
 
+/// Moves a vertex on walls to a better place where it may be. None if it is not free. `star`: as above.
+std::optional<Change> loosened(const Cells& cells, std::uint32_t v,
+                               const std::vector<std::uint32_t>& star, std::size_t& effort);
+
 /// Insert a vertex near a cell, from several first places. The cavity around it grows through the
 /// face that makes the worst new tetrahedron. With a positive gain there are no more bad ones then.
 std::vector<Change> insertions(const Cells& cells, std::uint32_t c, double gain,

@@ -29,6 +29,21 @@ struct OptimiseConstants {
     double relaxed = 0.5;
     /// Sine of ten degrees: a vertex is not inserted if there are more tetrahedra below it then.
     double bad = 0.17364817766693033;
+    /// Vertices on walls that are free move until tetrahedra are that good: the sine of 12 degrees.
+    /// Larger: surfaces move farther.
+    double loose_enough = 0.20791169081775934;
+    /// Largest step of such a vertex, as a share of the distance to the farthest one beside it: the
+    /// nearest one may be what is too near. Larger: surfaces move farther.
+    double largest_step = 0.25;
+    /// First step, as a share of the largest one.
+    double first_small_step = 1.0 / 128;
+    /// Where a tetrahedron is worse than that, the sine of 3 degrees, vertices on walls may move so that
+    /// more are bad, if none is as bad.
+    double urgent = 0.052335956242943834;
+    /// Passes in which vertices on walls move, at most.
+    unsigned loosening_passes = 20;
+    /// Steps of a size that such a vertex makes, at most, before larger ones are tried.
+    unsigned steps_of_a_size = 4;
     /// Cavities of inserted vertices have no more tetrahedra. Larger: more is tried.
     std::size_t most_in_cavity = 32;
     /// Cells of which a copy is made to look for several changes at a time. Larger: more is found

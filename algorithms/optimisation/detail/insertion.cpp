@@ -130,21 +130,43 @@ std::optional<Change> inserted_at(const Cells& cells, std::uint32_t c, const Poi
     return change;
 }
 
-} // namespace
-
-std::optional<Change> moved(const Cells& cells, std::uint32_t v,
-                            const std::vector<std::uint32_t>& star, std::size_t& effort) {
+/// The faces around a vertex, opposite to it in the cells of its star.
+FacesAround faces_around(const Cells& cells, std::uint32_t v,
+                         const std::vector<std::uint32_t>& star) {
     std::vector<std::array<std::uint32_t, 3>> hull;
     for (const std::uint32_t c : star) {
         const Corners& corners = cells.corners(c);
         const auto at = std::find(corners.begin(), corners.end(), v) - corners.begin();
         hull.push_back(face_opposite(corners, static_cast<unsigned>(at)));
     }
-    FacesAround faces = faces_of(cells, hull);
-    const Position best = best_position(faces, cells.points()[v]);
+    return faces_of(cells, hull);
+}
+
+/// The change that moves a vertex, if it is a gain.
+std::optional<Change> moved_to(const Cells& cells, std::uint32_t v,
+                               const std::vector<std::uint32_t>& star, const Position& best,
+                               const FacesAround& faces, std::size_t& effort) {
     effort += faces.effort();
     if (!(best.quality > cells.enough_for(star, constants.least_gain))) return std::nullopt;
     return Change{Change::Kind::move, star, {}, v, {best.at}, best.quality};
+}
+
+} // namespace
+
+std::optional<Change> moved(const Cells& cells, std::uint32_t v,
+                            const std::vector<std::uint32_t>& star, std::size_t& effort) {
+    FacesAround faces = faces_around(cells, v, star);
+    const Position best = best_position(faces, cells.points()[v]);
+    return moved_to(cells, v, star, best, faces, effort);
+}
+
+std::optional<Change> loosened(const Cells& cells, std::uint32_t v,
+                               const std::vector<std::uint32_t>& star, std::size_t& effort) {
+    if (!cells.is_free(v)) return std::nullopt;
+    FacesAround faces = faces_around(cells, v, star);
+    const Position best = near_position(faces, cells.points()[v],
+                                        [&](const Point3& p) { return cells.free_place(v, p); });
+    return moved_to(cells, v, star, best, faces, effort);
 }
 
 std::vector<Change> insertions(const Cells& cells, std::uint32_t c, double gain,

@@ -75,7 +75,8 @@ public:
 
     void consider(std::optional<Change> change) {
         if (!change || (best && !(change->quality > best->quality))) return;
-        if (makes_more_bad(cells_, *change)) return;
+        const bool is_urgent = cells_.least_quality(change->old) < permission_.urgent;
+        if (!is_urgent && makes_more_bad(cells_, *change)) return;
         if (permission_.may_grow || !grows(cells_, *change)) best = std::move(change);
     }
 
@@ -92,6 +93,14 @@ Proposal change_for_vertex(const Cells& cells, std::uint32_t v, const Permission
     Best best(cells, permission);
     std::size_t effort = 0;
     best.consider(moved(cells, v, cells.star(v), effort));
+    return {std::move(best.best), effort};
+}
+
+Proposal loosening_at(const Cells& cells, std::uint32_t c, const Permission& permission) {
+    Best best(cells, permission);
+    std::size_t effort = 0;
+    for (const std::uint32_t v : cells.corners(c))
+        if (cells.is_free(v)) best.consider(loosened(cells, v, cells.star(v), effort));
     return {std::move(best.best), effort};
 }
 

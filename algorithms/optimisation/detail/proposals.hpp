@@ -16,6 +16,7 @@ namespace terrane::optimisation::detail {
 struct Permission {
     bool may_grow = true;  ///< whether a new cell may be larger than all that it replaces
     double least_sine = 0; ///< of the mesh: no new cell may have a smaller one
+    double urgent = 0;     ///< where a cell is worse than that, more may be bad afterwards
 };
 
 /// Tells whether a cell that a change makes is larger than all that it replaces.
@@ -39,6 +40,9 @@ enum class Depth : std::uint8_t {
 /// inserted. Only reads the cells.
 Proposal change_for_cell(const Cells& cells, std::uint32_t c, const Permission& permission,
                          Depth depth = Depth::insertions);
+
+/// Proposes a better place for a corner of a cell that is on walls and free. Only reads the cells.
+Proposal loosening_at(const Cells& cells, std::uint32_t c, const Permission& permission);
 
 /// Proposes a better place for a vertex that is not fixed. Only reads the cells.
 Proposal change_for_vertex(const Cells& cells, std::uint32_t v, const Permission& permission);

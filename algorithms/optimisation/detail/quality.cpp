@@ -150,6 +150,28 @@ double FacesAround::largest_volume(const Point3& p) const {
     return most;
 }
 
+Point3 FacesAround::away_from_nearest(const Point3& p) const {
+    Point3 way;
+    double least = HUGE_VAL;
+    for (const Face& face : faces_)
+        for (const Point3& corner : {face.a, face.b, face.c}) {
+            const Point3 from = minus(p, corner);
+            const double distance = length(from);
+            if (!(distance > 0 && distance < least)) continue;
+            least = distance;
+            way = {from.x / distance, from.y / distance, from.z / distance};
+        }
+    return way;
+}
+
+double FacesAround::farthest(const Point3& p) const {
+    double most = 0;
+    for (const Face& face : faces_)
+        for (const Point3& corner : {face.a, face.b, face.c})
+            most = std::max(most, length(minus(corner, p)));
+    return most;
+}
+
 double FacesAround::nearest(const Point3& p) const {
     double least = HUGE_VAL;
     for (const Face& face : faces_)

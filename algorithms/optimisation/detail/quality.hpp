@@ -58,6 +58,11 @@ public:
     /// Returns the distance from p to the nearest corner elsewhere; infinite if there is none.
     [[nodiscard]] double nearest(const Point3& p) const;
 
+    /// Returns the direction from the nearest corner elsewhere to p, of the length 1; 0 if there is none.
+    [[nodiscard]] Point3 away_from_nearest(const Point3& p) const;
+    /// Returns the distance from p to the farthest corner.
+    [[nodiscard]] double farthest(const Point3& p) const;
+
     [[nodiscard]] std::size_t size() const { return faces_.size(); }
     /// Returns how many tetrahedra were measured: the same for any number of threads.
     [[nodiscard]] std::size_t effort() const { return effort_; }
