@@ -51,7 +51,7 @@ class Model:
     blocks: int = 0  # that the row of the resolution must have
 
 
-ROUNDS = 1
+ROUNDS = 2
 RESOLVED_ROUNDS = 8  # tetrahedra.refine_bad of the row with a resolution
 RESOLVED = {"least": 8, "share": .1, "mean_ratio": .2}  # goals there: at least, at most, at least
 ALL_MODELS = (

@@ -102,11 +102,14 @@ public:
         floor_ = least_sine();
         const std::size_t most = most_effort();
         budget_ = Budget(most, cells_.size());
-        if (Status done = improve_passes(most); !done) return done;
-        for (unsigned pass = 0; pass < 2; ++pass)
-            if (const auto changed = remesh(); !changed) return changed.error();
+        if (options_.angles) {
+            if (Status done = improve_passes(most); !done) return done;
+            for (unsigned pass = 0; pass < 2; ++pass)
+                if (const auto changed = remesh(); !changed) return changed.error();
+        }
         if (Status done = loosen(most); !done) return done;
-        if (Status done = improve_shapes(); !done) return done;
+        if (options_.shapes)
+            if (Status done = improve_shapes(); !done) return done;
         report.after = worst();
         report.effort = budget_.spent();
         report.is_cut_short = budget_.is_spent();
@@ -154,8 +157,10 @@ private:
     /// That is done with an effort of its own, as hopeless cells may have taken all.
     Status loosen(std::size_t most) {
         if (options_.freedom.is_free.empty()) return Done{};
-        const Permission permission{options_.may_grow, floor_, constants.urgent};
-        budget_.renew(most, cells_.size());
+        const bool is_wide = options_.freedom.is_wide;
+        const Permission permission{options_.may_grow, floor_, is_wide ? 0 : constants.least_loose,
+                                    is_wide ? constants.urgent : 0};
+        budget_.renew(most / constants.loose_part, cells_.size() / constants.loose_part);
         for (unsigned pass = 0; pass < constants.loosening_passes; ++pass) {
             const auto is_bad = [&](std::uint32_t c) {
                 return cells_.is_alive(c) && cells_.quality(c) < constants.bad;
@@ -169,6 +174,9 @@ private:
             if (*changed == 0) break;
             if (Status done = improve_at(Depth::insertions); !done) return done;
         }
+        budget_.renew(most, cells_.size());
+        if (report.loosened > 0)
+            if (const auto changed = remesh(); !changed) return changed.error();
         return Done{};
     }
 
@@ -480,7 +488,9 @@ std::vector<NamedConstant> optimise_constants() {
             {"largest_step", constants.largest_step},
             {"first_small_step", constants.first_small_step},
             {"loosening_passes", static_cast<double>(constants.loosening_passes)},
+            {"least_loose", constants.least_loose},
             {"urgent", constants.urgent},
+            {"loose_part", static_cast<double>(constants.loose_part)},
             {"steps_of_a_size", static_cast<double>(constants.steps_of_a_size)},
             {"most_in_cavity", static_cast<double>(constants.most_in_cavity)},
             {"most_in_remeshing", static_cast<double>(constants.most_in_remeshing)},

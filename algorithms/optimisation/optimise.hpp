@@ -22,6 +22,10 @@ struct VertexFreedom {
     /// Returns the place nearest to p, about, where vertex v may be; none where it does not know one.
     /// Called by several threads at a time.
     std::function<std::optional<Point3>(std::uint32_t v, const Point3& p)> place{};
+    bool is_wide = false; ///< there is so much room that vertices move for each gain, and that more
+        ///< tetrahedra may be bad for the sake of one with an angle below 3 degrees;
+        ///< otherwise only if all around them has a quality above the sine of 5.6
+        ///< degrees then
 };
 
 /// Options of optimise().
@@ -37,6 +41,8 @@ struct OptimiseOptions {
         ///< good ones are more than bad ones if that is more
     VertexFreedom freedom{}; ///< how vertices on surfaces may move where tetrahedra are bad; empty:
                              ///< they stay
+    bool angles = true;      ///< whether angles are improved, before vertices on surfaces move
+    bool shapes = true;      ///< whether mean ratios are improved, after that
 };
 
 /// The worst shapes among some tetrahedra.

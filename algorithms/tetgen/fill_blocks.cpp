@@ -169,7 +169,7 @@ Result<TetrahedralMesh> make_tetrahedra(const Model& model, const TetrahedraRequ
 
 Result<std::optional<OptimiseReport>> improve_tetrahedra(const Model& model,
                                                          const TetrahedraRequest& request,
-                                                         VertexFreedom freedom,
+                                                         const OptimiseOptions& steps,
                                                          TetrahedralMesh& made, const Run& run) {
     using Report = std::optional<OptimiseReport>;
     return guarded("for the tetrahedra", "tetrahedralize", [&]() -> Result<Report> {
@@ -179,7 +179,9 @@ Result<std::optional<OptimiseReport>> improve_tetrahedra(const Model& model,
         const Volumes volumes = volumes_as_found(model);
         if (!check_tetrahedra(made, model.mesh, volumes).violations.empty()) return Report();
         options->optimise->outside = options->optimise->outside && request.outside;
-        options->optimise->freedom = std::move(freedom);
+        options->optimise->freedom = steps.freedom;
+        options->optimise->angles = steps.angles;
+        options->optimise->shapes = steps.shapes;
         return tetgen::detail::improve_shapes(made, *model.mesh, volumes, *options, run);
     });
 }

@@ -62,12 +62,12 @@ Result<TetrahedralMesh> make_tetrahedra(const Model& model, const TetrahedraRequ
                                         const Run& run = {});
 
 /// Improves tetrahedra that make_tetrahedra made of the same model, as fill_blocks() does, with
-/// vertices on surfaces as free as `freedom` says, see OptimiseOptions. None, and nothing is changed, if
+/// the freedom of vertices and the steps, angles and shapes, of `steps`. None, and nothing is changed, if
 /// the checks find violations before, or the options ask for nothing. Errors: bad_option, those of
 /// optimise().
 Result<std::optional<OptimiseReport>>
-improve_tetrahedra(const Model& model, const TetrahedraRequest& request, VertexFreedom freedom,
-                   TetrahedralMesh& made, const Run& run = {});
+improve_tetrahedra(const Model& model, const TetrahedraRequest& request,
+                   const OptimiseOptions& steps, TetrahedralMesh& made, const Run& run = {});
 
 /// Checks and improves tetrahedra that make_tetrahedra made of the same model, now or earlier,
 /// checks what became of them, and splits nodes.

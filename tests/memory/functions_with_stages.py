@@ -30,6 +30,7 @@ WITHIN = {
     "cut_sections": "to_cut_certificate",
     "delaunay": "connect_points",
     "fill_graph_by_rbf": "fill_and_join_by_rbf",
+    "improve_tetrahedra": "fill_blocks",
     "make_tetrahedra": "tetrahedralize",
     "parse_column": "read_column",
     "parse_project": "read_project",

@@ -129,6 +129,15 @@ std::vector<Stage> improving() {
     stages.push_back(stage(
         "improve_and_measure", [&f, options] { return improve_and_measure(f.mesh, options); },
         [](const ImprovedAndMeasured& made) { return text_of(*made.improved.mesh); }));
+    const auto measured = needed(improve_and_measure(f.mesh, options));
+    stages.push_back(stage(
+        "with_vertices_at",
+        [&f, measured] {
+            return with_vertices_at(f.mesh, measured, measured.improved.mesh->vertices);
+        },
+        [](const std::optional<ImprovedAndMeasured>& made) {
+            return made ? text_of(*made->improved.mesh) : std::string();
+        }));
     stages.push_back(stage(
         "bounds_back", [&f, improved, options] { return bounds_back(*f.mesh, improved, options); },
         [](const std::vector<double>& bounds) { return failing::shown(bounds.front()); }));

@@ -37,9 +37,14 @@ struct OptimiseConstants {
     double largest_step = 0.25;
     /// First step, as a share of the largest one.
     double first_small_step = 1.0 / 128;
-    /// Where a tetrahedron is worse than that, the sine of 3 degrees, vertices on walls may move so that
-    /// more are bad, if none is as bad.
+    /// Where a tetrahedron is worse than that, the sine of 3 degrees, vertices on walls with much room may
+    /// move so that more are bad, if none is as bad.
     double urgent = 0.052335956242943834;
+    /// Vertices on walls with little room move only if all around them is better than that then, 0.7 times
+    /// the sine of 172 degrees: what can't become good is left alone.
+    double least_loose = 0.09742116720671;
+    /// That has an effort of its own, as much as all before divided by this.
+    std::size_t loose_part = 4;
     /// Passes in which vertices on walls move, at most.
     unsigned loosening_passes = 20;
     /// Steps of a size that such a vertex makes, at most, before larger ones are tried.

@@ -75,6 +75,7 @@ public:
 
     void consider(std::optional<Change> change) {
         if (!change || (best && !(change->quality > best->quality))) return;
+        if (change->quality < permission_.least_quality) return;
         const bool is_urgent = cells_.least_quality(change->old) < permission_.urgent;
         if (!is_urgent && makes_more_bad(cells_, *change)) return;
         if (permission_.may_grow || !grows(cells_, *change)) best = std::move(change);

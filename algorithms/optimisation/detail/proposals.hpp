@@ -14,9 +14,10 @@ namespace terrane::optimisation::detail {
 
 /// What may be proposed.
 struct Permission {
-    bool may_grow = true;  ///< whether a new cell may be larger than all that it replaces
-    double least_sine = 0; ///< of the mesh: no new cell may have a smaller one
-    double urgent = 0;     ///< where a cell is worse than that, more may be bad afterwards
+    bool may_grow = true;     ///< whether a new cell may be larger than all that it replaces
+    double least_sine = 0;    ///< of the mesh: no new cell may have a smaller one
+    double least_quality = 0; ///< that new cells must have
+    double urgent = 0;        ///< where a cell is worse than that, more may be bad afterwards
 };
 
 /// Tells whether a cell that a change makes is larger than all that it replaces.

@@ -16,6 +16,8 @@
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/quality/sliding_vertices.hpp>
+#include <terrane/algorithms/tetrahedra/bad_tetrahedra.hpp>
+#include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
 
 namespace terrane::project::detail {
 namespace {
@@ -23,7 +25,7 @@ namespace {
 /// Share of what is left of the resolution by which a vertex may move. The rest is for the insides of
 /// triangles, which may be farther from where they were than their corners.
 constexpr double first_share = 0.8;
-constexpr unsigned attempts = 4;
+constexpr unsigned attempts = 3;
 
 constexpr std::uint32_t none = UINT32_MAX;
 
@@ -118,11 +120,15 @@ public:
     Room& operator=(const Room&) = delete;
     virtual ~Room() = default;
 
+    /// Tells whether vertices may go far from the surfaces.
+    [[nodiscard]] virtual bool is_wide() const = 0;
     [[nodiscard]] virtual bool is_free(std::uint32_t v) const = 0;
     [[nodiscard]] virtual std::optional<Point3> place(std::uint32_t v, const Point3& p) const = 0;
     /// Tells whether the mesh may be like this, and adjusts its report; where it may not, there is
     /// less room from then on.
     virtual bool holds(ImprovedAndMeasured& moved) = 0;
+    /// Keeps a vertex where it is. Tells whether it was free.
+    virtual bool keep(std::uint32_t v) = 0;
     /// Makes room smaller everywhere.
     virtual void shrink() = 0;
 };
@@ -137,6 +143,8 @@ public:
         share_of_(mesh_.surfaces.size(), first_share) {
         find_distances();
     }
+
+    [[nodiscard]] bool is_wide() const override { return true; }
 
     [[nodiscard]] bool is_free(std::uint32_t v) const override {
         return !freedom_[v].stays && reach(v) > 0;
@@ -157,6 +165,8 @@ public:
         add_moves(moved);
         return beyond.empty();
     }
+
+    bool keep(std::uint32_t v) override { return std::exchange(left_[v], 0) > 0; }
 
     void shrink() override {
         for (double& share : share_of_) share /= 2;
@@ -221,6 +231,8 @@ public:
         sliding_(*input.arranged.rounded.conforming, input.improved.improved, input.options, run),
         stays_(mesh_.vertices.size()) {}
 
+    [[nodiscard]] bool is_wide() const override { return false; }
+
     [[nodiscard]] bool is_free(std::uint32_t v) const override {
         return sliding_.is_inner(v) && !stays_[v];
     }
@@ -233,8 +245,15 @@ public:
         const auto open = sliding_.not_shown(moved.improved.mesh->vertices);
         for (const std::uint32_t t : open)
             for (const std::uint32_t v : mesh_.triangles[t]) stays_[v] = true;
-        if (!keeps_volumes(moved.improved)) shrink();
-        return open.empty() && keeps_volumes(moved.improved);
+        const bool kept = keeps_volumes(moved.improved);
+        if (!kept) shrink();
+        return open.empty() && kept;
+    }
+
+    bool keep(std::uint32_t v) override {
+        const bool was_free = is_free(v);
+        stays_[v] = true;
+        return was_free;
     }
 
     void shrink() override { stays_.assign(stays_.size(), true); }
@@ -267,10 +286,7 @@ class Loosener {
 public:
     Loosener(const LoosenInput& input, const Run& run) :
         input_(input), run_(run), mesh_(*input.improved.improved.mesh),
-        corners_(corners_at(mesh_, input.made)), vertex_at_(input.made.vertices.size(), none) {
-        for (std::uint32_t v = 0; v < corners_.size(); ++v)
-            if (const auto [face, corner] = corners_[v]; face != none)
-                vertex_at_[input.made.faces[face][corner]] = v;
+        corners_(corners_at(mesh_, input.made)) {
         if (input.arranged.simplified)
             room_ = std::make_unique<RoomOfResolution>(input, run);
         else
@@ -279,16 +295,24 @@ public:
 
     Result<std::optional<Loosened>> operator()() {
         const ConformingMesh& before = *input_.arranged.rounded.conforming;
+        Loosened still{{}, input_.made, {}, {}};
+        OptimiseOptions steps;
+        steps.shapes = false;
+        auto sound = improve(steps, still);
+        if (!sound) return sound.error();
+        if (!*sound) return std::optional<Loosened>();
+        vertex_at_ = vertices_at_nodes(still.tetrahedra);
+        steps.angles = false;
+        steps.shapes = true;
         for (unsigned attempt = 0; attempt < attempts; ++attempt) {
-            TetrahedralMesh tetrahedra = input_.made;
-            auto report =
-                improve_tetrahedra(input_.model, input_.request, freedom(), tetrahedra, run_);
-            if (!report) return report.error();
-            if (!*report) break;
-            if ((*report)->loosened == 0)
-                return std::optional(Loosened{{}, std::move(tetrahedra), **report, {}});
-            auto points = points_of(tetrahedra);
-            const LoosenedVertices moved = compared(points);
+            Loosened loose = still;
+            steps.freedom = freedom();
+            sound = improve(steps, loose);
+            if (!sound) return sound.error();
+            if (loose.optimised.loosened == 0) return std::optional(std::move(loose));
+            if (!room_->is_wide() && keep_at_larger_angles(loose, still)) continue;
+            auto points = points_of(loose.tetrahedra);
+            loose.moved = compared(points);
             auto improved = with_vertices_at(before, input_.improved, std::move(points), run_);
             if (!improved) return improved.error();
             if (!*improved) {
@@ -298,20 +322,80 @@ public:
             const bool good = room_->holds(**improved);
             if (run_.stop.stop_requested())
                 return Error{ErrorCode::interrupted, "stopped on request", ""};
-            if (good)
-                return std::optional(
-                    Loosened{std::move(**improved), std::move(tetrahedra), **report, moved});
+            if (!good) continue;
+            loose.improved = std::move(*improved);
+            return std::optional(std::move(loose));
         }
-        return std::optional<Loosened>();
+        steps.freedom = {};
+        sound = improve(steps, still);
+        if (!sound) return sound.error();
+        return std::optional(std::move(still));
     }
 
 private:
+    /// Returns what two runs of optimise() did together.
+    [[nodiscard]] static OptimiseReport joined(const OptimiseReport& first,
+                                               const OptimiseReport& then) {
+        OptimiseReport both = then;
+        both.before = first.before;
+        both.is_cut_short = first.is_cut_short || then.is_cut_short;
+        for (const auto count :
+             {&OptimiseReport::passes, &OptimiseReport::removed_edges,
+              &OptimiseReport::removed_faces, &OptimiseReport::moved, &OptimiseReport::contracted,
+              &OptimiseReport::inserted, &OptimiseReport::remeshed, &OptimiseReport::effort})
+            both.*count += first.*count;
+        return both;
+    }
+
+    /// Improves tetrahedra, and adds what was done to what was before. False: they are not sound.
+    Result<bool> improve(const OptimiseOptions& steps, Loosened& of) const {
+        const auto report =
+            improve_tetrahedra(input_.model, input_.request, steps, of.tetrahedra, run_);
+        if (!report) return report.error();
+        if (!*report) return false;
+        of.optimised = steps.angles ? **report : joined(of.optimised, **report);
+        return true;
+    }
+
+    /// Tells whether a tetrahedron will be kept: without the outside, if that is not wanted.
+    [[nodiscard]] bool is_wanted(const TetrahedralMesh& tetrahedra, std::uint32_t t) const {
+        return input_.request.outside || tetrahedra.region_of[t] != 0;
+    }
+
+    /// Returns the vertices at the nodes of tetrahedra.
+    [[nodiscard]] std::vector<std::uint32_t>
+    vertices_at_nodes(const TetrahedralMesh& tetrahedra) const {
+        std::vector<std::uint32_t> vertices(tetrahedra.vertices.size(), none);
+        for (std::uint32_t v = 0; v < corners_.size(); ++v)
+            if (const auto [face, corner] = corners_[v]; face != none)
+                vertices[tetrahedra.faces[face][corner]] = v;
+        return vertices;
+    }
+
+    /// Keeps vertices where they are that are at tetrahedra with an angle larger than all before.
+    /// Tells whether there are such.
+    bool keep_at_larger_angles(const Loosened& loose, const Loosened& before) {
+        const double most = before.optimised.after.largest_angle;
+        if (loose.optimised.after.largest_angle <= most) return false;
+        const auto vertices = vertices_at_nodes(loose.tetrahedra);
+        bool any = false;
+        for (std::uint32_t t = 0; t < loose.tetrahedra.tetrahedra.size(); ++t) {
+            if (!is_wanted(loose.tetrahedra, t)) continue;
+            const auto angles = dihedral_angles(corners_of(loose.tetrahedra, t));
+            if (*std::max_element(angles.begin(), angles.end()) <= most) continue;
+            for (const std::uint32_t node : loose.tetrahedra.tetrahedra[t])
+                if (vertices[node] != none) any = room_->keep(vertices[node]) || any;
+        }
+        return any;
+    }
+
     /// Returns the freedom of the nodes of the tetrahedra.
     [[nodiscard]] VertexFreedom freedom() const {
         VertexFreedom freedom;
         freedom.is_free.resize(vertex_at_.size());
         for (std::size_t node = 0; node < vertex_at_.size(); ++node)
             freedom.is_free[node] = vertex_at_[node] != none && room_->is_free(vertex_at_[node]);
+        freedom.is_wide = room_->is_wide();
         freedom.place = [this](std::uint32_t node, const Point3& p) {
             return room_->place(vertex_at_[node], p);
         };

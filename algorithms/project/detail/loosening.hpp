@@ -40,10 +40,11 @@ struct Loosened {
 /// Where surfaces were simplified, all their vertices may move, in the sides of the boundary, as far as
 /// the resolution leaves room; all of each surface is shown to be within the resolution again, and
 /// report.bound_of grows by the movement. Otherwise only vertices inside of sheets move, on the
-/// surface before, and each of their triangles is proven to be within report.bound_of of that. What is
-/// not shown moves less, or not at all: four times at most, then none does.
+/// surface before, and each of their triangles is proven to be within report.bound_of of that; and no
+/// dihedral angle is larger than the largest one before. What is
+/// not shown moves less, or not at all: three times at most, then none does.
 ///
-/// None if the tetrahedra are not sound, or if nothing was shown. Errors: those of improve_tetrahedra() and with_vertices_at().
+/// None if the tetrahedra are not sound. Errors: those of improve_tetrahedra() and with_vertices_at().
 Result<std::optional<Loosened>> loosen(const LoosenInput& input, const Run& run);
 
 } // namespace terrane::project::detail
