@@ -6,7 +6,7 @@ usage: tetrahedra_table.py [--terrane PROGRAM] [--remesh PROGRAM] [--data FOLDER
 
 Each model's triangles are improved by Terrane, and then all meshers get the same ones: Terrane itself (`build`, with all
 that it does by default), TetGen (Debian: tetgen), Gmsh's HXT (python3-gmsh), and CGAL's tetrahedral remeshing of what Terrane's
-mesher made before its shapes are improved, with borders fixed (tests/bench, terrane_bench_remesh). One more row has
+mesher made before its shapes are improved and vertices of surfaces move for that, with borders fixed (tests/bench, terrane_bench_remesh). One more row has
 smaller triangles where tetrahedra were bad (tetrahedra.refine_bad), and for A2 one more has a resolution. All figures are measured from the files, by NumPy; times are processor seconds of one thread: of Terrane's
 whole run from the input files, of the others from the improved triangles.
 
@@ -171,11 +171,11 @@ class Meshers:
     def cgal(self):
         if not self.options.remesh.exists():
             return None
-        _, mesh, _ = self.terrane("unimproved", {}, {"optimise": False})
+        surfaces, mesh, _ = self.terrane("unimproved", {}, {"optimise": False})
         measures.write_medit(mesh, self.folder / "unimproved.mesh")
         used = run([self.options.remesh, "unimproved.mesh", "cgal.mesh", self.model.edge_length], self.folder,
                    self.options.seconds)
-        return self.surfaces, measures.read_medit(self.folder / "cgal.mesh"), used
+        return surfaces, measures.read_medit(self.folder / "cgal.mesh"), used
 
 
 def sides_of(mesh, triangles):

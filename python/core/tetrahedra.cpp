@@ -139,10 +139,10 @@ py::object optimised(const FilledBlocks& f) {
     const OptimiseReport& r = *f.optimised;
     return py::dict("before"_a = dict_of_shapes(r.before), "after"_a = dict_of_shapes(r.after),
                     "passes"_a = r.passes, "removed_edges"_a = r.removed_edges,
-                    "removed_faces"_a = r.removed_faces, "moved"_a = r.moved, "on_surfaces"_a = r.loosened,
-                    "contracted"_a = r.contracted, "inserted"_a = r.inserted,
-                    "remeshed"_a = r.remeshed, "left"_a = r.left, "untried"_a = r.untried,
-                    "effort"_a = r.effort, "cut_short"_a = r.is_cut_short);
+                    "removed_faces"_a = r.removed_faces, "moved"_a = r.moved,
+                    "on_surfaces"_a = r.loosened, "contracted"_a = r.contracted,
+                    "inserted"_a = r.inserted, "remeshed"_a = r.remeshed, "left"_a = r.left,
+                    "untried"_a = r.untried, "effort"_a = r.effort, "cut_short"_a = r.is_cut_short);
 }
 
 py::dict shape(const FilledBlocks& f) {
