@@ -42,16 +42,18 @@ Result<ImprovedAndMeasured> improve_and_measure(const ConformingMesh& mesh,
     });
 }
 
-Result<std::optional<ImprovedAndMeasured>> with_vertices_at(const ConformingMesh& before,
-                                                            const ImprovedAndMeasured& improved,
-                                                            std::vector<Point3> points,
-                                                            const Run& run) {
+Result<std::optional<ImprovedAndMeasured>>
+with_vertices_at(const ConformingMesh& before, const ImprovedAndMeasured& improved,
+                 std::vector<Point3> points, const PairCheckOptions& check, const Run& run) {
     using Moved = std::optional<ImprovedAndMeasured>;
     return guarded("to measure the mesh", "improve", [&]() -> Result<Moved> {
         const StageTimer timer(run, "measure");
         Mesh mesh = improved.improved.mesh;
         mesh.vertices = std::move(points);
-        auto proof = prove_conforming(std::move(mesh), run);
+        std::vector<std::uint32_t> labels;
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+            labels.push_back(mesh.surfaces_of[t][0]);
+        auto proof = prove_conforming(std::move(mesh), labels, check, run);
         if (!proof && proof.error().code == ErrorCode::improper_contact) return Moved();
         if (!proof) return proof.error();
         auto volumes = find_volumes(**proof, run);

@@ -30,10 +30,11 @@ Result<ImprovedAndMeasured> improve_and_measure(const ConformingMesh& mesh,
 
 /// Returns the improved mesh with its vertices at other places, proven conforming again, and measures
 /// it again; bounds are left as they are. None if it is not conforming, or if other volumes are at
-/// its triangles. `points`: one per vertex. Errors: bad_number; interrupted, out_of_memory.
+/// its triangles. `points`: one per vertex; `check`: how it is proven. Errors: bad_number; interrupted, out_of_memory.
 Result<std::optional<ImprovedAndMeasured>> with_vertices_at(const ConformingMesh& before,
                                                             const ImprovedAndMeasured& improved,
                                                             std::vector<Point3> points,
+                                                            const PairCheckOptions& check = {},
                                                             const Run& run = {});
 
 } // namespace terrane

@@ -313,7 +313,8 @@ public:
             if (!room_->is_wide() && keep_at_larger_angles(loose, still)) continue;
             auto points = points_of(loose.tetrahedra);
             loose.moved = compared(points);
-            auto improved = with_vertices_at(before, input_.improved, std::move(points), run_);
+            auto improved = with_vertices_at(before, input_.improved, std::move(points),
+                                             input_.options.check, run_);
             if (!improved) return improved.error();
             if (!*improved) {
                 room_->shrink();
