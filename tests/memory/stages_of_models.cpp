@@ -130,10 +130,10 @@ std::vector<Stage> improving() {
         "improve_and_measure", [&f, options] { return improve_and_measure(f.mesh, options); },
         [](const ImprovedAndMeasured& made) { return text_of(*made.improved.mesh); }));
     const auto measured = needed(improve_and_measure(f.mesh, options));
-    stages.push_back(stage(
-        "with_vertices_at",
-        [&f, measured] {
-            return with_vertices_at(f.mesh, measured, measured.improved.mesh->vertices);
+    stages.push_back(stage_of(
+        "with_vertices_at", [measured] { return measured.improved.mesh->vertices; },
+        [&f, measured](std::vector<Point3> points) {
+            return with_vertices_at(f.mesh, measured, std::move(points));
         },
         [](const std::optional<ImprovedAndMeasured>& made) {
             return made ? text_of(*made->improved.mesh) : std::string();
