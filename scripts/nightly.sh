@@ -5,7 +5,7 @@
 # The parts, all of them unless some are named; with two cores they take some ten hours together:
 #   soups      20 000 random soups and more, judged by the verifier and by rational numbers
 #   decimals   2 000 soups on decimal lattices: how far surfaces moved, in rational numbers
-#   models     5 000 random block models against an oracle; 300 improved ones
+#   models     5 000 random block models against an oracle; 300 improved ones; 100 with tetrahedra
 #   stacks     2 000 random stacks of layers, judged in rational numbers
 #   signals    2 000 interrupts at random times
 #   memory     each allocation fails once; limits on the memory of the program; 100 000 calls in one process
@@ -38,7 +38,8 @@ run_part() {
         done ;;
     models)
         TERRANE_RANDOM_MODELS=5000 "$tests/terrane_tests" "volumes: 1000 random models*" &&
-            /usr/bin/python3 tests/oracles/improved.py --terrane $terrane ;;
+            /usr/bin/python3 tests/oracles/improved.py --terrane $terrane &&
+            /usr/bin/python3 tests/oracles/moved_vertices.py --terrane $terrane ;;
     stacks) "$tests/stacks" random 2000 1 ;;
     signals) scripts/interrupts.py --runs 2000 ;;
     memory)
