@@ -102,7 +102,7 @@ struct ImproveOptions {
 
 /// The reason why the worst triangle can't be improved; the first one that applies.
 enum class WorstCause : std::uint8_t {
-    none,         ///< the mesh has no triangle
+    none,         ///< no triangle; or vertices moved afterwards, and another one is the worst
     corner_angle, ///< its smallest angle lies between two curves
     short_curve,  ///< its shortest edge is a curve between two corners
     close_curves, ///< all its corners lie on curves

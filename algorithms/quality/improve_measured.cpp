@@ -66,7 +66,7 @@ with_vertices_at(const ConformingMesh& before, const ImprovedAndMeasured& improv
         now.volumes = std::move(*volumes);
         now.report.after = measure_quality(now.mesh->vertices, now.mesh->triangles, run);
         if (now.report.after.worst != improved.improved.report.after.worst)
-            now.report.worst_cause = WorstCause::shape;
+            now.report.worst_cause = WorstCause::none; // nothing was tried there
         moved.deviations = deviations_of(before, now.mesh, run);
         if (run.stop.stop_requested())
             return Error{ErrorCode::interrupted, "stopped on request", ""};

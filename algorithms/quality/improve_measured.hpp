@@ -29,7 +29,7 @@ Result<ImprovedAndMeasured> improve_and_measure(const ConformingMesh& mesh,
                                                 const ImproveOptions& options, const Run& run = {});
 
 /// Returns the improved mesh with its vertices at other places, proven conforming again, and measures
-/// it again; bounds are left as they are. None if it is not conforming, or if other volumes are at
+/// it again; its report keeps the bounds. None if it is not conforming, or if other volumes are at
 /// its triangles. `points`: one per vertex; `check`: how it is proven. Errors: bad_number; interrupted, out_of_memory.
 Result<std::optional<ImprovedAndMeasured>> with_vertices_at(const ConformingMesh& before,
                                                             const ImprovedAndMeasured& improved,

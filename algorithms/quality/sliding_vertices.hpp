@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Lets vertices of an improved mesh slide on the surfaces before, within the bounds that improve()
+// Lets vertices of an improved mesh slide on the original surfaces, within the bounds that improve()
 // has proven.
 #pragma once
 

@@ -40,7 +40,7 @@ struct Loosened {
 /// Where surfaces were simplified, all their vertices may move, in the sides of the boundary, as far as
 /// the resolution leaves room; all of each surface is shown to be within the resolution again, and
 /// report.bound_of grows by the movement. Otherwise only vertices inside of sheets move, on the
-/// surface before, and each of their triangles is proven to be within report.bound_of of that; and no
+/// original surface, and each of their triangles is proven to be within report.bound_of of that; and no
 /// dihedral angle is larger than the largest one before. What is
 /// not shown moves less, or not at all: three times at most, then none does.
 ///

@@ -464,7 +464,7 @@ OptimiseOptions with_free(const TetrahedralMesh& mesh, const std::vector<std::ui
     return options;
 }
 
-/// The largest distance by which a corner of a face has moved, and the vertices that moved.
+/// Returns the corners of faces that have moved, and where they are then.
 std::map<std::uint32_t, Point3> moved_corners(const TetrahedralMesh& before,
                                               const TetrahedralMesh& after) {
     std::map<std::uint32_t, Point3> moved;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Tests that vertices slide on the surfaces before only, and that nothing else is accepted.
+// Tests that vertices slide on the original surfaces, and that triangles farther from them are told.
 #include <catch2/catch.hpp>
 
 #include <cmath>
