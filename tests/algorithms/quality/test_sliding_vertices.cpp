@@ -138,7 +138,7 @@ TEST_CASE("with_vertices_at: a mesh is proven and measured again", "[quality]") 
     REQUIRE(crossing);
     CHECK_FALSE(*crossing);
     points[inner].x = std::nan("");
-    const auto none = with_vertices_at(made.before, made.improved, points);
-    REQUIRE_FALSE(none);
-    CHECK(none.error().code == ErrorCode::bad_number);
+    const auto not_a_number = with_vertices_at(made.before, made.improved, points);
+    REQUIRE_FALSE(not_a_number);
+    CHECK(not_a_number.error().code == ErrorCode::bad_number);
 }
