@@ -142,6 +142,7 @@ private:
     /// blocks and tetrahedra are there, too. They are also if the surfaces were simplified, since
     /// vertices move where tetrahedra are bad.
     Status improve_in_rounds() {
+        if (auto done = prepare_improvement(); !done) return done;
         if (auto done = improve_mesh(); !done) return done;
         const unsigned rounds =
             project_.outputs.tetrahedra.empty() ? 0 : project_.tetrahedra.refine_bad;
@@ -156,8 +157,9 @@ private:
             if (is_best) best = std::move(now);
             const auto& sizes = best->places.sizes;
             if (round == rounds || sizes.empty() || failed == refinement_shares.size()) break;
-            refinements_ = best->refinements;
-            refinements_.push_back(scaled(sizes, refinement_shares[failed], smallest()));
+            improve_options_.refinements = best->refinements;
+            improve_options_.refinements.push_back(
+                scaled(sizes, refinement_shares[failed], smallest()));
             if (auto done = improve_mesh(); !done) return done;
         }
         built_.kept_round = best->number;
@@ -196,7 +198,7 @@ private:
                                  built_.filled->tetrahedra.tetrahedra.size(), places.bad,
                                  places.apart, places.misshapen});
         return {number,
-                refinements_,
+                improve_options_.refinements,
                 std::move(places),
                 built_.loosened,
                 std::exchange(built_.improved, std::nullopt),
@@ -204,16 +206,17 @@ private:
                 std::exchange(built_.filled, std::nullopt)};
     }
 
-    Status improve_mesh() {
+    /// Reads how to improve the mesh and simplifies the surfaces, once for all rounds: another time,
+    /// distances would be measured from surfaces that are simplified already.
+    Status prepare_improvement() {
         const ProjectImprove& wanted = *project_.improve;
         const auto& surfaces = rounded()->surfaces;
-        ImproveOptions options;
+        ImproveOptions& options = improve_options_;
         options.check = project_.check;
         options.edge_length = wanted.edge_length.value_or(0);
         options.max_deviation = wanted.max_deviation.value_or(0);
         options.layers_in_gaps = wanted.layers_in_gaps.value_or(0);
         options.smallest = wanted.smallest.value_or(0);
-        options.refinements = refinements_;
         if (!wanted.edge_length_of.empty()) options.edge_length_of.resize(surfaces.size());
         for (const auto& [name, length] : wanted.edge_length_of) {
             const auto found = surfaces_called(name, surfaces, built_.labels);
@@ -222,8 +225,25 @@ private:
                               not_called("surface", name, built_.labels));
             for (const std::uint32_t s : found) options.edge_length_of[s] = length;
         }
-        if (auto done = simplify_surfaces(options); !done) return done;
-        improve_options_ = options;
+        return simplify_surfaces();
+    }
+
+    /// Simplifies the surfaces, if the project states a resolution.
+    Status simplify_surfaces() {
+        const ProjectImprove& wanted = *project_.improve;
+        if (!wanted.resolution) {
+            if (!wanted.dissolve) return Done{};
+            return at_key(project_, "improve.dissolve", "needs improve.resolution");
+        }
+        auto done = simplify_to({*wanted.resolution, wanted.dissolve}, improve_options_,
+                                {.max_move = project_.max_move}, built_.arranged, run_);
+        if (!done && done.error().code == ErrorCode::bad_option)
+            return at_key(project_, "improve." + done.error().place, done.error());
+        return done;
+    }
+
+    Status improve_mesh() {
+        const ImproveOptions& options = improve_options_;
         const std::string key = key_for([&] { return key_of(rounded(), options); });
         if (const auto kept = found(BuildStage::improve, key)) {
             auto improved = improved_from(*kept, rounded(), options, run_);
@@ -236,20 +256,6 @@ private:
         if (auto good = check_resolution(); !good) return good;
         if (store_.keep) store_.keep(BuildStage::improve, key, bytes_of(*built_.improved));
         return Done{};
-    }
-
-    /// Simplifies the surfaces, if the project states a resolution.
-    Status simplify_surfaces(ImproveOptions& options) {
-        const ProjectImprove& wanted = *project_.improve;
-        if (!wanted.resolution) {
-            if (!wanted.dissolve) return Done{};
-            return at_key(project_, "improve.dissolve", "needs improve.resolution");
-        }
-        auto done = simplify_to({*wanted.resolution, wanted.dissolve}, options,
-                                {.max_move = project_.max_move}, built_.arranged, run_);
-        if (!done && done.error().code == ErrorCode::bad_option)
-            return at_key(project_, "improve." + done.error().place, done.error());
-        return done;
     }
 
     /// Refuses an improved mesh that is not shown to be within the resolution.
@@ -343,9 +349,7 @@ private:
     const Run& run_;
     const BuildObserver& observer_;
     const StageStore& store_;
-    std::vector<std::vector<LocalSize>> refinements_; ///< per round: lengths wanted where
-                                                      ///< tetrahedra were bad
-    ImproveOptions improve_options_;                  ///< of the last improvement
+    ImproveOptions improve_options_; ///< of the last improvement
     Built built_;
 };
 

@@ -299,6 +299,37 @@ TEST_CASE(
                all_at(&Point3::y, 8) || all_at(&Point3::z, 1) || all_at(&Point3::z, 7)));
     }
 }
+
+TEST_CASE("build: surfaces are simplified once, in whatever round tetrahedra are refined",
+          "[volumes]") {
+    // Both walls are simplified, and a second time would move them farther.
+    constexpr double resolution = 0.5;
+    const auto built = [&](unsigned rounds) {
+        Project project;
+        project.improve =
+            ProjectImprove{.edge_length = 2, .max_deviation = {}, .edge_length_of = {}};
+        project.improve->resolution = resolution;
+        project.outputs.tetrahedra = {"vtu"};
+        project.tetrahedra.refine_bad = rounds;
+        return build(project, {.surfaces = {box({0, 0, 0}, {8, 8, 8}), wall("first", -1, 4, 9, 4),
+                                            wall("second", -1, 5.2, 9, 4.1)}});
+    };
+    const auto once = built(0), refined = built(3);
+    REQUIRE(once);
+    REQUIRE(refined);
+    REQUIRE(refined->rounds.size() > 1);
+    REQUIRE(refined->arranged.simplified);
+    const Mesh& before = *refined->arranged.simplified->before;
+    CHECK(before.vertices == once->arranged.simplified->before->vertices);
+    CHECK(before.triangles == once->arranged.simplified->before->triangles);
+    CHECK(refined->arranged.rounded.mesh->vertices == once->arranged.rounded.mesh->vertices);
+    const Mesh& after = *refined->improved->improved.mesh;
+    for (std::uint32_t s = 0; s < after.surfaces.size(); ++s) {
+        const Surface old = surface_of_mesh(before, s), now = surface_of_mesh(after, s);
+        CHECK(farthest_sample(now, old) <= resolution);
+        CHECK(farthest_sample(old, now) <= resolution);
+    }
+}
 #endif
 
 TEST_CASE("build: lengths of a refinement are not scaled below the least one", "[volumes]") {
