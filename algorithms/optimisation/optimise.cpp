@@ -124,7 +124,13 @@ public:
 
 private:
     [[nodiscard]] bool is_improved(std::uint32_t c) const {
-        return cells_.is_alive(c) && (options_.outside || cells_.region(c) != 0);
+        return cells_.is_alive(c) && cells_.counts(c);
+    }
+
+    [[nodiscard]] std::array<Point3, 4> corners_of(std::uint32_t c) const {
+        std::array<Point3, 4> corners;
+        for (unsigned k = 0; k < 4; ++k) corners[k] = cells_.points()[cells_.corners(c)[k]];
+        return corners;
     }
 
     [[nodiscard]] WorstShapes worst() const {
@@ -132,9 +138,7 @@ private:
         for (std::uint32_t c = 0; c < cells_.size(); ++c) {
             if (!is_improved(c)) continue;
             worst.quality = std::min(worst.quality, cells_.quality(c));
-            std::array<Point3, 4> corners;
-            for (unsigned k = 0; k < 4; ++k) corners[k] = cells_.points()[cells_.corners(c)[k]];
-            for (const double angle : dihedral_angles(corners)) {
+            for (const double angle : dihedral_angles(corners_of(c))) {
                 worst.least_angle = std::min(worst.least_angle, angle);
                 worst.largest_angle = std::max(worst.largest_angle, angle);
             }
@@ -157,16 +161,27 @@ private:
     /// That is done with an effort of its own, as hopeless cells may have taken all.
     Status loosen(std::size_t most) {
         if (options_.freedom.is_free.empty()) return Done{};
+        budget_.renew(most / constants.loose_part, cells_.size() / constants.loose_part);
+        const auto has_bad_angle = [&](std::uint32_t c) {
+            return cells_.quality(c) < constants.bad;
+        };
+        if (Status done = loosen_where(has_bad_angle, constants.bad); !done) return done;
+        budget_.renew(most, cells_.size());
+        if (report.loosened > 0)
+            if (const auto changed = remesh(); !changed) return changed.error();
+        return Done{};
+    }
+
+    /// The same for cells of which `is_bad` says so; none of a quality above `most` is asked for.
+    template <class IsBad>
+    Status loosen_where(const IsBad& is_bad, double most) {
         const bool is_wide = options_.freedom.is_wide;
         const Permission permission{options_.may_grow, floor_, is_wide ? 0 : constants.least_loose,
                                     is_wide ? constants.urgent : 0};
-        budget_.renew(most / constants.loose_part, cells_.size() / constants.loose_part);
         for (unsigned pass = 0; pass < constants.loosening_passes; ++pass) {
-            const auto is_bad = [&](std::uint32_t c) {
-                return cells_.is_alive(c) && cells_.quality(c) < constants.bad;
-            };
             const auto changed = in_batches(
-                Queue(cells_below(constants.bad)), is_bad,
+                Queue(cells_below(most)),
+                [&](std::uint32_t c) { return cells_.is_alive(c) && is_bad(c); },
                 [&](std::uint32_t c) { return claim_corners(c); },
                 [&](std::uint32_t c) { return loosening_at(cells_, c, permission); },
                 [](std::uint32_t, std::uint32_t) {});
@@ -174,9 +189,6 @@ private:
             if (*changed == 0) break;
             if (Status done = improve_at(Depth::insertions); !done) return done;
         }
-        budget_.renew(most, cells_.size());
-        if (report.loosened > 0)
-            if (const auto changed = remesh(); !changed) return changed.error();
         return Done{};
     }
 
@@ -208,13 +220,22 @@ private:
         if (budget_.is_over()) return Done{};
         std::vector<double> by_angles;
         for (std::uint32_t c = 0; c < cells_.size(); ++c) by_angles.push_back(cells_.quality(c));
-        cells_.judge_by({std::max(report.before.quality, constants.bad)});
+        const Measure measure{std::max(report.before.quality, constants.bad)};
+        cells_.judge_by(measure);
+
         auto& tried = tried_[static_cast<std::size_t>(Depth::insertions)];
         tried.resize(cells_.size(), none);
         for (std::uint32_t c = 0; c < cells_.size(); ++c)
             if (cells_.quality(c) < by_angles[c]) tried[c] = none;
         Status done = improve_at(Depth::insertions);
+        const auto is_misshapen = [&](std::uint32_t c) {
+            return mean_ratio(corners_of(c)) < constants.least_ratio;
+        };
+        if (done && options_.freedom.is_wide)
+            done =
+                loosen_where(is_misshapen, quality_of_mean_ratio(constants.least_ratio, measure));
         cells_.judge_by({});
+
         return done;
     }
 
@@ -455,7 +476,7 @@ Result<OptimiseReport> optimise_valid(TetrahedralMesh& mesh, const OptimiseOptio
         return Error{ErrorCode::bad_option, "tetrahedra with split nodes can't be improved", ""};
     if (Status sound = check_lists(mesh); !sound) return sound.error();
     if (Status sound = check_freedom(mesh, options.freedom); !sound) return sound.error();
-    Cells cells(mesh);
+    Cells cells(mesh, options.outside);
     cells.set_free(options.freedom);
     Optimiser optimiser(cells, options, run);
     Status done = Done{};
@@ -482,6 +503,8 @@ std::vector<NamedConstant> optimise_constants() {
             {"most_around_edge", static_cast<double>(constants.most_around_edge)},
             {"obtuse_share", constants.obtuse_share},
             {"shape_share", constants.shape_share},
+            {"least_ratio", constants.least_ratio},
+            {"ratio_enough", constants.ratio_enough},
             {"relaxed", constants.relaxed},
             {"bad", constants.bad},
             {"loose_enough", constants.loose_enough},

@@ -86,9 +86,9 @@ struct OptimiseReport {
 ///     and the worst tetrahedron never gets worse. No sine of a dihedral angle becomes less than
 ///     the least one before.
 ///     The last passes raise the mean ratio of needles with good angles. There, the quality is the
-///     smaller one of that above and of twice the power 3/2 of the mean ratio; the latter counts as
-///     the sine of 10 degrees, or as the least quality before, where it is below that. These passes
-///     therefore make no angle that is worse.
+///     smaller one of that above and of q = sqrt(L^2 + 1.96 r^3) for a mean ratio r, where L is the
+///     sine of 10 degrees, or the least quality before if that is more. Since q > L, these passes make no
+///     angle that is worse than L. Vertices on surfaces with much room move there where r is below 0.2.
 /// (4) Where qualities can't be computed reliably in doubles, tetrahedra stay as they are.
 /// (5) The same mesh gives the same result, with any number of threads.
 ///

@@ -52,9 +52,10 @@ Cells::Face Cells::face_of(const Corners& c, std::uint32_t cell, unsigned k) {
     return face;
 }
 
-Cells::Cells(const TetrahedralMesh& mesh) :
-    exponent_(exponent_for(mesh.vertices)), is_fixed_(mesh.vertices.size(), false),
-    cell_of_(mesh.vertices.size(), none), cells_(mesh.tetrahedra.begin(), mesh.tetrahedra.end()),
+Cells::Cells(const TetrahedralMesh& mesh, bool outside) :
+    outside_(outside), exponent_(exponent_for(mesh.vertices)),
+    is_fixed_(mesh.vertices.size(), false), cell_of_(mesh.vertices.size(), none),
+    cells_(mesh.tetrahedra.begin(), mesh.tetrahedra.end()),
     beside_(cells_.size(), {none, none, none, none}), walls_(cells_.size(), 0),
     region_(mesh.region_of), changed_(cells_.size(), 0), touched_(mesh.vertices.size(), 0) {
     for (const Point3& p : mesh.vertices) points_.push_back(times(p, -exponent_));
@@ -89,7 +90,7 @@ void Cells::judge_by(const Measure& by) {
     for (std::uint32_t c = 0; c < cells_.size(); ++c) {
         if (!is_alive(c)) continue;
         const Quality quality = measure(cells_[c]);
-        quality_[c] = quality.is_trusted ? quality.value : HUGE_VAL;
+        quality_[c] = counts(c) && quality.is_trusted ? quality.value : HUGE_VAL;
     }
 }
 
@@ -108,10 +109,14 @@ void Cells::connect(const Face& one, const Face& other) {
     beside_[other.cell][other.k] = one.cell;
 }
 
+bool Cells::is_positive(const Corners& c) const {
+    return orient3d(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]) == Sign::Positive;
+}
+
 bool Cells::meets(const Corners& c, const Demand& demand) const {
     const Quality quality = measure(c);
     return quality.is_trusted && quality.value > demand.quality && quality.sine >= demand.sine &&
-           orient3d(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]) == Sign::Positive;
+           is_positive(c);
 }
 
 double Cells::volume_of(const Corners& c) const {
@@ -180,7 +185,7 @@ void Cells::store(std::uint32_t c, const Corners& corners, std::uint32_t region)
     beside_[c] = {none, none, none, none};
     walls_[c] = 0;
     region_[c] = region;
-    quality_[c] = quality_of(corners);
+    quality_[c] = counts(c) ? quality_of(corners) : HUGE_VAL;
     for (const std::uint32_t v : corners) cell_of_[v] = c;
     touch(c);
 }
@@ -314,13 +319,13 @@ bool Cells::move(std::uint32_t v, const Point3& to, const Demand& demand) {
     const Point3 from = points_[v];
     points_[v] = to;
     for (const std::uint32_t c : around)
-        if (!meets(cells_[c], demand)) {
+        if (!(counts(c) ? meets(cells_[c], demand) : is_positive(cells_[c]))) {
             points_[v] = from;
             return false;
         }
     ++time_;
     for (const std::uint32_t c : around) {
-        quality_[c] = quality_of(cells_[c]);
+        if (counts(c)) quality_[c] = quality_of(cells_[c]);
         touch(c);
     }
     return true;

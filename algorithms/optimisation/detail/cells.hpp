@@ -40,12 +40,17 @@ struct Demand {
 /// corners.
 class Cells {
 public:
-    explicit Cells(const TetrahedralMesh& mesh);
+    /// `outside`: whether cells of region 0 count. Those that don't may have any positive volume.
+    explicit Cells(const TetrahedralMesh& mesh, bool outside = true);
 
     [[nodiscard]] std::size_t size() const { return cells_.size(); }
     [[nodiscard]] bool is_alive(std::uint32_t c) const { return cells_[c][0] != none; }
     [[nodiscard]] const Corners& corners(std::uint32_t c) const { return cells_[c]; }
-    /// Returns the quality of a cell; infinite if that can't be trusted, so that it stays.
+    /// Tells whether it matters how good a cell is.
+    [[nodiscard]] bool counts(std::uint32_t c) const { return outside_ || region_[c] != 0; }
+    /// Returns the quality of a cell; infinite if that does not count, or can't be trusted, so that
+    /// it stays.
+
     [[nodiscard]] double quality(std::uint32_t c) const { return quality_[c]; }
     [[nodiscard]] double least_quality(std::span<const std::uint32_t> of) const {
         double least = HUGE_VAL;
@@ -120,8 +125,8 @@ public:
     /// them, and all walls between old ones are faces of new ones. Returns whether it did.
     bool replace(std::span<const std::uint32_t> old, std::span<const Corners> added,
                  const Demand& demand);
-    /// Moves a vertex that is free or not fixed, if all cells at it are as good as demanded then and stay
-    /// positive, exactly. Returns whether it did.
+    /// Moves a vertex that is free or not fixed, if all cells at it that count are as good as demanded
+    /// then, and all stay positive, exactly. Returns whether it did.
     bool move(std::uint32_t v, const Point3& to, const Demand& demand);
 
     /// Writes the cells back, without vertices that none has any more.
@@ -132,7 +137,9 @@ private:
     struct Fit;
 
     void match_all();
+    [[nodiscard]] bool is_positive(const Corners& c) const;
     [[nodiscard]] bool meets(const Corners& c, const Demand& demand) const;
+
     [[nodiscard]] static Face face_of(const Corners& c, std::uint32_t cell, unsigned k);
     void connect(const Face& one, const Face& other);
     /// Sets the hull of old cells and the walls between them.
@@ -147,6 +154,7 @@ private:
     void touch(std::uint32_t c);
     void store(std::uint32_t c, const Corners& corners, std::uint32_t region);
 
+    bool outside_; ///< whether cells of region 0 count
     int exponent_; ///< points are those of the mesh times 2^-exponent
     std::vector<Point3> points_;
     std::vector<bool> is_fixed_;

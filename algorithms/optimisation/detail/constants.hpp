@@ -18,8 +18,13 @@ struct OptimiseConstants {
     /// Less: the greatest angles become better, the least ones worse.
     double obtuse_share = 0.7;
     /// The mean ratio to the power of 3/2 counts this much where shapes count, too, so that a mean
-    /// ratio of 0.2 is as bad as an angle of 10.3 degrees. Less: shapes become better, angles worse.
-    double shape_share = 2;
+    /// ratio of 0.2 is as bad as an angle of 12.4 degrees. Less: shapes become better, angles worse.
+    double shape_share = 1.4;
+    /// Vertices on walls with much room move where mean ratios are below that, too.
+    double least_ratio = 0.2;
+    /// They move until mean ratios are that good. Larger: surfaces move farther.
+    double ratio_enough = 0.22;
+
     /// A change must raise the least quality by this. Larger: fewer changes that hardly matter.
     double least_gain = 5e-3;
     /// Edges with more tetrahedra around them are not removed: the work grows with the cube.

@@ -133,13 +133,14 @@ std::optional<Change> inserted_at(const Cells& cells, std::uint32_t c, const Poi
 /// The faces around a vertex, opposite to it in the cells of its star.
 FacesAround faces_around(const Cells& cells, std::uint32_t v,
                          const std::vector<std::uint32_t>& star) {
-    std::vector<std::array<std::uint32_t, 3>> hull;
+    FacesAround faces(cells.judged_by());
     for (const std::uint32_t c : star) {
         const Corners& corners = cells.corners(c);
         const auto at = std::find(corners.begin(), corners.end(), v) - corners.begin();
-        hull.push_back(face_opposite(corners, static_cast<unsigned>(at)));
+        const auto [a, b, d] = face_opposite(corners, static_cast<unsigned>(at));
+        faces.add(cells.points()[a], cells.points()[b], cells.points()[d], cells.counts(c));
     }
-    return faces_of(cells, hull);
+    return faces;
 }
 
 /// The change that moves a vertex, if it is a gain.
@@ -164,7 +165,11 @@ std::optional<Change> loosened(const Cells& cells, std::uint32_t v,
                                const std::vector<std::uint32_t>& star, std::size_t& effort) {
     if (!cells.is_free(v)) return std::nullopt;
     FacesAround faces = faces_around(cells, v, star);
-    const Position best = near_position(faces, cells.points()[v],
+    const Measure& measure = cells.judged_by();
+    const double enough = measure.least < HUGE_VAL
+                              ? quality_of_mean_ratio(constants.ratio_enough, measure)
+                              : constants.loose_enough;
+    const Position best = near_position(faces, cells.points()[v], enough,
                                         [&](const Point3& p) { return cells.free_place(v, p); });
     return moved_to(cells, v, star, best, faces, effort);
 }

@@ -46,7 +46,7 @@ Position best_position(FacesAround& faces, const Point3& first);
 /// only that way is right if the two are very near. Steps become larger and larger, and end where tetrahedra are good
 /// enough, so that it moves no farther than it must.
 template <class Place>
-Position near_position(FacesAround& faces, const Point3& first, const Place& place) {
+Position near_position(FacesAround& faces, const Point3& first, double enough, const Place& place) {
     Position best{first, faces.least(first)};
     const auto away = faces.away_from_nearest(first);
     const double most = constants.largest_step * faces.farthest(first);
@@ -56,7 +56,7 @@ Position near_position(FacesAround& faces, const Point3& first, const Place& pla
         if (!p) return;
         if (const auto quality = faces.above(*p, best.quality)) best = {*p, *quality};
     };
-    for (; step <= most && best.quality < constants.loose_enough; step *= 2)
+    for (; step <= most && best.quality < enough; step *= 2)
         for (unsigned n = 0; n < constants.steps_of_a_size; ++n) {
             const Position from = best;
             look(stepped(from.at, step, away));

@@ -61,7 +61,8 @@ bool makes_more_bad(const Cells& cells, const Change& change) {
     std::ptrdiff_t more = 0;
     for (const std::uint32_t c : change.old) {
         more -= cells.quality(c) < constants.bad ? 1 : 0;
-        if (change.kind == Change::Kind::move) more += is_bad(cells.corners(c)) ? 1 : 0;
+        if (change.kind == Change::Kind::move && cells.counts(c))
+            more += is_bad(cells.corners(c)) ? 1 : 0;
     }
     for (const Corners& c : change.added) more += is_bad(c) ? 1 : 0;
     return more > 0;

@@ -53,12 +53,16 @@ inline Numerators numerators_of(const Edges& e, const Normals& n, double volume,
     if (measure.least < HUGE_VAL) {
         const double sum = e.ab + e.ac + e.ad + e.bc + e.bd + e.cd, ratio = measure.least / volume;
         least.value =
-            std::min(least.value, areas * std::max(ratio * ratio, shape_share / (sum * sum * sum)));
+            std::min(least.value, areas * (ratio * ratio + shape_share / (sum * sum * sum)));
     }
     return least;
 }
 
 } // namespace
+
+double quality_of_mean_ratio(double ratio, const Measure& measure) {
+    return std::hypot(measure.least, constants.shape_share * ratio * std::sqrt(ratio));
+}
 
 Quality quality_of(const Point3& a, const Point3& b, const Point3& c, const Point3& d,
                    const Measure& measure) {
@@ -86,17 +90,18 @@ Quality quality_of(const Point3& a, const Point3& b, const Point3& c, const Poin
     return quality;
 }
 
-void FacesAround::add(const Point3& a, const Point3& b, const Point3& c) {
+void FacesAround::add(const Point3& a, const Point3& b, const Point3& c, bool counts) {
     const Point3 ab = minus(b, a), ac = minus(c, a);
     const Point3 normal = cross(ab, ac);
-    faces_.push_back(
-        {a, b, c, ab, ac, normal, square(ab), square(ac), square(minus(c, b)), square(normal)});
+    faces_.push_back({a, b, c, ab, ac, normal, square(ab), square(ac), square(minus(c, b)),
+                      square(normal), counts});
 }
 
 double FacesAround::square_quality(const Face& face, const Point3& p) const {
     const Point3 ad = minus(p, face.a);
     const double volume = dot(ad, face.normal);
     if (!(volume > 0)) return 0;
+    if (!face.counts) return HUGE_VAL;
     const Point3 of_b = cross(face.ac, ad), of_c = cross(ad, face.ab);
     const Edges e{face.square_ab, face.square_ac,           square(ad),
                   face.square_bc, square(minus(p, face.b)), square(minus(p, face.c))};

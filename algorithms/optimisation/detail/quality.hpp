@@ -14,11 +14,15 @@
 
 namespace terrane::optimisation::detail {
 
-/// Tells how the mean ratio limits the quality: it is at most constants.shape_share times the mean
-/// ratio to the power of 3/2, or at most `least` if that is more.
+/// Tells how the mean ratio limits the quality: its square is at most that of `least` plus that of
+/// constants.shape_share times the mean ratio to the power of 3/2. So it never makes an angle count
+/// less than `least`, and a larger mean ratio is always better.
 struct Measure {
     double least = HUGE_VAL; ///< infinite: the mean ratio does not limit it
 };
+
+/// Returns the largest quality that a tetrahedron of this mean ratio can have.
+double quality_of_mean_ratio(double ratio, const Measure& measure);
 
 /// A tetrahedron's quality in floating point.
 struct Quality {
@@ -42,8 +46,8 @@ class FacesAround {
 public:
     explicit FacesAround(const Measure& measure) : measure_(measure) {}
 
-    /// Adds a face.
-    void add(const Point3& a, const Point3& b, const Point3& c);
+    /// Adds a face. The tetrahedron at one that does not count is good if its volume is positive.
+    void add(const Point3& a, const Point3& b, const Point3& c, bool counts = true);
 
     /// Returns the least quality of the tetrahedra between the faces and p if it is above `enough`,
     /// which is not negative; none otherwise. A face that was too bad comes first the next time, as
@@ -72,6 +76,7 @@ private:
     struct Face {
         Point3 a, b, c, ab, ac, normal; ///< of the length of twice its area
         double square_ab = 0, square_ac = 0, square_bc = 0, square_area = 0;
+        bool counts = true;
     };
 
     [[nodiscard]] double square_quality(const Face& face, const Point3& p) const;

@@ -566,6 +566,73 @@ TEST_CASE("optimise: a free vertex on a wall moves where tetrahedra are bad, as 
     }
 }
 
+TEST_CASE("optimise: a free vertex on a wall with much room moves where tetrahedra are needles",
+          "[optimisation]") {
+    Cubes cubes(4, 2, 0, 1);
+    const std::uint32_t near = 2 * 25 + 2 * 5 + 2;
+    cubes.mesh.vertices[near] = {2.96, 2, 2}; // beside (3, 2, 2)
+    const TetrahedralMesh before = cubes.mesh;
+    const auto least_ratio = [](const TetrahedralMesh& mesh) {
+        double least = 1;
+        for (const Cell& c : mesh.tetrahedra)
+            least = std::min(least, mean_ratio(corners_of(mesh, c)));
+        return least;
+    };
+    auto options = with_free(before, {near});
+    TetrahedralMesh narrow = before;
+    REQUIRE(optimise(narrow, options));
+    CHECK(least_quality(narrow) > std::sin(10 * std::numbers::pi / 180)); // angles are good
+    CHECK(least_ratio(narrow) < 0.2);
+    CHECK(moved_corners(before, narrow).empty());
+
+    options.freedom.is_wide = true;
+    TetrahedralMesh wide = before;
+    const auto report = optimise(wide, options);
+    REQUIRE(report);
+    CHECK(report->loosened > 0);
+    CHECK(least_ratio(wide) >= 0.2);
+    CHECK(least_quality(wide) > std::sin(10 * std::numbers::pi / 180));
+    const auto moved = moved_corners(before, wide);
+    REQUIRE(moved.size() == 1);
+    CHECK(moved.at(near).z == 2);
+    CHECK(moved.at(near).x > 2.5); // no farther than it must
+    for (const std::uint32_t region : {1U, 2U})
+        CHECK(six_volumes(wide, region) == six_volumes(before, region));
+}
+
+TEST_CASE("optimise: tetrahedra outside, which are dropped later, keep no vertex from its place",
+          "[optimisation]") {
+    std::uint32_t crowded = 0;
+    TetrahedralMesh before = crowded_wall(crowded);
+    for (std::uint32_t& region : before.region_of) region = region == 2 ? 0 : 1;
+    const auto inner = [](const TetrahedralMesh& mesh) {
+        TetrahedralMesh kept = mesh;
+        kept.tetrahedra.clear();
+        for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+            if (mesh.region_of[t] != 0) kept.tetrahedra.push_back(mesh.tetrahedra[t]);
+        return kept;
+    };
+    // Above the wall, a vertex is so near to it that no place for the crowded one is good there.
+    const std::uint32_t above = crowded + 25;
+    REQUIRE(before.vertices[above] == Point3{2, 2, 3});
+    before.vertices[above] = {2.2, 2.2, 2.05};
+    for (const Cell& c : before.tetrahedra) {
+        const auto p = corners_of(before, c);
+        REQUIRE(orient3d(p[0], p[1], p[2], p[3]) == Sign::Positive);
+    }
+    auto options = with_free(before, {crowded});
+    options.outside = false;
+    TetrahedralMesh after = before;
+    REQUIRE(optimise(after, options));
+    CHECK(least_quality(inner(after)) > std::sin(10 * std::numbers::pi / 180));
+    for (const Cell& c : after.tetrahedra) {
+        const auto p = corners_of(after, c);
+        CHECK(orient3d(p[0], p[1], p[2], p[3]) == Sign::Positive);
+    }
+    CHECK(moved_corners(before, after).count(crowded) == 1);
+    CHECK(std::count(after.vertices.begin(), after.vertices.end(), before.vertices[above]) == 1);
+}
+
 TEST_CASE("optimise: refuses options that make no sense, and stops on request", "[optimisation]") {
     TetrahedralMesh mesh = Cubes(3, 0, 0.4, 2).mesh;
     const TetrahedralMesh before = mesh;
