@@ -106,6 +106,9 @@ public:
             if (Status done = improve_passes(most); !done) return done;
             for (unsigned pass = 0; pass < 2; ++pass)
                 if (const auto changed = remesh(); !changed) return changed.error();
+        } else {
+            tried_.back().assign(cells_.size(), 0);
+            moved_.assign(cells_.points().size(), 0);
         }
         if (Status done = loosen(most); !done) return done;
         if (options_.shapes)
@@ -162,13 +165,14 @@ private:
     Status loosen(std::size_t most) {
         if (options_.freedom.is_free.empty()) return Done{};
         budget_.renew(most / constants.loose_part, cells_.size() / constants.loose_part);
+        const std::uint32_t before = cells_.time();
         const auto has_bad_angle = [&](std::uint32_t c) {
             return cells_.quality(c) < constants.bad;
         };
         if (Status done = loosen_where(has_bad_angle, constants.bad); !done) return done;
         budget_.renew(most, cells_.size());
         if (report.loosened > 0)
-            if (const auto changed = remesh(); !changed) return changed.error();
+            if (const auto changed = remesh(before); !changed) return changed.error();
         return Done{};
     }
 
@@ -257,11 +261,13 @@ private:
         return Done{};
     }
 
-    /// Looks for several changes at a time for the cells that are still bad.
-    Result<std::size_t> remesh() {
+    /// Looks for several changes at a time for the cells that are still bad; only for those at which something has
+    /// changed since then, if a time is given.
+    Result<std::size_t> remesh(std::optional<std::uint32_t> since = {}) {
         const Permission permission{options_.may_grow, floor_};
         const auto is_bad = [&](std::uint32_t c) {
-            return cells_.is_alive(c) && cells_.quality(c) < constants.bad;
+            return cells_.is_alive(c) && cells_.quality(c) < constants.bad &&
+                   (!since || cells_.is_touched(c, *since));
         };
         const auto propose = [&](std::uint32_t c) {
             return remeshing_at(cells_, c, permission, wanted_);
