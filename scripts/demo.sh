@@ -49,7 +49,7 @@ run "$terrane" tetrahedralize tests/data/ringmesh/modelA2.ml -o "$out/modelA2.vt
     -o "$out/modelA2.msh" --stats "$out/modelA2.json"
 expect "$out/modelA2.json" regions 13
 
-say "the same model for a simulator: in a box, its triangles improved; the share of bad tetrahedra"
+say "the same model for a simulator: in a box, what is nearer than 60 m joined, its triangles improved"
 rm -rf "$out/simulator"
 page=() # a build without npm has no pages
 [[ ! -e build/demo/page_bundle.cpp ]] || page=(--report "$out/model.html")

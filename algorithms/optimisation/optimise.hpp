@@ -22,9 +22,9 @@ struct VertexFreedom {
     /// Returns the place nearest to p, about, where vertex v may be; none where it does not know one.
     /// Called by several threads at a time.
     std::function<std::optional<Point3>(std::uint32_t v, const Point3& p)> place{};
-    bool is_wide = false; ///< there is so much room that vertices move for each gain, and that more
-        ///< tetrahedra may be bad for the sake of one with an angle below 3 degrees;
-        ///< otherwise only if all around them has a quality above the sine of 5.6
+    bool is_wide = false; ///< there is so much room that vertices move for each gain and for mean
+        ///< ratios below 0.2, and that more tetrahedra may be bad for the sake of one with an angle
+        ///< below 3 degrees; otherwise only if all around them has a quality above the sine of 5.6
         ///< degrees then
 };
 
@@ -41,8 +41,9 @@ struct OptimiseOptions {
         ///< good ones are more than bad ones if that is more
     VertexFreedom freedom{}; ///< how vertices on surfaces may move where tetrahedra are bad; empty:
                              ///< they stay
-    bool angles = true;      ///< whether angles are improved, before vertices on surfaces move
-    bool shapes = true;      ///< whether mean ratios are improved, after that
+    bool angles = true; ///< whether angles are improved, before vertices on surfaces move; false
+                        ///< if a call before has done it: only what changes is tried again
+    bool shapes = true; ///< whether mean ratios are improved, after that
 };
 
 /// The worst shapes among some tetrahedra.
@@ -79,7 +80,8 @@ struct OptimiseReport {
 ///
 /// (1) Faces on surfaces and on the box stay, and so do their vertices, bit by bit, in their order.
 ///     Where bad tetrahedra are left then, of a quality below the sine of 10 degrees, vertices on
-///     surfaces move as options.freedom lets them; faces keep their corners.
+///     surfaces move as options.freedom lets them; faces keep their corners. Tetrahedra of a region
+///     that is not improved need only keep a positive volume then.
 /// (2) Each tetrahedron has a positive volume, by exact predicates; regions fill what they did.
 /// (3) A change is made only if the least quality of the tetrahedra that it makes is larger than
 ///     that of those that it replaces. So the sorted vector of qualities grows with each change,
