@@ -28,6 +28,7 @@ cases=(
     'extend volume docs/top.ts docs/base.ts docs/fault.ts -o out/model --box -140,-140,-1700,2140,1640,-700 --extend 60 --seal 20'
     'seal volume docs/top.ts docs/base.ts docs/fault.ts -o out/model --box 0,0,-1700,2000,1500,-700 --seal 20'
     'improve improve docs/top.ts docs/base.ts docs/fault.ts -o out/a.vtp -o out/a.obj --box 0,0,-1700,2000,1500,-700 --seal 20 --edge-length 200 --histogram out/q.svg'
+    'resolution improve data/ringmesh/modelA1.ml -o out/a.obj --box -3000,-2500,-2500,9000,4500,1200 --edge-length 800 --resolution 150'
     'kriging fill --depth docs/seabed.asc -o out/a.vtp -o out/a.obj --map out/map.svg --points out/new.csv'
     'rbf fill docs/fold.ts -o out/a.vtp -o out/a.ts --method rbf'
     'kriging_gaussian fill --depth docs/seabed.asc -o out/a.vtp --model gaussian --isotropic --rings 3'

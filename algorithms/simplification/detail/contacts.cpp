@@ -359,10 +359,16 @@ auto key_of(const NearPlaces& c) {
     return std::tie(c.from.corners, c.to.corners);
 }
 
+/// Keeps the nearest contact of each key. Two pairs of cells may give equal distances with other weights,
+/// so these decide too: their order depends on the threads.
 void sort_and_unite(std::vector<NearPlaces>& contacts) {
-    std::sort(contacts.begin(), contacts.end(), [](const NearPlaces& a, const NearPlaces& b) {
-        return std::tuple(key_of(a), a.distance) < std::tuple(key_of(b), b.distance);
-    });
+    const auto all_of = [](const NearPlaces& c) {
+        return std::tuple(key_of(c), c.distance, std::tie(c.from.weights, c.to.weights),
+                          c.on_surfaces);
+    };
+    std::sort(contacts.begin(), contacts.end(),
+              [&](const NearPlaces& a, const NearPlaces& b) { return all_of(a) < all_of(b); });
+
     contacts.erase(std::unique(contacts.begin(), contacts.end(),
                                [](const NearPlaces& a, const NearPlaces& b) {
                                    return key_of(a) == key_of(b);
