@@ -46,7 +46,7 @@ public:
             if (Status done = improve_passes(most); !done) return done;
             for (unsigned pass = 0; pass < 2; ++pass)
                 if (const auto changed = remesh(); !changed) return changed.error();
-        } else {
+        } else { // the call before has tried all
             tried_.back().assign(cells_.size(), 0);
             moved_.assign(cells_.points().size(), 0);
         }
@@ -166,7 +166,6 @@ private:
         for (std::uint32_t c = 0; c < cells_.size(); ++c) by_angles.push_back(cells_.quality(c));
         const Measure measure{std::max(report.before.quality, constants.bad)};
         cells_.judge_by(measure);
-
         auto& tried = tried_[static_cast<std::size_t>(Depth::insertions)];
         tried.resize(cells_.size(), none);
         for (std::uint32_t c = 0; c < cells_.size(); ++c)
@@ -179,7 +178,6 @@ private:
             done =
                 loosen_where(is_misshapen, quality_of_mean_ratio(constants.least_ratio, measure));
         cells_.judge_by({});
-
         return done;
     }
 

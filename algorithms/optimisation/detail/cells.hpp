@@ -50,7 +50,6 @@ public:
     [[nodiscard]] bool counts(std::uint32_t c) const { return outside_ || region_[c] != 0; }
     /// Returns the quality of a cell; infinite if that does not count, or can't be trusted, so that
     /// it stays.
-
     [[nodiscard]] double quality(std::uint32_t c) const { return quality_[c]; }
     [[nodiscard]] double least_quality(std::span<const std::uint32_t> of) const {
         double least = HUGE_VAL;
@@ -139,7 +138,6 @@ private:
     void match_all();
     [[nodiscard]] bool is_positive(const Corners& c) const;
     [[nodiscard]] bool meets(const Corners& c, const Demand& demand) const;
-
     [[nodiscard]] static Face face_of(const Corners& c, std::uint32_t cell, unsigned k);
     void connect(const Face& one, const Face& other);
     /// Sets the hull of old cells and the walls between them.

@@ -24,7 +24,6 @@ struct OptimiseConstants {
     double least_ratio = 0.2;
     /// They move until mean ratios are that good. Larger: surfaces move farther.
     double ratio_enough = 0.22;
-
     /// A change must raise the least quality by this. Larger: fewer changes that hardly matter.
     double least_gain = 5e-3;
     /// Edges with more tetrahedra around them are not removed: the work grows with the cube.

@@ -368,7 +368,6 @@ void sort_and_unite(std::vector<NearPlaces>& contacts) {
     };
     std::sort(contacts.begin(), contacts.end(),
               [&](const NearPlaces& a, const NearPlaces& b) { return all_of(a) < all_of(b); });
-
     contacts.erase(std::unique(contacts.begin(), contacts.end(),
                                [](const NearPlaces& a, const NearPlaces& b) {
                                    return key_of(a) == key_of(b);
