@@ -45,7 +45,7 @@ struct OptimiseConstants {
     /// move so that more are bad, if none is as bad.
     double urgent = 0.052335956242943834;
     /// Vertices on walls with little room move only if all around them is better than that then, 0.7 times
-    /// the sine of 172 degrees: what can't become good is left alone.
+    /// the sine of 172 degrees. Where no place is that good, they stay.
     double least_loose = 0.09742116720671;
     /// That has an effort of its own, as much as all before divided by this.
     std::size_t loose_part = 4;

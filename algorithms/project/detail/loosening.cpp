@@ -127,8 +127,8 @@ public:
     /// Tells whether the mesh may be like this, and adjusts its report; where it may not, there is
     /// less room from then on.
     virtual bool holds(ImprovedAndMeasured& moved) = 0;
-    /// Keeps a vertex where it is. Tells whether it was free.
-    virtual bool keep(std::uint32_t v) = 0;
+    /// Keeps a vertex where it is, in a narrow room. Tells whether it was free.
+    virtual bool keep(std::uint32_t /*v*/) { return false; }
     /// Makes room smaller everywhere.
     virtual void shrink() = 0;
 };
@@ -165,8 +165,6 @@ public:
         add_moves(moved);
         return beyond.empty();
     }
-
-    bool keep(std::uint32_t v) override { return std::exchange(left_[v], 0) > 0; }
 
     void shrink() override {
         for (double& share : share_of_) share /= 2;
@@ -310,7 +308,7 @@ public:
             sound = improve(steps, loose);
             if (!sound) return sound.error();
             if (loose.optimised.loosened == 0) return std::optional(std::move(loose));
-            if (!room_->is_wide() && keep_at_larger_angles(loose, still)) continue;
+            if (keep_at_larger_angles(loose, still)) continue;
             auto points = points_of(loose.tetrahedra);
             loose.moved = compared(points);
             auto improved = with_vertices_at(before, input_.improved, std::move(points),

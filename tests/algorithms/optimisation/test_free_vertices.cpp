@@ -71,7 +71,7 @@ TEST_CASE("optimise: a free vertex on a wall moves where tetrahedra are bad, as 
     const auto moved = moved_corners(before, free);
     REQUIRE(moved.size() == 1);
     CHECK(moved.count(crowded) == 1);
-    CHECK(moved.at(crowded).z == 2); // so the regions have their volumes
+    CHECK(moved.at(crowded).z == 2); // the wall stays a plane, so both regions keep their volumes
     for (const std::uint32_t region : {1U, 2U})
         CHECK(six_volumes(free, region) == six_volumes(before, region));
     for (const Cell& c : free.tetrahedra) {
@@ -142,7 +142,7 @@ TEST_CASE("optimise: a free vertex on a wall moves where tetrahedra are bad, as 
     }
 }
 
-TEST_CASE("optimise: a free vertex on a wall with much room moves where tetrahedra are needles",
+TEST_CASE("optimise: a vertex of a surface moves where tetrahedra are needles, if it may go far",
           "[optimisation]") {
     Cubes cubes(4, 2, 0, 1);
     const std::uint32_t near = 2 * 25 + 2 * 5 + 2;
@@ -176,7 +176,7 @@ TEST_CASE("optimise: a free vertex on a wall with much room moves where tetrahed
         CHECK(six_volumes(wide, region) == six_volumes(before, region));
 }
 
-TEST_CASE("optimise: tetrahedra outside, which are dropped later, keep no vertex from its place",
+TEST_CASE("optimise: vertices of surfaces move, whatever becomes of tetrahedra outside",
           "[optimisation]") {
     std::uint32_t crowded = 0;
     TetrahedralMesh before = crowded_wall(crowded);

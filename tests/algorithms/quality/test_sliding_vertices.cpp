@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Tests that vertices slide on the original surfaces, and that triangles farther from them are told.
+// Tests that vertices slide on the original surfaces, and that triangles too far from them are listed.
 #include <catch2/catch.hpp>
 
 #include <cmath>
