@@ -53,41 +53,55 @@ FaceTriangulation::operator()(const PointStore& points, std::span<const std::uin
     return result_;
 }
 
-// This function sorts the triangles by their lowest corner, and those with the same lowest corner by
-// their second one. Two triangles never share both, because a directed edge belongs to one triangle.
+// This function sorts the points of the face, and then counts the triangles at each lowest corner.
+// Those few with the same lowest corner are sorted by their second one. Two triangles never share
+// both, because a directed edge belongs to one triangle.
 std::span<const std::array<PointIndex, 3>> FaceTriangulation::in_order() {
-    constexpr std::size_t many = 512; // triangles for which sorting digit by digit is faster
     if (result_.size() < 2) return result_;
-    ranks_.clear();
-    for (Local p = 0; p < points_.size(); ++p) ranks_.push_back(rank_of(p));
-    const std::uint32_t least = *std::ranges::min_element(ranks_);
-    keyed_.clear();
+    sort_points();
+    starts_.assign(points_.size() + 1, 0);
     turned_.clear();
     for (const Cell& cell : cells_) {
         auto [a, b, c] = cell.v;
         if (is_reversed_) std::swap(b, c);
-        if (ranks_[b] < ranks_[a] && ranks_[b] < ranks_[c])
-            std::tie(a, b, c) = std::tuple(b, c, a);
-        else if (ranks_[c] < ranks_[a])
-            std::tie(a, b, c) = std::tuple(c, a, b);
-        keyed_.push_back({ranks_[a] - least, static_cast<std::uint32_t>(turned_.size())});
-        turned_.push_back({a, b, c});
+        std::array<Local, 3> t{positions_[a], positions_[b], positions_[c]};
+        if (t[1] < t[0] && t[1] < t[2])
+            t = {t[1], t[2], t[0]};
+        else if (t[2] < t[0])
+            t = {t[2], t[0], t[1]};
+        turned_.push_back(t);
+        ++starts_[t[0] + 1];
     }
-    const auto second = [&](const Keyed& k) { return ranks_[turned_[k.position][1]]; };
-    if (keyed_.size() < many) {
-        std::ranges::sort(keyed_, [&](const Keyed& k, const Keyed& l) {
-            return k.key != l.key ? k.key < l.key : second(k) < second(l);
-        });
-    } else {
-        sort_by_key(keyed_, scratch_);
-        for (auto first = keyed_.begin(), last = first; first != keyed_.end(); first = last) {
-            while (last != keyed_.end() && last->key == first->key) ++last;
-            if (last - first > 1) std::ranges::sort(first, last, {}, second);
-        }
+    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+    ordered_.resize(turned_.size());
+    for (const auto& t : turned_) ordered_[starts_[t[0]]++] = t; // then starts_[p] is where p ends
+    for (auto first = ordered_.begin(), last = first; first != ordered_.end(); first = last) {
+        last = ordered_.begin() + starts_[(*first)[0]];
+        if (last - first > 1)
+            std::sort(first, last, [](const auto& t, const auto& u) { return t[1] < u[1]; });
     }
-    for (std::size_t k = 0; k < keyed_.size(); ++k)
-        for (unsigned i = 0; i < 3; ++i) result_[k][i] = points_[turned_[keyed_[k].position][i]];
+    for (std::size_t k = 0; k < ordered_.size(); ++k)
+        for (unsigned i = 0; i < 3; ++i) result_[k][i] = by_rank_[ordered_[k][i]];
     return result_;
+}
+
+void FaceTriangulation::sort_points() {
+    constexpr std::size_t many = 512; // points for which sorting digit by digit is faster
+    sorted_.clear();
+    for (Local p = 0; p < points_.size(); ++p) sorted_.push_back({rank_of(p), p});
+    if (sorted_.size() < many) {
+        std::ranges::sort(sorted_, {}, &Keyed::key);
+    } else {
+        const std::uint32_t least = std::ranges::min(sorted_, {}, &Keyed::key).key;
+        for (Keyed& k : sorted_) k.key -= least; // fewer digits
+        sort_by_key(sorted_, scratch_);
+    }
+    positions_.resize(points_.size());
+    by_rank_.clear();
+    for (Local k = 0; k < sorted_.size(); ++k) {
+        positions_[sorted_[k].position] = k;
+        by_rank_.push_back(points_[sorted_[k].position]);
+    }
 }
 
 // Starts with one cell, whose edges are the border and therefore fixed.

@@ -116,6 +116,7 @@ private:
     void insert_edge_points(const FaceInput& face);
     void insert_inner_points(const FaceInput& face);
     void order_segments();
+    void sort_points();
     void insert_segment(std::uint32_t segment);
     bool advance(Local u, Local v, Local& reached);
     void collect_crossed(Local u, Local v, Side first, Local& reached);
@@ -166,9 +167,12 @@ private:
     std::vector<std::pair<std::uint64_t, PointIndex>> order_; ///< inner points by level and rank
     std::vector<Inner> inner_;                                ///< inner points as inserted
     std::vector<SegmentEdge> segment_edges_;
-    std::vector<std::uint32_t> ranks_;         ///< of all points, while triangles are sorted
-    std::vector<std::array<Local, 3>> turned_; ///< triangles from their lowest corners
-    std::vector<Keyed> keyed_, scratch_;       ///< positions in turned_ by lowest corner
+    // While the triangles of a face are sorted:
+    std::vector<Keyed> sorted_, scratch_;                ///< points by rank
+    std::vector<PointIndex> by_rank_;                    ///< those of sorted_
+    std::vector<std::uint32_t> positions_;               ///< per point, in sorted_
+    std::vector<std::array<Local, 3>> turned_, ordered_; ///< triangles of positions, lowest first
+    std::vector<std::uint32_t> starts_; ///< per position: its first triangle in ordered_
     std::vector<std::array<PointIndex, 3>> result_;
     bool is_reversed_ = false; ///< the corners are clockwise in the projection
 };

@@ -17,6 +17,12 @@ class ConstructionTable {
 public:
     explicit ConstructionTable(PointIndex first) : first_(first), slots_(64, none) {}
 
+    /// Makes room for so many constructions.
+    void reserve(std::size_t count) {
+        constructions_.reserve(count);
+        if (2 * count > slots_.size()) resize(std::bit_ceil(2 * count));
+    }
+
     /// Returns the index of a construction, which is added if it is new.
     PointIndex enter(const Construction& how) {
         if (how.kind == Construction::Kind::input) return how.v[0];
@@ -42,12 +48,12 @@ private:
         const auto k = static_cast<std::uint32_t>(constructions_.size());
         slots_[slot] = k;
         constructions_.push_back(how);
-        if (2 * constructions_.size() > slots_.size()) grow();
+        if (2 * constructions_.size() > slots_.size()) resize(2 * slots_.size());
         return first_ + k;
     }
 
-    void grow() {
-        slots_.assign(2 * slots_.size(), none);
+    void resize(std::size_t slots) {
+        slots_.assign(slots, none);
         for (std::uint32_t k = 0; k < constructions_.size(); ++k) {
             std::size_t s = hash(constructions_[k]) & (slots_.size() - 1);
             while (slots_[s] != none) s = (s + 1) & (slots_.size() - 1);

@@ -200,11 +200,14 @@ void find_crossings(const TriangleSoup& soup, Contacts& contacts, const Run& run
     if (count == 0) return; // those of merged segments are in the order of faces
     // Contacts have already constructed some of the crossings (two edges of coplanar triangles).
     ConstructionTable table(static_cast<PointIndex>(soup.points.size()));
+    table.reserve(contacts.points.size() - soup.points.size() +
+                  count / 3); // most are on three faces
     for (PointIndex p = static_cast<PointIndex>(soup.points.size()); p < contacts.points.size();
          ++p)
         table.enter(contacts.points.construction(p));
     const std::size_t known = table.constructions().size();
     const bool any_merged = !contacts.crossings.empty();
+    contacts.crossings.reserve(contacts.crossings.size() + count);
     for (const CrossingBlock& block : blocks)
         for (const NewCrossing& c : block.crossings)
             contacts.crossings.push_back({c.face, c.pieces, table.enter(c.how)});

@@ -77,7 +77,7 @@ void Rounding::take_sample() {
     const std::size_t inputs = arrangement_.state->corners.size();
     // Otherwise most inputs have few parts, all of which the sample would have.
     if (state_.triangles.size() < rounding_tuning.sampled * inputs) return;
-    sample_ = sample_of_parts(state_.parents_of, inputs, rounding_tuning.sampled);
+    sample_ = sample_of_parts(state_.parents_of, rounding_tuning.sampled);
     if (2 * sample_.size() > state_.triangles.size()) sample_.clear();
 }
 

@@ -48,13 +48,13 @@ ParentsInContact parents_in_contact(const RoundedMesh& rounded) {
 }
 
 std::vector<std::uint32_t> sample_of_parts(const IndexLists<std::uint32_t>& parents_of,
-                                           std::size_t input_triangles, std::size_t parts) {
-    std::vector<std::uint32_t> count(input_triangles, 0), seen(input_triangles, 0), sample;
-    for (std::size_t t = 0; t < parents_of.size(); ++t) ++count[parents_of[t][0]];
-    for (std::uint32_t t = 0; t < parents_of.size(); ++t) {
-        const std::uint32_t parent = parents_of[t][0];
-        const std::size_t every = std::max<std::size_t>(count[parent] / parts, 1);
-        if (seen[parent]++ % every == 0) sample.push_back(t);
+                                           std::size_t parts) {
+    std::vector<std::uint32_t> sample;
+    for (std::size_t first = 0, end = 0; first < parents_of.size(); first = end) {
+        while (end < parents_of.size() && parents_of[end][0] == parents_of[first][0]) ++end;
+        const std::size_t every = std::max<std::size_t>((end - first) / parts, 1);
+        for (std::size_t t = first; t < end; t += every)
+            sample.push_back(static_cast<std::uint32_t>(t));
     }
     return sample;
 }

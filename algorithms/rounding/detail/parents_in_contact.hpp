@@ -37,8 +37,9 @@ ParentsInContact parents_in_contact(const RoundedMesh& rounded);
 
 /// Returns a sample of the triangles, ascending. If a first parent has fewer than `parts` parts, the
 /// sample contains them all. Otherwise it contains `parts` to 2 * `parts` - 1 of them, evenly chosen.
+/// The parts of a first parent are consecutive, as in an arrangement.
 std::vector<std::uint32_t> sample_of_parts(const IndexLists<std::uint32_t>& parents_of,
-                                           std::size_t input_triangles, std::size_t parts);
+                                           std::size_t parts);
 
 /// Collects the parents of very many contacts, so that the contacts need neither be listed nor all
 /// be tested. Once it is full, a pair whose parents are known adds nothing. What is collected in

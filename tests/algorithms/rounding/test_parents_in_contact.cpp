@@ -134,7 +134,7 @@ TEST_CASE(
     IndexLists<std::uint32_t> parents;
     for (const std::uint32_t count : {1U, 3U, 7U, 8U, 100U})
         for (std::uint32_t k = 0; k < count; ++k) parents.push_back(std::vector{count});
-    const auto sample = sample_of_parts(parents, 101, most);
+    const auto sample = sample_of_parts(parents, most);
     CHECK(std::is_sorted(sample.begin(), sample.end()));
     std::map<std::uint32_t, std::vector<std::uint32_t>> parts;
     for (const std::uint32_t t : sample) parts[parents[t][0]].push_back(t);
