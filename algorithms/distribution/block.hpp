@@ -172,6 +172,15 @@ struct Block {
     std::uint64_t edges = 0;                 ///< intersection edges that this block counts
     std::uint64_t regions = 0;               ///< number of regions of the whole
 
+    // Volumes (algorithms/volumes/volumes_in_blocks.cpp).
+    std::vector<std::uint32_t> shell_of; ///< per side: the first one here of its shell; then the
+        ///< number of the shell, then that of a shell of its volume
+    std::vector<std::array<Point3, 3>> line_triangles;          ///< through which the lines pass
+    std::vector<Point3> least_vertices;                         ///< per shell, in the first block
+    std::vector<std::uint32_t> volume_of_shell;                 ///< the lowest shell of the volume
+    std::vector<std::array<std::uint32_t, 2>> volumes_of_sides; ///< as Volumes::of_sides
+    std::vector<double> measures;                               ///< per volume of the whole
+
     [[nodiscard]] std::uint32_t vertex_total() const { return first_vertex.back(); }
     [[nodiscard]] std::uint32_t triangle_total() const { return first_triangle.back(); }
 
@@ -188,6 +197,8 @@ struct Block {
         use(triangles), use(face_of), use(ids), use(parents_of.offsets), use(parents_of.values);
         use(surfaces_of.offsets), use(surfaces_of.values), use(region_of), use(records);
         use(parent_hashes), use(component_of), use(repeated);
+        use(shell_of), use(line_triangles), use(least_vertices), use(volume_of_shell);
+        use(volumes_of_sides), use(measures);
     }
     /// Returns the bytes of all arrays.
     [[nodiscard]] std::size_t size() {

@@ -107,7 +107,6 @@ constexpr std::uint64_t Work::*counts[] = {
 /// Sums up what the blocks report.
 Result<DistributedReport> summary_of(Supersteps& blocks) {
     struct Passed {
-        Work largest, total;
         std::uint64_t edges = 0, contacts = 0, triangles = 0, vertices = 0, regions = 0;
         std::uint64_t input_vertices = 0, input_triangles = 0;
         double deviation = 0, largest_coordinate = 0;
@@ -115,10 +114,6 @@ Result<DistributedReport> summary_of(Supersteps& blocks) {
     const auto bytes = blocks.relay([](Block& b, Bytes before) {
         Passed sum;
         if (!before.empty()) std::memcpy(&sum, before.data(), sizeof sum);
-        for (const auto count : counts) {
-            sum.largest.*count = std::max(sum.largest.*count, b.work.*count);
-            sum.total.*count += b.work.*count;
-        }
         sum.edges += b.edges;
         sum.contacts = b.unclean;
         sum.triangles = b.result_triangles;
@@ -145,13 +140,33 @@ Result<DistributedReport> summary_of(Supersteps& blocks) {
     report.triangles = sum.triangles;
     report.intersection_edges = sum.edges;
     report.regions = sum.regions;
-    report.largest = sum.largest;
-    report.total = sum.total;
-    report.total.memory = sum.largest.memory;
+    if (auto counted = count_work(blocks, report); !counted) return counted.error();
     return report;
 }
 
 } // namespace
+
+Status count_work(Supersteps& blocks, DistributedReport& report) {
+    using LargestAndTotal = std::array<Work, 2>;
+    const auto bytes = blocks.relay([](Block& b, Bytes before) {
+        LargestAndTotal sum{};
+        if (!before.empty()) std::memcpy(&sum, before.data(), sizeof sum);
+        for (const auto count : counts) {
+            sum[0].*count = std::max(sum[0].*count, b.work.*count);
+            sum[1].*count += b.work.*count;
+        }
+        Bytes next;
+        append_record(next, sum);
+        return next;
+    });
+    if (!bytes) return bytes.error();
+    LargestAndTotal sum{};
+    std::memcpy(&sum, bytes->data(), sizeof sum);
+    report.largest = sum[0];
+    report.total = sum[1];
+    report.total.memory = report.largest.memory;
+    return Done{};
+}
 
 Result<DistributedReport> arrange_in_blocks(Supersteps& blocks, const FileReader& read,
                                             const DistributedOptions& options, const Run& run) {
@@ -171,20 +186,18 @@ BlockPiece piece_of(const Block& b) {
     for (std::uint32_t s = 0; s < b.entries.size(); ++s)
         piece.mesh.surfaces.push_back(
             {name_of_surface(b, s), static_cast<Role>(b.entries[s].role)});
-    std::vector<std::array<std::uint32_t, 2>> vertices; // number, name
-    for (const Triangle& t : b.triangles)
-        for (const std::uint32_t name : t) vertices.push_back({vertex_number(b, name), name});
-    sort_unique(vertices);
-    for (const auto& [number, name] : vertices) {
-        piece.vertex_ids.push_back(number);
+    std::vector<std::uint32_t> names; // in the order of their numbers
+    names.reserve(3 * b.triangles.size());
+    for (const Triangle& t : b.triangles) names.insert(names.end(), t.begin(), t.end());
+    sort_unique(names);
+    for (const std::uint32_t name : names) {
+        piece.vertex_ids.push_back(vertex_number(b, name));
         piece.mesh.vertices.push_back(doubles_of(b, name));
     }
     for (Triangle t : b.triangles) {
         for (std::uint32_t& v : t)
-            v = static_cast<std::uint32_t>(std::lower_bound(piece.vertex_ids.begin(),
-                                                            piece.vertex_ids.end(),
-                                                            vertex_number(b, v)) -
-                                           piece.vertex_ids.begin());
+            v = static_cast<std::uint32_t>(std::lower_bound(names.begin(), names.end(), v) -
+                                           names.begin());
         piece.mesh.triangles.push_back(t);
     }
     piece.triangle_ids = b.ids;
@@ -192,7 +205,16 @@ BlockPiece piece_of(const Block& b) {
     piece.mesh.surfaces_of = b.surfaces_of;
     piece.mesh.regions_of.offsets = b.surfaces_of.offsets;
     piece.mesh.regions_of.values = b.region_of;
+    piece.volumes_of_sides = b.volumes_of_sides;
     return piece;
+}
+
+std::vector<bool> shared_vertices(const Block& b, const BlockPiece& piece) {
+    std::vector<bool> shared(piece.vertex_ids.size());
+    for (std::size_t t = 0; t < b.triangles.size(); ++t)
+        for (unsigned i = 0; i < 3; ++i)
+            shared[piece.mesh.triangles[t][i]] = is_shared(b, b.triangles[t][i]);
+    return shared;
 }
 
 } // namespace terrane::distribution

@@ -11,9 +11,11 @@
 // Source: the paper, section 2 (structured grid); Valiant (1990) for the steps.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,8 +46,10 @@ struct DistributedReport {
     std::uint64_t input_vertices = 0, input_triangles = 0;
     std::uint64_t vertices = 0, triangles = 0, intersection_edges = 0, regions = 0;
     std::string digest{}; ///< if it is wanted
-    Work largest{};       ///< of each count the largest of any block
-    Work total{};         ///< of each count the sum over all blocks; memory: as largest
+    /// As Volumes::measures, once they are found (volumes_in_blocks.hpp).
+    std::optional<std::vector<double>> volumes{};
+    Work largest{}; ///< of each count the largest of any block
+    Work total{};   ///< of each count the sum over all blocks; memory: as largest
 };
 
 /// The triangles of one block.
@@ -53,6 +57,9 @@ struct BlockPiece {
     Mesh mesh;                               ///< without intersection edges
     std::vector<std::uint32_t> vertex_ids;   ///< per vertex: its number through all blocks
     std::vector<std::uint32_t> triangle_ids; ///< per triangle, ascending
+    /// Per triangle: the volumes in front of it and behind it, once they are found
+    /// (volumes_in_blocks.hpp).
+    std::vector<std::array<std::uint32_t, 2>> volumes_of_sides{};
 };
 
 /// Arranges. Errors: those of the reader and of arrange(). Throws std::bad_alloc where memory ends between steps, as
@@ -60,8 +67,13 @@ struct BlockPiece {
 Result<DistributedReport> arrange_in_blocks(Supersteps& blocks, const FileReader& read,
                                             const DistributedOptions& options, const Run& run = {});
 
+/// Counts the work again, after steps that follow.
+Status count_work(Supersteps& blocks, DistributedReport& report);
+
 /// Returns the triangles of a block after arrange_in_blocks(), with nearest doubles.
 BlockPiece piece_of(const Block& block);
+/// Tells, for each vertex of the piece of a block, whether several blocks use it.
+std::vector<bool> shared_vertices(const Block& block, const BlockPiece& piece);
 
 /// Arranges and rounds all surfaces in the process of the first block, for a mesh whose nearest doubles
 /// are not conforming: snapping may move any part of it. That process then needs the memory and the

@@ -18,6 +18,7 @@
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/volumes/detail/exact_volumes.hpp>
+#include <terrane/algorithms/volumes/detail/mesh_sheets.hpp>
 #include <terrane/algorithms/volumes/detail/radial_sort.hpp>
 #include <terrane/algorithms/volumes/detail/shell_nesting.hpp>
 
@@ -188,25 +189,6 @@ std::vector<Triangle> planes_of(const Arrangement& a) {
     return planes;
 }
 
-/// Views a mesh of doubles as a complex, all of whose vertices are input points.
-class MeshSheets {
-public:
-    explicit MeshSheets(const Mesh& mesh) :
-        mesh_(mesh), points_(mesh.vertices), vertices_(mesh.vertices.size()),
-        edges_(group_edges(mesh.triangles, mesh.vertices.size())) {
-        std::iota(vertices_.begin(), vertices_.end(), PointIndex{0});
-    }
-    [[nodiscard]] TriangleComplex view() const {
-        return {points_, vertices_, mesh_.triangles, edges_, mesh_.triangles, nullptr};
-    }
-
-private:
-    const Mesh& mesh_;
-    PointStore points_;
-    std::vector<PointIndex> vertices_;
-    EdgeSides edges_;
-};
-
 } // namespace
 
 Result<Volumes> find_volumes(const Arrangement& a, const Run& run) {
@@ -222,7 +204,7 @@ Result<Volumes> find_volumes(const Mesh& mesh, const Run& run) {
     return guarded("for the volumes", "volumes", [&]() -> Result<Volumes> {
         if (auto valid = validate(mesh.vertices, mesh.triangles, run); !valid) return valid.error();
         detail::announce_work("find volumes", mesh.vertices, mesh.triangles);
-        return find(MeshSheets(mesh).view(), run);
+        return find(MeshSheets(mesh.vertices, mesh.triangles).view(), run);
     });
 }
 
@@ -236,7 +218,8 @@ std::vector<std::string> exact_volumes(const Arrangement& a, const Volumes& volu
 
 std::vector<std::string> exact_volumes(const Mesh& mesh, const Volumes& volumes, int base) {
     const StandardArithmetic guard;
-    return exact_measures(MeshSheets(mesh).view(), volumes.of_sides, volumes.measures.size(), base);
+    return exact_measures(MeshSheets(mesh.vertices, mesh.triangles).view(), volumes.of_sides,
+                          volumes.measures.size(), base);
 }
 
 } // namespace terrane

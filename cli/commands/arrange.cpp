@@ -46,6 +46,8 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
     Stopwatch total;
     if (command.blockwise.digest)
         return usage("it needs --memory; a certificate has the digest, too", "--digest");
+    if (command.blockwise.volumes)
+        return usage("it needs --memory; terrane volume finds them without", "--volumes");
     const FileOptions& files = command.files;
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();

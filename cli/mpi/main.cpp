@@ -15,6 +15,8 @@
 
 #include <terrane/algorithms/core/process_memory.hpp>
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
+#include <terrane/algorithms/volumes/volumes_in_blocks.hpp>
 #include <terrane/cli/mpi/mpi_supersteps.hpp>
 #include <terrane/cli/options/command_table.hpp>
 #include <terrane/cli/options/manual.hpp>
@@ -35,7 +37,7 @@ using namespace distribution;
 struct MpiCommand {
     std::vector<std::string> inputs;
     std::string output, stats;
-    bool digest = false;
+    bool digest = false, volumes = false;
 };
 
 constexpr auto mpi_footer =
@@ -73,11 +75,29 @@ Status check_command(const MpiCommand& command, MpiSupersteps& blocks) {
     });
 }
 
+/// Finds the volumes of the blocks, or those of the repaired whole in the process that has it.
+Status find_volumes_of(MpiSupersteps& blocks, DistributedReport& report, BlockPiece& whole) {
+    if (report.clean) {
+        auto volumes = find_volumes_in_blocks(blocks);
+        if (!volumes) return volumes.error();
+        report.volumes = std::move(*volumes);
+        return count_work(blocks, report);
+    }
+    return blocks.visit([&](Block& b) -> Status {
+        if (b.index != 0) return Done{};
+        auto volumes = find_volumes(whole.mesh);
+        if (!volumes) return volumes.error();
+        report.volumes = std::move(volumes->measures);
+        whole.volumes_of_sides = std::move(volumes->of_sides);
+        return Done{};
+    });
+}
+
 Result<ExitStatus> arrange_files(const MpiCommand& command, MpiSupersteps& blocks, const Run& run) {
     if (auto sound = check_command(command, blocks); !sound) return sound.error();
     const auto read = [&](std::size_t file) { return read_surfaces(command.inputs[file]); };
     const DistributedOptions options{command.inputs.size(), command.digest};
-    const auto report = arrange_in_blocks(blocks, read, options, run);
+    auto report = arrange_in_blocks(blocks, read, options, run);
     if (!report) return report.error();
     RepairedWhole whole;
     if (!report->clean) {
@@ -91,7 +111,11 @@ Result<ExitStatus> arrange_files(const MpiCommand& command, MpiSupersteps& block
             return ExitStatus::negative;
         }
     }
-    const auto written = write_pvtp(blocks, command.output, report->clean ? nullptr : &whole.piece);
+    if (command.volumes)
+        if (auto found = find_volumes_of(blocks, *report, whole.piece); !found)
+            return found.error();
+    const auto written =
+        write_pvtp(blocks, command.output, command.volumes, report->clean ? nullptr : &whole.piece);
     if (!written) return written.error();
     if (!blocks.is_first()) return ExitStatus::done;
     const RoundingReport* repaired = report->clean ? nullptr : &whole.report;
@@ -123,6 +147,9 @@ void declare(CLI::App& program, MpiCommand& command) {
         ->required()
         ->type_name("OUT.pvtp");
     arrange->add_flag("--digest", command.digest, "Say the digest of the exact result");
+    arrange->add_flag(
+        "--volumes", command.volumes,
+        "Find the volumes that the surfaces enclose, and tell those beside each triangle");
     arrange->add_option("--stats", command.stats, "Write counts of work and messages as JSON")
         ->type_name("FILE.json");
 }

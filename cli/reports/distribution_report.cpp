@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/cli/reports/distribution_report.hpp>
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <terrane/cli/session/console.hpp>
@@ -28,6 +30,17 @@ Json counts_of_work(const Work& w) {
             {"memory", w.memory}};
 }
 
+std::string volumes_text(const std::vector<double>& measures) {
+    constexpr std::size_t most = 50; // listed on the terminal
+    auto text = fmt::format("{}, volume {:.9g} in all\n",
+                            counted(measures.size() - 1, "closed block"), measures[0]);
+    for (std::size_t v = 1; v <= std::min(measures.size() - 1, most); ++v)
+        text += fmt::format("  block {:<4} volume {:.9g}\n", v, measures[v]);
+    if (measures.size() - 1 > most)
+        text += fmt::format("  and {} more\n", measures.size() - 1 - most);
+    return text;
+}
+
 } // namespace
 
 Json distribution_json(const DistributedReport& r, const RoundingReport* repaired,
@@ -45,6 +58,7 @@ Json distribution_json(const DistributedReport& r, const RoundingReport* repaire
              {"most_in_a_block", counts_of_work(r.largest)},
              {"all_blocks", counts_of_work(r.total)}};
     if (!r.digest.empty()) all["digest"] = r.digest;
+    if (r.volumes) all["volumes"] = {{"count", r.volumes->size() - 1}, {"measures", *r.volumes}};
     return all;
 }
 
@@ -61,6 +75,7 @@ std::string distribution_text(const DistributedReport& r, const RoundingReport* 
         text += fmt::format("doubles: no vertex is more than {:.3g} from its exact place\n",
                             r.deviation);
     if (!r.digest.empty()) text += "digest: " + r.digest + "\n";
+    if (r.volumes) text += volumes_text(*r.volumes);
     return text;
 }
 

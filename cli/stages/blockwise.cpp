@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/volumes/volumes_in_blocks.hpp>
 #include <terrane/cli/stages/blockwise.hpp>
 
 #include <algorithm>
@@ -60,9 +61,10 @@ private:
 
 /// Refuses options that arrangements in blocks do not have.
 Status check_alone(const CLI::App& command) {
-    constexpr std::array allowed{"IN",        "--output", "--memory", "--digest",  "--stats",
-                                 "--threads", "--quiet",  "--color",  "--format",  "--input-format",
-                                 "--depth",   "--unit",   "--column", "--max-edge"};
+    constexpr std::array allowed{"IN",        "--output", "--memory",       "--digest",
+                                 "--volumes", "--stats",  "--threads",      "--quiet",
+                                 "--color",   "--format", "--input-format", "--depth",
+                                 "--unit",    "--column", "--max-edge"};
     for (const CLI::Option* option : command.get_options()) {
         if (option->count() == 0) continue;
         const std::string name = option->get_lnames().empty() ? option->get_name(true, false)
@@ -120,13 +122,14 @@ Result<Mesh> joined(Supersteps& blocks, const DistributedReport& report) {
 
 Status write_in_blocks(const FileOptions& files, Supersteps& blocks,
                        const DistributedReport& report, Session& session) {
+    const bool has_volumes = report.volumes.has_value();
     bool wants_whole = false;
     for (const std::string& path : files.outputs) {
         if (!is_in_pieces(path)) {
             wants_whole = true;
             continue;
         }
-        if (auto written = write_pvtp(blocks, path); !written) return written;
+        if (auto written = write_pvtp(blocks, path, has_volumes); !written) return written;
         tell_when_written(summary_stream(files), "wrote " + path + "\n");
     }
     if (!wants_whole) return Done{};
@@ -156,6 +159,9 @@ void add_blockwise(CLI::App& command, BlockwiseOptions& options) {
         ->type_name("SIZE");
     command.add_flag("--digest", options.digest,
                      "With --memory: say the digest of the exact result");
+    command.add_flag("--volumes", options.volumes,
+                     "With --memory: find the volumes that the surfaces enclose; .pvtp files then "
+                     "tell those beside each triangle");
 }
 
 std::optional<std::uint64_t> bytes_of_size(std::string_view text) {
@@ -190,8 +196,14 @@ Result<ExitStatus> arrange_blockwise(const FileOptions& files, const BlockwiseOp
         session.begin("arrange in blocks", Phase::computing);
         return std::move(inputs->surfaces);
     };
-    const auto report =
+    auto report =
         arrange_in_blocks(blocks, read, {files.inputs.size(), options.digest}, session.run());
+    if (report && report->clean && options.volumes) {
+        auto volumes = find_volumes_in_blocks(blocks);
+        if (!volumes) return volumes.error();
+        report->volumes = std::move(*volumes);
+        if (auto counted = count_work(blocks, *report); !counted) return counted.error();
+    }
     session.end_stage();
     if (!report) return report.error();
     say(summary_stream(files), distribution_text(*report, nullptr, counted(count, "block")));

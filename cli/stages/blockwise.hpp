@@ -18,7 +18,7 @@ namespace terrane::cli {
 /// Options of an arrangement in blocks.
 struct BlockwiseOptions {
     std::string memory; ///< as the user writes it: "4GiB"; empty: no limit, so no blocks
-    bool digest = false;
+    bool digest = false, volumes = false;
     [[nodiscard]] bool wanted() const { return !memory.empty(); }
 };
 

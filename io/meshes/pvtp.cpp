@@ -28,6 +28,7 @@ namespace {
 
 constexpr std::string_view node_ids = "GlobalNodeIds", element_ids = "GlobalElementIds";
 constexpr std::string_view cell_arrays[] = {"surface", "surface_count", "region", "parent"};
+constexpr std::string_view side_arrays[] = {"volume_front", "volume_back"};
 
 std::vector<std::int32_t> firsts(const IndexLists<std::uint32_t>& lists) {
     std::vector<std::int32_t> values;
@@ -269,7 +270,7 @@ Result<Mesh> join_pieces(const fs::path& path) {
 
 } // namespace
 
-std::string to_vtp_piece(const distribution::BlockPiece& piece) {
+std::string to_vtp_piece(const distribution::BlockPiece& piece, bool has_volumes) {
     const Mesh& mesh = piece.mesh;
     VtkWriter out(true);
     out.begin_file("PolyData");
@@ -288,6 +289,12 @@ std::string to_vtp_piece(const distribution::BlockPiece& piece) {
     out.array("surface_count", counts);
     out.array("region", firsts(mesh.regions_of));
     out.array("parent", firsts(mesh.parents_of));
+    for (std::size_t side = 0; has_volumes && side < 2; ++side) {
+        std::vector<std::int32_t> volumes;
+        for (const auto& sides : piece.volumes_of_sides)
+            volumes.push_back(static_cast<std::int32_t>(sides[side]));
+        out.array(side_arrays[side], volumes);
+    }
     out.array(element_ids, wide(piece.triangle_ids), 1, true);
     out.text("</CellData>");
     out.points(mesh.vertices);
@@ -301,7 +308,7 @@ std::string to_vtp_piece(const distribution::BlockPiece& piece) {
     return out.end_file("PolyData");
 }
 
-std::string to_pvtp(std::span<const std::string> pieces) {
+std::string to_pvtp(std::span<const std::string> pieces, bool has_volumes) {
     std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\" version=\"1.0\" "
                        "byte_order=\"LittleEndian\" header_type=\"UInt64\" "
                        "compressor=\"vtkZLibDataCompressor\">\n<PPolyData GhostLevel=\"0\">\n";
@@ -309,8 +316,11 @@ std::string to_pvtp(std::span<const std::string> pieces) {
                         "Name=\"{0}\"/>\n</PPointData>\n<PCellData Scalars=\"surface\" "
                         "GlobalIds=\"{1}\">\n",
                         node_ids, element_ids);
-    for (const auto name : cell_arrays)
+    const auto name_array = [&](std::string_view name) {
         text += fmt::format("<PDataArray type=\"Int32\" Name=\"{}\"/>\n", name);
+    };
+    for (const auto name : cell_arrays) name_array(name);
+    for (std::size_t side = 0; has_volumes && side < 2; ++side) name_array(side_arrays[side]);
     text += fmt::format("<PDataArray type=\"Int64\" IdType=\"1\" Name=\"{}\"/>\n</PCellData>\n"
                         "<PPoints>\n<PDataArray type=\"Float64\" Name=\"Points\" "
                         "NumberOfComponents=\"3\"/>\n</PPoints>\n",

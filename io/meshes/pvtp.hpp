@@ -16,11 +16,12 @@
 
 namespace terrane {
 
-/// Writes a piece: the file of to_vtp(), and the numbers of its points and cells.
-std::string to_vtp_piece(const distribution::BlockPiece& piece);
+/// Writes a piece: the file of to_vtp(), and the numbers of its points and cells; with the volumes beside
+/// each triangle, if there are any.
+std::string to_vtp_piece(const distribution::BlockPiece& piece, bool has_volumes = false);
 
 /// Writes the file that names the pieces, by their paths from its folder.
-std::string to_pvtp(std::span<const std::string> pieces);
+std::string to_pvtp(std::span<const std::string> pieces, bool has_volumes = false);
 
 /// Returns the folder of the pieces of a .pvtp file: beside it, with its name and "_pieces".
 std::filesystem::path folder_of_pieces(const std::filesystem::path& path);

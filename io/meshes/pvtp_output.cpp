@@ -19,14 +19,14 @@ using namespace distribution;
 namespace {
 
 /// Gives the folder and the file their names, the folder first.
-Status publish(NewFolder& folder, const fs::path& path, std::size_t pieces) {
+Status publish(NewFolder& folder, const fs::path& path, std::size_t pieces, bool has_volumes) {
     std::optional<FileSet> together;
     if (!FileSet::current()) together.emplace();
     if (auto done = folder.publish(); !done) return done;
     std::vector<std::string> names;
     for (std::size_t k = 0; k < pieces; ++k)
         names.push_back((folder_of_pieces(path).filename() / name_of_piece(path, k)).string());
-    if (auto done = write_file(path, to_pvtp(names)); !done) return done;
+    if (auto done = write_file(path, to_pvtp(names, has_volumes)); !done) return done;
     return together ? together->publish() : Status(Done{});
 }
 
@@ -36,7 +36,8 @@ Status check_pvtp(const fs::path& path) {
     return check_new_folder(folder_of_pieces(path));
 }
 
-Status write_pvtp(Supersteps& blocks, const fs::path& path, const BlockPiece* whole) {
+Status write_pvtp(Supersteps& blocks, const fs::path& path, bool has_volumes,
+                  const BlockPiece* whole) {
     // In the process of the last block, whose turn is the last in a process: nothing can fail after it.
     std::optional<NewFolder> folder;
     const auto is_last = [&](const Block& b) { return b.index + 1 == blocks.blocks(); };
@@ -54,14 +55,14 @@ Status write_pvtp(Supersteps& blocks, const fs::path& path, const BlockPiece* wh
         const auto name = in.all<char>(0);
         const fs::path file =
             fs::path(std::string(name.begin(), name.end())) / name_of_piece(path, b.index);
-        if (!whole) return write_file(file, to_vtp_piece(piece_of(b)));
+        if (!whole) return write_file(file, to_vtp_piece(piece_of(b), has_volumes));
         BlockPiece empty;
         empty.mesh.surfaces = piece_of(b).mesh.surfaces;
-        return write_file(file, to_vtp_piece(b.index == 0 ? *whole : empty));
+        return write_file(file, to_vtp_piece(b.index == 0 ? *whole : empty, has_volumes));
     });
     if (!done) return done;
     return blocks.step("write", [&](Block& b, Inbox&, Outbox&) -> Status {
-        return is_last(b) ? publish(*folder, path, blocks.blocks()) : Status(Done{});
+        return is_last(b) ? publish(*folder, path, blocks.blocks(), has_volumes) : Status(Done{});
     });
 }
 

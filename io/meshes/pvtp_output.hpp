@@ -16,9 +16,11 @@ Status check_pvtp(const std::filesystem::path& path);
 
 /// Writes a piece per block into a folder beside `path` (folder_of_pieces), then the file that names them.
 /// Both get their names when all pieces are complete. All processes call it, and see the same folder.
-/// `whole`: if it is not null, it is the piece of the first block, and those of others are empty.
+/// `has_volumes`: whether volumes were found (volumes_in_blocks.hpp); pieces then tell those beside each
+/// triangle. `whole`: if it is not null, it is the piece of the first block, and those of others are
+/// empty.
 /// Errors: cannot_open, write_failed, out_of_memory; then nothing is left.
 Status write_pvtp(distribution::Supersteps& blocks, const std::filesystem::path& path,
-                  const distribution::BlockPiece* whole = nullptr);
+                  bool has_volumes = false, const distribution::BlockPiece* whole = nullptr);
 
 } // namespace terrane

@@ -61,6 +61,32 @@ std::map<std::string, int> kinds_of(const Json& lines) {
 
 } // namespace
 
+TEST_CASE("cli: arrange --memory finds the same volumes in blocks of space", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("model.obj", boxed_model);
+    // So little memory that space is divided.
+    const auto r =
+        folder.run("arrange " + in + " -o m.pvtp --memory 8KiB --volumes --stats s.json");
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "3 closed blocks, volume 512 in all\n  block 1    volume "));
+    const auto stats = Json::parse(folder.read("s.json"));
+    CHECK(stats["blocks"] > 2);
+    CHECK(stats["volumes"]["count"] == 3);
+    REQUIRE(folder.run("convert m.pvtp m.vtp").status == 0);
+    REQUIRE(folder.run("volume m.vtp -o model").status == 0);
+    std::vector<double> expected;
+    const auto model = Json::parse(folder.read("model/model.json"));
+    for (const auto& block : model["blocks"]) expected.push_back(block["volume"]);
+    CHECK(stats["volumes"]["measures"] == Json(expected));
+    CHECK(contains(folder.read("m.pvtp"), "Name=\"volume_front\""));
+    CHECK(folder.run("arrange " + in + " -o x.pvtp --memory 8KiB").status == 0);
+    CHECK_FALSE(contains(folder.read("x.pvtp"), "volume"));
+    const auto alone = folder.run("arrange " + in + " -o y.vtp --volumes");
+    CHECK(alone.status == 2);
+    CHECK(contains(alone.err, "--volumes: it needs --memory; terrane volume finds them without"));
+}
+
 TEST_CASE("cli: volume finds the blocks and writes them", "[cli]") {
     const Folder folder;
     const auto in = folder.input("model.obj", boxed_model);

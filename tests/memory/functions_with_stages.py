@@ -26,6 +26,7 @@ WITHIN = {
     "cell_centres": "parse_surfaces, grdecl",
     "check_edge_length": "fill_by_kriging",
     "check_new_folder": "check_pvtp",
+    "count_work": "arrange_in_blocks",
     "create": "write_model_folder",
     "cut_sections": "to_cut_certificate",
     "delaunay": "connect_points",

@@ -93,7 +93,7 @@ std::vector<Stage> writing_pieces() {
     std::vector<Stage> stages{
         writing_stage("write_pvtp", "pieces with a long name.pvtp", true, arranged,
                       [](const fs::path& path, const std::unique_ptr<LocalSupersteps>& blocks) {
-                          return write_pvtp(*blocks, path);
+                          return write_pvtp(*blocks, path, false);
                       }),
         writing_stage("check_pvtp", "pieces with a long name.pvtp", true,
                       [](const fs::path& path) { return check_pvtp(path); })};

@@ -3,11 +3,14 @@
 // Stages for models that are too large or too uncertain to be built at once: simplification, blocks of space,
 // realisations.
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
 #include <terrane/algorithms/distribution/local_supersteps.hpp>
 #include <terrane/algorithms/uncertainty/measures.hpp>
 #include <terrane/algorithms/uncertainty/realisations.hpp>
+#include <terrane/algorithms/volumes/volumes_in_blocks.hpp>
 
 #include "fixture.hpp"
 #include "scratch.hpp"
@@ -94,6 +97,21 @@ std::vector<Stage> dividing() {
             return repair_in_one_process(*blocks);
         },
         [](const RepairedWhole& whole) { return text_of(whole.piece.mesh); }));
+    stages.push_back(stage_of(
+        "find_volumes_in_blocks",
+        [] {
+            auto blocks = blocks_of(false);
+            needed(arranged_in(*blocks, false));
+            return blocks;
+        },
+        [](const std::unique_ptr<LocalSupersteps>& blocks) {
+            return find_volumes_in_blocks(*blocks);
+        },
+        [](const std::vector<double>& measures) {
+            std::string text;
+            for (const double m : measures) text += std::to_string(m) + ' ';
+            return text;
+        }));
     for (Stage& s : stages) s.returns_errors = false; // see distributed_arrangement.hpp
     return stages;
 }

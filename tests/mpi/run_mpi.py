@@ -36,16 +36,25 @@ def names_in(folder: Path):
     return sorted(path.name for path in folder.iterdir())
 
 
+def volumes_of(arguments, mesh: Path, work: Path):
+    """The measures that terrane volume finds in a mesh: all blocks together, then each."""
+    folder = work / "volumes"
+    done = run([arguments.terrane, "volume", mesh, "-o", folder])
+    assert done.returncode == 0, (mesh, done.stderr)
+    return [block["volume"] for block in json.loads((folder / "model.json").read_text())["blocks"]]
+
+
 def check_case(arguments, folder: Path, work: Path):
-    """The same digest and the same bytes for every number of processes."""
+    """The same digest, bytes and volumes for every number of processes."""
     files = inputs_of(folder)
     expected = json.loads((folder / "expected.json").read_text())
     whole = work / "whole.vtp"
     alone = run([arguments.terrane, "arrange", *files, "-o", whole])
+    volumes = volumes_of(arguments, whole, work) if alone.returncode == 0 else None
     for ranks in RANKS:
         pieces, joined, stats = (work / f"m{ranks}{end}" for end in (".pvtp", ".vtp", ".json"))
         done = run([arguments.mpirun, "-n", ranks, arguments.terrane_mpi, "arrange", *files, "-o", pieces,
-                    "--digest", "--stats", stats])
+                    "--digest", "--volumes", "--stats", stats])
         where = f"{folder.name} with {ranks} processes"
         assert done.returncode == alone.returncode, (where, done.returncode, done.stderr)
         if alone.returncode != 0:
@@ -53,6 +62,7 @@ def check_case(arguments, folder: Path, work: Path):
         found = json.loads(stats.read_text())
         assert found["digest"] == expected["digest"], (where, found["digest"])
         assert found["blocks"] == ranks, where
+        assert found["volumes"]["measures"] == volumes, (where, found["volumes"], volumes)
         converted = run([arguments.terrane, "convert", pieces, joined])
         assert converted.returncode == 0, (where, converted.stderr)
         assert joined.read_bytes() == whole.read_bytes(), f"{where}: other bytes"

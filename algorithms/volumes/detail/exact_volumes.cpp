@@ -114,9 +114,10 @@ public:
         else
             of_constructed_.add(rational(determinant) / rational(a.w * b.w * c.w));
     }
-    [[nodiscard]] mpq_class volume() const {
-        return (rational(of_inputs_) + of_constructed_.total()) / 6;
+    [[nodiscard]] mpq_class six_volumes() const {
+        return rational(of_inputs_) + of_constructed_.total();
     }
+    [[nodiscard]] mpq_class volume() const { return six_volumes() / 6; }
 
 private:
     Exact of_inputs_;
@@ -155,6 +156,20 @@ std::vector<double> measure_volumes(const TriangleComplex& sheets, VolumeSides o
     for (std::size_t v = 0; v < count; ++v)
         if (in_doubt[v]) measures[v] = nearest_double(exact[v].volume());
     return measures;
+}
+
+std::vector<std::string> partial_measures(const TriangleComplex& sheets, VolumeSides of_sides,
+                                          std::size_t count) {
+    std::vector<std::string> texts;
+    for (const ExactSum& sum : exact_sums(sheets, of_sides, std::vector<bool>(count, true)))
+        texts.push_back(sum.six_volumes().get_str(16));
+    return texts;
+}
+
+double measure_of_parts(std::span<const std::string> parts) {
+    mpq_class sum;
+    for (const std::string& part : parts) sum += mpq_class(part, 16);
+    return sum == 0 ? 0 : nearest_double(sum / 6);
 }
 
 std::vector<std::string> exact_measures(const TriangleComplex& sheets, VolumeSides of_sides,

@@ -22,6 +22,13 @@ using VolumeSides = std::span<const std::array<std::uint32_t, 2>>;
 std::vector<double> measure_volumes(const TriangleComplex& sheets, VolumeSides of_sides,
                                     std::size_t count);
 
+/// Returns, for each volume, six times the part of its exact measure that these triangles
+/// contribute, as text; all vertices are input points.
+std::vector<std::string> partial_measures(const TriangleComplex& sheets, VolumeSides of_sides,
+                                          std::size_t count);
+/// Returns the double nearest to the measure whose parts are given.
+double measure_of_parts(std::span<const std::string> parts);
+
 /// Returns the exact measures as reduced fractions.
 std::vector<std::string> exact_measures(const TriangleComplex& sheets, VolumeSides of_sides,
                                         std::size_t count, int base);

@@ -60,12 +60,6 @@ private:
     const Side reference_;
 };
 
-/// Returns the side of the triangle that faces growing angles.
-std::uint32_t ahead(const TriangleComplex& sheets, std::uint32_t low, const Side& s) {
-    const bool upward = runs_along(sheets.triangles[s.triangle], low, s.high);
-    return upward ? front_of(s.triangle) : back_of(s.triangle);
-}
-
 } // namespace
 
 void sort_round_edge(UpwardWitness upward, const TriangleComplex& sheets, std::uint32_t low,
@@ -82,10 +76,8 @@ void join_round_edges(const TriangleComplex& sheets, DisjointSets& sides) {
     sheets.edges.for_each([&](std::uint32_t low, std::uint32_t, std::span<const Side> at_edge) {
         round.assign(at_edge.begin(), at_edge.end());
         sort_round_edge(guard, sheets, low, round);
-        for (std::size_t i = 0; i < round.size(); ++i) {
-            const Side& next = round[(i + 1) % round.size()];
-            sides.join(ahead(sheets, low, round[i]), opposite(ahead(sheets, low, next)));
-        }
+        join_round_edge(sheets, low, round,
+                        [&](std::uint32_t a, std::uint32_t b) { sides.join(a, b); });
     });
 }
 

@@ -19,6 +19,24 @@ namespace terrane::volumes::detail {
 void sort_round_edge(UpwardWitness upward, const TriangleComplex& sheets, std::uint32_t low,
                      std::span<EdgeSides::Side> sides);
 
+/// Returns the side of a triangle that faces growing angles round an edge.
+inline std::uint32_t ahead(const TriangleComplex& sheets, std::uint32_t low,
+                           const EdgeSides::Side& s) {
+    const bool upward = runs_along(sheets.triangles[s.triangle], low, s.high);
+    return upward ? front_of(s.triangle) : back_of(s.triangle);
+}
+
+/// Calls join(side, other side) for the sides of triangles that face each other around one edge,
+/// whose sides are sorted.
+template <class Join>
+void join_round_edge(const TriangleComplex& sheets, std::uint32_t low,
+                     std::span<const EdgeSides::Side> sorted, const Join& join) {
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const EdgeSides::Side& next = sorted[(i + 1) % sorted.size()];
+        join(ahead(sheets, low, sorted[i]), opposite(ahead(sheets, low, next)));
+    }
+}
+
 /// Joins the sides of triangles that face each other around each edge. Joined sides form a shell,
 /// which bounds one volume. An edge with two triangles needs no predicate; a single triangle, at a
 /// free border, has its front joined with its back. `sides` has two elements per triangle (see

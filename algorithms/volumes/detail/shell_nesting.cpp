@@ -16,9 +16,9 @@ using polynomial::Vector;
 
 /// A line along an axis, given by its point in the projection along that axis.
 struct Line {
-    ExactPoint exact;        ///< its coordinate along the axis has no meaning
-    ApproximatePoint about;  ///< the point in the projection, approximately
-    std::uint32_t component; ///< number of its component, for messages
+    ExactPoint exact;       ///< its coordinate along the axis has no meaning
+    ApproximatePoint about; ///< the point in the projection, approximately
+    std::uint32_t name;     ///< place in the list of all lines
 };
 
 /// The intersection of a line with a triangle.
@@ -45,14 +45,27 @@ public:
     Bundle(UpwardWitness upward, const TriangleComplex& sheets, Axis axis) :
         upward_(upward), sheets_(sheets), axis_(axis), k_(static_cast<unsigned>(axis)) {}
 
-    void add_line_through(std::uint32_t triangle) {
+    /// Adds a line and returns its number in this bundle.
+    std::uint32_t add_line_through(std::uint32_t triangle, std::uint32_t name) {
         lines_.push_back(inside(triangle));
-        lines_.back().component = triangle;
+        lines_.back().name = name;
+        return static_cast<std::uint32_t>(lines_.size() - 1);
     }
-    [[nodiscard]] bool empty() const { return lines_.empty(); }
+    void add_hit(std::uint32_t line, std::uint32_t triangle) {
+        hits_.push_back({line, triangle, height(triangle, lines_[line])});
+    }
 
-    void join(DisjointSets& sides, std::uint32_t outside) {
-        find_hits();
+    /// Finds the hits of the first `count` triangles.
+    void find_hits(std::uint32_t count, std::vector<LineHit>& out) const {
+        if (lines_.empty()) return;
+        for_each_near(count, [&](std::uint32_t triangle, std::uint32_t line) {
+            if (passes_through(triangle, lines_[line]))
+                out.push_back({lines_[line].name, triangle});
+        });
+    }
+
+    template <class Join>
+    void join(const Join& join, std::uint32_t outside) {
         std::sort(hits_.begin(), hits_.end(), [this](const Hit& a, const Hit& b) {
             if (a.line != b.line) return a.line < b.line;
             return a.triangle != b.triangle && below(a, b);
@@ -60,9 +73,8 @@ public:
         for (std::size_t i = 0; i < hits_.size(); ++i) {
             const bool first = i == 0 || hits_[i - 1].line != hits_[i].line;
             const std::uint32_t upper = upper_side(hits_[i].triangle);
-            sides.join(opposite(upper), first ? outside : upper_side(hits_[i - 1].triangle));
-            if (i + 1 == hits_.size() || hits_[i + 1].line != hits_[i].line)
-                sides.join(upper, outside);
+            join(opposite(upper), first ? outside : upper_side(hits_[i - 1].triangle));
+            if (i + 1 == hits_.size() || hits_[i + 1].line != hits_[i].line) join(upper, outside);
         }
         check_all_hit();
     }
@@ -75,9 +87,8 @@ private:
     [[nodiscard]] Line inside(std::uint32_t triangle) const;
     [[nodiscard]] Sign turn(PointIndex a, PointIndex b, const Line& line) const;
     [[nodiscard]] bool passes_through(std::uint32_t triangle, const Line& line) const;
-    void find_hits();
     template <class Visit>
-    void for_each_near(const Visit& visit) const;
+    void for_each_near(std::uint32_t count, const Visit& visit) const;
     [[nodiscard]] Interval height(std::uint32_t triangle, const Line& line) const;
     [[nodiscard]] bool below(const Hit& a, const Hit& b) const;
 
@@ -152,10 +163,11 @@ bool Bundle::passes_through(std::uint32_t triangle, const Line& line) const {
     return s != Sign::Zero && turn(b, c, line) == s && turn(c, a, line) == s;
 }
 
-/// Calls visit(triangle, line) if the line passes through the box of the projected triangle. The
-/// lines are sorted by one coordinate, so that only a few are tested for a small triangle.
+/// Calls visit(triangle, line) for the first `count` triangles if the line passes through the box of
+/// the projected triangle. The lines are sorted by one coordinate, so that only a few are tested for
+/// a small triangle.
 template <class Visit>
-void Bundle::for_each_near(const Visit& visit) const {
+void Bundle::for_each_near(std::uint32_t count, const Visit& visit) const {
     const unsigned u = (k_ + 1) % 3, v = (k_ + 2) % 3;
     const auto n = static_cast<std::uint32_t>(lines_.size());
     std::vector<std::uint32_t> by_u(n);
@@ -166,7 +178,7 @@ void Bundle::for_each_near(const Visit& visit) const {
     std::sort(by_u.begin(), everywhere, [&](std::uint32_t i, std::uint32_t j) {
         return std::pair(lines_[i].about.u, i) < std::pair(lines_[j].about.u, j);
     });
-    for (std::uint32_t t = 0; t < sheets_.triangles.size(); ++t) {
+    for (std::uint32_t t = 0; t < count; ++t) {
         std::array<double, 2> low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
         for (unsigned c = 0; c < 3; ++c) {
             const Enclosure e = sheets_.points.enclosure(point(t, c));
@@ -180,13 +192,6 @@ void Bundle::for_each_near(const Visit& visit) const {
             if (lines_[*i].about.v >= low[1] && lines_[*i].about.v <= high[1]) visit(t, *i);
         for (auto i = everywhere; i != by_u.end(); ++i) visit(t, *i);
     }
-}
-
-void Bundle::find_hits() {
-    for_each_near([this](std::uint32_t triangle, std::uint32_t line) {
-        if (passes_through(triangle, lines_[line]))
-            hits_.push_back({line, triangle, height(triangle, lines_[line])});
-    });
 }
 
 /// Encloses the height at which the line meets the plane of a triangle, from n (x - a) = 0.
@@ -254,21 +259,69 @@ Axis best_axis(const TriangleComplex& sheets, std::uint32_t triangle) {
                            sheets.points.input(p[2]));
 }
 
+/// The lines along all axes.
+class Bundles {
+public:
+    Bundles(UpwardWitness upward, const TriangleComplex& sheets,
+            std::span<const std::uint32_t> through) :
+        bundles_{Bundle(upward, sheets, Axis::x), Bundle(upward, sheets, Axis::y),
+                 Bundle(upward, sheets, Axis::z)} {
+        for (std::uint32_t i = 0; i < through.size(); ++i) {
+            const auto axis = static_cast<std::uint32_t>(best_axis(sheets, through[i]));
+            places_.push_back({axis, bundles_[axis].add_line_through(through[i], i)});
+        }
+    }
+
+    [[nodiscard]] std::vector<LineHit> hits(std::uint32_t count) const {
+        std::vector<LineHit> found;
+        for (const Bundle& bundle : bundles_) bundle.find_hits(count, found);
+        return found;
+    }
+
+    template <class Join>
+    void join_along(std::span<const LineHit> hits, const Join& join, std::uint32_t outside) {
+        for (const LineHit& h : hits) {
+            const auto [axis, line] = places_[h.line];
+            bundles_[axis].add_hit(line, h.triangle);
+        }
+        for (Bundle& bundle : bundles_) bundle.join(join, outside);
+    }
+
+private:
+    std::array<Bundle, 3> bundles_;
+    std::vector<std::array<std::uint32_t, 2>>
+        places_; ///< per line: its bundle, and its place there
+};
+
 } // namespace
+
+std::vector<LineHit> find_line_hits(const TriangleComplex& sheets,
+                                    std::span<const std::uint32_t> through, std::uint32_t count) {
+    const UpwardRounding guard;
+    return Bundles(guard, sheets, through).hits(count);
+}
+
+void join_along_lines(const TriangleComplex& sheets, std::span<const std::uint32_t> through,
+                      std::span<const LineHit> hits,
+                      const std::function<void(std::uint32_t, std::uint32_t)>& join) {
+    const UpwardRounding guard;
+    Bundles(guard, sheets, through)
+        .join_along(hits, join, 2 * static_cast<std::uint32_t>(sheets.triangles.size()));
+}
 
 void join_nested(const TriangleComplex& sheets, DisjointSets& sides) {
     const auto count = static_cast<std::uint32_t>(sheets.triangles.size());
     DisjointSets components =
         sides; // in addition to the shells, the front and the back of a triangle are joined
     for (std::uint32_t t = 0; t < count; ++t) components.join(front_of(t), back_of(t));
-    const UpwardRounding guard;
-    std::array<Bundle, 3> bundles{Bundle(guard, sheets, Axis::x), Bundle(guard, sheets, Axis::y),
-                                  Bundle(guard, sheets, Axis::z)};
+    std::vector<std::uint32_t> lowest; // triangle of each component
     for (std::uint32_t t = 0; t < count; ++t)
-        if (components.find(front_of(t)) == front_of(t)) // the lowest triangle of its component
-            bundles[static_cast<std::size_t>(best_axis(sheets, t))].add_line_through(t);
-    for (Bundle& bundle : bundles)
-        if (!bundle.empty()) bundle.join(sides, 2 * count);
+        if (components.find(front_of(t)) == front_of(t)) lowest.push_back(t);
+    const UpwardRounding guard;
+    Bundles bundles(guard, sheets, lowest);
+    bundles.join_along(
+        bundles.hits(count), [&](std::uint32_t a, std::uint32_t b) { sides.join(a, b); },
+        2 * count);
 }
 
 } // namespace terrane::volumes::detail

@@ -10,6 +10,11 @@
 // Sides between consecutive hits are joined; this joins all shells of a volume: statement (3).
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/volumes/detail/complex.hpp>
 
@@ -21,5 +26,23 @@ namespace terrane::volumes::detail {
 /// component) for each triangle; exact arithmetic only where filters fail. Throws std::logic_error
 /// if triangles overlap.
 void join_nested(const TriangleComplex& sheets, DisjointSets& sides);
+
+/// A line, by its place in a list of triangles through whose insides the lines pass, and a triangle
+/// that it meets.
+struct LineHit {
+    std::uint32_t line = 0, triangle = 0;
+};
+
+/// Returns which lines meet which of the first `count` triangles. `through` lists triangles of the same
+/// complex, which may lie upon others.
+std::vector<LineHit> find_line_hits(const TriangleComplex& sheets,
+                                    std::span<const std::uint32_t> through, std::uint32_t count);
+
+/// Calls join(side, other side) for sides between consecutive hits of each line, and with
+/// 2 * triangles for the outside. Throws std::logic_error if triangles overlap, or if a line has no
+/// hit.
+void join_along_lines(const TriangleComplex& sheets, std::span<const std::uint32_t> through,
+                      std::span<const LineHit> hits,
+                      const std::function<void(std::uint32_t, std::uint32_t)>& join);
 
 } // namespace terrane::volumes::detail

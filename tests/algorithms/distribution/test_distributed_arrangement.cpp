@@ -3,6 +3,7 @@
 // An arrangement in blocks is that of one process: its triangles, numbers, regions and digest.
 #include "support/certified_inputs.hpp"
 #include "support/files.hpp"
+#include "support/in_blocks.hpp"
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/arrangement/digest.hpp>
@@ -23,27 +24,9 @@ namespace {
 
 using namespace terrane;
 using namespace terrane::distribution;
-
-/// Reads file i of surfaces in memory: each surface is a file.
-FileReader reader_of(const std::vector<Surface>& surfaces) {
-    return [&surfaces](std::size_t file) -> Result<std::vector<Surface>> {
-        return std::vector<Surface>{surfaces[file]};
-    };
-}
-
-DistributedReport arranged(Supersteps& blocks, const std::vector<Surface>& surfaces) {
-    auto report = arrange_in_blocks(blocks, reader_of(surfaces), {surfaces.size(), true});
-    REQUIRE(report);
-    return *report;
-}
-
-Mesh joined(Supersteps& blocks, const DistributedReport& report) {
-    PieceJoiner joiner(report.vertices, report.triangles);
-    REQUIRE(blocks.visit([&](Block& b) -> Status { return joiner.add(piece_of(b)); }));
-    auto mesh = std::move(joiner).finish();
-    REQUIRE(mesh);
-    return std::move(*mesh);
-}
+using test_support::arranged;
+using test_support::joined;
+using test_support::waves;
 
 void require_same(const Mesh& found, const Mesh& expected) {
     CHECK(found.surfaces == expected.surfaces);
@@ -52,27 +35,6 @@ void require_same(const Mesh& found, const Mesh& expected) {
     CHECK(found.surfaces_of == expected.surfaces_of);
     CHECK(found.regions_of == expected.regions_of);
     CHECK(found.parents_of == expected.parents_of);
-}
-
-/// Two crossing waves with so many triangles that each of several blocks has some.
-std::vector<Surface> waves(unsigned n, double turn) {
-    std::vector<Surface> surfaces{{"top", Role::horizon, {}, {}}, {"fault", Role::fault, {}, {}}};
-    for (Surface& s : surfaces) {
-        const bool is_fault = &s == &surfaces[1];
-        for (unsigned i = 0; i <= n; ++i)
-            for (unsigned k = 0; k <= n; ++k) {
-                const double u = 4.0 * i / n, v = 4.0 * k / n;
-                const double w = std::sin(2 * u) * std::cos(v) / 8;
-                s.vertices.push_back(is_fault ? Point3{u + turn, 2 + w, v - 2} : Point3{u, v, w});
-            }
-        for (std::uint32_t i = 0; i < n; ++i)
-            for (std::uint32_t k = 0; k < n; ++k) {
-                const std::uint32_t a = i * (n + 1) + k, b = a + n + 1;
-                s.triangles.push_back({a, b, a + 1});
-                s.triangles.push_back({b, b + 1, a + 1});
-            }
-    }
-    return surfaces;
 }
 
 /// Triangles on a small lattice: they overlap, repeat each other, and some have no area.

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Arrangements in blocks of one process.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/distribution/distributed_arrangement.hpp>
+#include <terrane/algorithms/distribution/pieces.hpp>
+#include <terrane/algorithms/distribution/supersteps.hpp>
+
+#include <catch2/catch.hpp>
+
+namespace test_support {
+
+using namespace terrane;
+
+/// Reads file i of surfaces in memory: each surface is a file.
+inline distribution::FileReader reader_of(const std::vector<Surface>& surfaces) {
+    return [&surfaces](std::size_t file) -> Result<std::vector<Surface>> {
+        return std::vector<Surface>{surfaces[file]};
+    };
+}
+
+inline distribution::DistributedReport arranged(distribution::Supersteps& blocks,
+                                                const std::vector<Surface>& surfaces) {
+    auto report =
+        distribution::arrange_in_blocks(blocks, reader_of(surfaces), {surfaces.size(), true});
+    REQUIRE(report);
+    return *report;
+}
+
+inline Mesh joined(distribution::Supersteps& blocks,
+                   const distribution::DistributedReport& report) {
+    distribution::PieceJoiner joiner(report.vertices, report.triangles);
+    REQUIRE(blocks.visit(
+        [&](distribution::Block& b) -> Status { return joiner.add(distribution::piece_of(b)); }));
+    auto mesh = std::move(joiner).finish();
+    REQUIRE(mesh);
+    return std::move(*mesh);
+}
+
+/// Two crossing waves with so many triangles that each of several blocks has some.
+inline std::vector<Surface> waves(unsigned n, double turn) {
+    std::vector<Surface> surfaces{{"top", Role::horizon, {}, {}}, {"fault", Role::fault, {}, {}}};
+    for (Surface& s : surfaces) {
+        const bool is_fault = &s == &surfaces[1];
+        for (unsigned i = 0; i <= n; ++i)
+            for (unsigned k = 0; k <= n; ++k) {
+                const double u = 4.0 * i / n, v = 4.0 * k / n;
+                const double w = std::sin(2 * u) * std::cos(v) / 8;
+                s.vertices.push_back(is_fault ? Point3{u + turn, 2 + w, v - 2} : Point3{u, v, w});
+            }
+        for (std::uint32_t i = 0; i < n; ++i)
+            for (std::uint32_t k = 0; k < n; ++k) {
+                const std::uint32_t a = i * (n + 1) + k, b = a + n + 1;
+                s.triangles.push_back({a, b, a + 1});
+                s.triangles.push_back({b, b + 1, a + 1});
+            }
+    }
+    return surfaces;
+}
+
+} // namespace test_support
