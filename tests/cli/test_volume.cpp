@@ -76,8 +76,8 @@ TEST_CASE("cli: arrange --memory finds the same volumes in blocks of space", "[c
     REQUIRE(folder.run("convert m.pvtp m.vtp").status == 0);
     REQUIRE(folder.run("volume m.vtp -o model").status == 0);
     std::vector<double> expected;
-    const auto model = Json::parse(folder.read("model/model.json"));
-    for (const auto& block : model["blocks"]) expected.push_back(block["volume"]);
+    const auto made = Json::parse(folder.read("model/model.json"));
+    for (const auto& block : made["blocks"]) expected.push_back(block["volume"]);
     CHECK(stats["volumes"]["measures"] == Json(expected));
     CHECK(contains(folder.read("m.pvtp"), "Name=\"volume_front\""));
     CHECK(folder.run("arrange " + in + " -o x.pvtp --memory 8KiB").status == 0);
