@@ -112,6 +112,12 @@ TEST_CASE("volumes in blocks: shells in shells that other blocks hold", "[volume
         CHECK(judge(surfaces, count).value_or(0) == 4 + 12);
 }
 
+TEST_CASE("volumes in blocks: the least vertex of a volume is on any of its shells", "[volumes]") {
+    const std::vector<Surface> surfaces{box({4, 4, 4}, {6, 6, 6}), box({2, 2, 2}, {3, 3, 3}),
+                                        box({0, 0, 0}, {9, 9, 9})};
+    for (const std::size_t count : {1, 2, 5}) CHECK(judge(surfaces, count).value_or(0) == 3);
+}
+
 TEST_CASE("volumes in blocks: those with one least vertex are told apart", "[volumes]") {
     const Point3 least{-1, 0, 0};
     std::vector<Surface> surfaces;
