@@ -208,4 +208,9 @@ struct Block {
     }
 };
 
+/// Returns the block that decides a shared edge, by a hash of its ends.
+inline std::size_t keeper_of_edge(const Block& b, const std::array<std::uint32_t, 2>& ends) {
+    return ((ends[0] * 0x9e3779b97f4a7c15U ^ ends[1]) * 0x9e3779b97f4a7c15U >> 32) % b.count;
+}
+
 } // namespace terrane::distribution

@@ -204,7 +204,7 @@ Result<Volumes> find_volumes(const Mesh& mesh, const Run& run) {
     return guarded("for the volumes", "volumes", [&]() -> Result<Volumes> {
         if (auto valid = validate(mesh.vertices, mesh.triangles, run); !valid) return valid.error();
         detail::announce_work("find volumes", mesh.vertices, mesh.triangles);
-        return find(MeshSheets(mesh.vertices, mesh.triangles).view(), run);
+        return find(MeshSheets(mesh.vertices, mesh.triangles, run).view(), run);
     });
 }
 

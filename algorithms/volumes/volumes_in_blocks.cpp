@@ -97,9 +97,9 @@ PlacedSide placed_side(Corners corners, bool is_front) {
     return {corners, even == is_front ? 1U : 0U, 0};
 }
 
-/// Returns the block that decides a shared edge.
-std::size_t keeper_of(const Block& b, const std::array<std::uint32_t, 2>& ends) {
-    return ((ends[0] * 0x9e3779b97f4a7c15U ^ ends[1]) * 0x9e3779b97f4a7c15U >> 32) % b.count;
+/// Blocks run in several threads or processes already.
+Run one_thread() {
+    return {.threads = 1};
 }
 
 /// The triangles of a block, and some more behind them.
@@ -113,7 +113,7 @@ public:
             mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
             mesh.triangles.push_back({v, v + 1, v + 2});
         }
-        sheets_.emplace(mesh.vertices, mesh.triangles);
+        sheets_.emplace(mesh.vertices, mesh.triangles, one_thread());
     }
 
     [[nodiscard]] const BlockPiece& piece() const { return piece_; }
@@ -144,7 +144,7 @@ Status share_edges(Block& b, Inbox&, Outbox& out) {
             const std::array ends{piece.vertex_ids[low], piece.vertex_ids[high]};
             const auto& at = piece.mesh.vertices;
             out.put(
-                keeper_of(b, ends), 0,
+                keeper_of_edge(b, ends), 0,
                 RoundEdge{ends, t, is_upward ? 1U : 0U, {at[low], at[high], at[c[(i + 2) % 3]]}});
         }
     }
@@ -183,7 +183,7 @@ Status decide_edges(Block&, Inbox& in, Outbox& out) {
         triangles.push_back(e.is_upward != 0 ? Triangle{low, low + 1, apex}
                                              : Triangle{low + 1, low, apex});
     }
-    const MeshSheets sheets(points, triangles);
+    const MeshSheets sheets(points, triangles, one_thread());
     const TriangleComplex view = sheets.view();
     const UpwardRounding guard;
     std::vector<EdgeSides::Side> round;
@@ -337,7 +337,7 @@ Status join_along(Block& b, Inbox& in, Outbox& out) {
     }
     const auto count = static_cast<std::uint32_t>(b.least_vertices.size()), outside = count;
     DisjointSets shells(count + std::size_t{1});
-    const MeshSheets sheets(points, triangles);
+    const MeshSheets sheets(points, triangles, one_thread());
     const std::uint32_t beyond = 2 * static_cast<std::uint32_t>(triangles.size());
     join_along_lines(sheets.view(), through, hits, [&](std::uint32_t side, std::uint32_t other) {
         const auto shell = [&](std::uint32_t s) { return s == beyond ? outside : shell_of[s]; };

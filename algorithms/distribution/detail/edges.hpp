@@ -41,9 +41,4 @@ std::vector<EdgeSide> sides_of(const Block& b);
 bool agree(const Block& b, std::uint32_t s, std::uint32_t t);
 /// Returns the first input triangle with the same corners.
 std::uint32_t first_same(const Block& b, std::uint32_t triangle);
-/// Returns the block that decides a shared edge.
-inline std::size_t keeper_of_edge(const Block& b, const std::array<std::uint32_t, 2>& ends) {
-    return ((ends[0] * 0x9e3779b97f4a7c15U ^ ends[1]) * 0x9e3779b97f4a7c15U >> 32) % b.count;
-}
-
 } // namespace terrane::distribution::detail

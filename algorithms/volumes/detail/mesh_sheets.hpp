@@ -15,9 +15,11 @@ namespace terrane::volumes::detail {
 /// outlive it.
 class MeshSheets {
 public:
-    MeshSheets(std::span<const Point3> vertices, std::span<const Triangle> triangles) :
-        triangles_(triangles), points_(std::vector<Point3>(vertices.begin(), vertices.end())),
-        vertices_(vertices.size()), edges_(group_edges(triangles, vertices.size())) {
+    MeshSheets(std::span<const Point3> vertices, std::span<const Triangle> triangles,
+               const Run& run = {}) :
+        triangles_(triangles),
+        points_(std::vector<Point3>(vertices.begin(), vertices.end())), vertices_(vertices.size()),
+        edges_(group_edges(triangles, vertices.size(), run)) {
         std::iota(vertices_.begin(), vertices_.end(), PointIndex{0});
     }
     [[nodiscard]] TriangleComplex view() const {
