@@ -82,7 +82,8 @@ std::vector<Surface> boxed_waves() {
 
 TEST_CASE("volumes in blocks: random models have the volumes of one mesh", "[volumes][once]") {
     std::size_t volumes = 0, models = 0;
-    for (int seed = 0; seed < test_support::cases(120); ++seed) {
+    const int seeds = std::max(120, test_support::cases(120)); // few of them have many volumes
+    for (int seed = 0; seed < seeds; ++seed) {
         CAPTURE(seed);
         test_support::ModelMaker maker(static_cast<std::uint64_t>(seed));
         const auto surfaces = maker.model();
@@ -92,7 +93,7 @@ TEST_CASE("volumes in blocks: random models have the volumes of one mesh", "[vol
                 ++models;
             }
     }
-    CHECK(models > static_cast<std::size_t>(test_support::cases(120)));
+    CHECK(models > static_cast<std::size_t>(seeds));
     CHECK(volumes > 3 * models); // otherwise the models are too easy
 }
 
