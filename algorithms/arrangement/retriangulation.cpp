@@ -68,7 +68,7 @@ public:
         finish_points();
         const std::uint32_t pool = contacts_.pools.led_by(f);
         if (pool != no_group) return divide_pool(contacts_.pools.faces[pool], out);
-        triangulate_(contacts_.points, order_.rank, face_);
+        triangulate_.divide(contacts_.points, order_.rank, face_);
         for (const auto& part : triangulate_.in_order()) out.parts.push_back({f, part});
     }
 
@@ -78,7 +78,7 @@ private:
         face_.frame = &frame;
         face_.stop = run_.stop;
         for (unsigned i = 0; i < 3; ++i) face_.corners[i] = Frame::corner(i);
-        triangulate_(contacts_.points, order_.rank, face_);
+        triangulate_.divide(contacts_.points, order_.rank, face_);
         if (run_.stop.stop_requested()) return;
         const PoolDivision division =
             covers_of_pool(upward_, soup_, faces, contacts_.points, order_, face_, triangulate_);

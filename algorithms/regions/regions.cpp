@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <span>
+#include <utility>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
@@ -228,32 +230,44 @@ private:
         return list;
     }
 
-    /// Calls visit(r, q) for all pairs of regions that meet at a stop; a pair may be repeated.
-    template <class Visit>
-    void for_neighbours(const Regions& out, std::span<const CrowdedStop> crowded,
-                        const Visit& visit) const {
-        // Along a curve the same few regions meet at each edge; sets that were seen last are
-        // skipped.
-        std::array<std::array<std::uint32_t, few>, 256> seen{};
-        std::vector<std::uint32_t> here;
+    /// A region, and another one that meets it at a stop.
+    struct Neighbours {
+        std::uint32_t region, other;
+    };
+
+    /// Lists the neighbours at all stops, both ways. They may be repeated.
+    [[nodiscard]] std::vector<Neighbours> neighbours(const Regions& out) const {
+        std::vector<Neighbours> list;
+        add_neighbours_at_few(out, list);
+        add_neighbours_at_crowded(out, list);
+        return list;
+    }
+
+    /// Along a curve the same few regions meet at each edge. Those that were seen last are skipped.
+    void add_neighbours_at_few(const Regions& out, std::vector<Neighbours>& list) const {
+        using Few = std::array<std::uint32_t, few>;
+        std::array<Few, 1024> seen{}; // by hash
         for (std::size_t e = 0; e < at_stop_.size(); ++e) {
             if (is_crowded(e)) continue;
-            find_regions_at(e, out, here);
-            std::array<std::uint32_t, few> key{no_index, no_index, no_index, no_index};
-            std::copy(here.begin(), here.end(), key.begin());
-            auto& last = seen[(key[0] * 31 + key[1] * 7 + key[2] * 3 + key[3]) % seen.size()];
-            if (last == key) continue;
-            last = key;
-            for (const std::uint32_t r : here)
-                for (const std::uint32_t q : here)
-                    if (q != r) visit(r, q);
+            Few here{no_index, no_index, no_index, no_index};
+            std::size_t count = 0;
+            for (const std::uint32_t t : at_stop_[e])
+                for (const std::uint32_t r : out.regions_of[t]) here[count++] = r;
+            const std::uint32_t hash = ((here[0] * 31 + here[1]) * 31 + here[2]) * 31 + here[3];
+            if (std::exchange(seen[hash % seen.size()], here) == here) continue;
+            for (std::size_t i = 0; i < count; ++i)
+                for (std::size_t j = 0; j < count; ++j)
+                    if (here[i] != here[j]) list.push_back({here[i], here[j]});
         }
-        // Two edges of a curve that share a vertex have most of their regions in common. Only pairs
-        // with a region that the edge before did not have are visited: visiting all pairs at all edges
-        // of a line on which many surfaces meet is cubic.
+    }
+
+    /// Two edges of a curve that share a vertex have most of their regions in common. Only pairs
+    /// with a region that the edge before did not have are listed: listing all pairs at all edges of
+    /// a line on which many surfaces meet is cubic.
+    void add_neighbours_at_crowded(const Regions& out, std::vector<Neighbours>& list) const {
         std::set<std::vector<std::uint32_t>> seen_first; // of different curves
-        std::vector<std::uint32_t> before, fresh, old;
-        for (const CrowdedStop& stop : crowded) {
+        std::vector<std::uint32_t> here, before, fresh, old;
+        for (const CrowdedStop& stop : crowded_stops()) {
             find_regions_at(stop.stop, out, here);
             before.clear();
             if (stop.before != no_index)
@@ -266,31 +280,33 @@ private:
             std::ranges::set_intersection(here, before, std::back_inserter(old));
             for (const std::uint32_t r : fresh) {
                 for (const std::uint32_t q : fresh)
-                    if (q != r) visit(r, q);
+                    if (q != r) list.push_back({r, q});
                 for (const std::uint32_t q : old) {
-                    visit(r, q);
-                    visit(q, r);
+                    list.push_back({r, q});
+                    list.push_back({q, r});
                 }
             }
         }
     }
 
+    /// Sorts the neighbours by counting: first by region, then by the other one. As both are
+    /// neighbours of each other, a list of others by region is one of regions by other.
     void find_neighbours(Regions& out) const {
-        const auto crowded = crowded_stops();
-        std::vector<std::size_t> end(out.regions.size() + 1, 0); // the count of r is at r + 1
-        for_neighbours(out, crowded, [&](std::uint32_t r, std::uint32_t) { ++end[r + 1]; });
-        std::partial_sum(end.begin(), end.end(), end.begin());
-        std::vector<std::uint32_t> found(end.back());
-        for_neighbours(out, crowded,
-                       [&](std::uint32_t r, std::uint32_t q) { found[end[r]++] = q; });
-        for_ranges(out.regions.size(), run_, [&](std::size_t first, std::size_t last) {
-            for (std::size_t r = first; r < last; ++r) {
-                const auto at = [&](std::size_t k) {
-                    return found.begin() + static_cast<std::ptrdiff_t>(k);
-                };
-                const auto begin = at(r == 0 ? 0 : end[r - 1]);
-                std::sort(begin, at(end[r]));
-                out.regions[r].neighbours.assign(begin, std::unique(begin, at(end[r])));
+        const auto all = neighbours(out);
+        std::vector<std::size_t> first(out.regions.size() + 1, 0); // the count of r is at r + 1
+        for (const Neighbours& n : all) ++first[n.region + 1];
+        std::partial_sum(first.begin(), first.end(), first.begin());
+        std::vector<std::uint32_t> others(all.size()), ascending(all.size());
+        auto next = first;
+        for (const Neighbours& n : all) others[next[n.region]++] = n.other;
+        next = first;
+        for (std::uint32_t r = 0; r < out.regions.size(); ++r)
+            for (std::size_t k = first[r]; k < first[r + 1]; ++k) ascending[next[others[k]]++] = r;
+        for_ranges(out.regions.size(), run_, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t r = begin; r < end; ++r) {
+                const std::span list(ascending.data() + first[r], ascending.data() + first[r + 1]);
+                const auto last = std::ranges::unique(list).begin();
+                out.regions[r].neighbours.assign(list.begin(), last);
             }
         });
     }

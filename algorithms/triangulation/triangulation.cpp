@@ -15,6 +15,17 @@ namespace terrane {
 
 using namespace triangulation::detail;
 
+namespace {
+
+/// Turns a triangle so that it starts with its lowest corner.
+std::array<std::uint32_t, 3> from_lowest(const std::array<std::uint32_t, 3>& t) {
+    if (t[1] < t[0] && t[1] < t[2]) return {t[1], t[2], t[0]};
+    if (t[2] < t[0]) return {t[2], t[0], t[1]};
+    return t;
+}
+
+} // namespace
+
 void FaceInput::clear() {
     for (auto& e : edge_points) e.clear();
     inner_points.clear();
@@ -26,25 +37,8 @@ void FaceInput::clear() {
 std::span<const std::array<PointIndex, 3>>
 FaceTriangulation::operator()(const PointStore& points, std::span<const std::uint32_t> rank,
                               const FaceInput& face) {
-    store_ = &points;
-    rank_ = rank;
-    axis_ = face.axis;
-    frame_ = face.frame;
+    divide(points, rank, face);
     result_.clear();
-    segment_edges_.clear();
-    start(face);
-    is_reversed_ = cells_[0].v[1] != 1;
-    insert_edge_points(face);
-    legalise();
-    insert_inner_points(face);
-    if (face.stop.stop_requested()) return {}; // some points may be missing
-
-    order_segments();
-    for (std::uint32_t k = 0; k < segment_order_.size(); ++k) {
-        if (k % 256 == 255 && face.stop.stop_requested()) return {};
-        insert_segment(segment_order_[k]);
-    }
-
     for (const Cell& c : cells_) {
         std::array<PointIndex, 3> t{points_[c.v[0]], points_[c.v[1]], points_[c.v[2]]};
         if (is_reversed_) std::swap(t[1], t[2]);
@@ -53,35 +47,51 @@ FaceTriangulation::operator()(const PointStore& points, std::span<const std::uin
     return result_;
 }
 
-// This function sorts the points of the face, and then counts the triangles at each lowest corner.
-// Those few with the same lowest corner are sorted by their second one. Two triangles never share
-// both, because a directed edge belongs to one triangle.
+void FaceTriangulation::divide(const PointStore& points, std::span<const std::uint32_t> rank,
+                               const FaceInput& face) {
+    store_ = &points;
+    rank_ = rank;
+    axis_ = face.axis;
+    frame_ = face.frame;
+    segment_edges_.clear();
+    start(face);
+    is_reversed_ = cells_[0].v[1] != 1;
+    insert_edge_points(face);
+    legalise();
+    insert_inner_points(face);
+    order_segments();
+    for (std::uint32_t k = 0; k < segment_order_.size() && !face.stop.stop_requested(); ++k)
+        insert_segment(segment_order_[k]);
+    if (face.stop.stop_requested()) cells_.clear(); // points or segments may be missing
+}
+
+// This function sorts the points of the face, and then counts its triangles into place: first by
+// their second corners, then by their lowest ones. Two triangles never share both, because a
+// directed edge belongs to one triangle.
 std::span<const std::array<PointIndex, 3>> FaceTriangulation::in_order() {
-    if (result_.size() < 2) return result_;
     sort_points();
-    starts_.assign(points_.size() + 1, 0);
+    const std::size_t count = points_.size();
+    by_second_.assign(count + 1, 0);
+    by_lowest_.assign(count + 1, 0);
     turned_.clear();
     for (const Cell& cell : cells_) {
         auto [a, b, c] = cell.v;
         if (is_reversed_) std::swap(b, c);
         std::array<Local, 3> t{positions_[a], positions_[b], positions_[c]};
-        if (t[1] < t[0] && t[1] < t[2])
-            t = {t[1], t[2], t[0]};
-        else if (t[2] < t[0])
-            t = {t[2], t[0], t[1]};
+        if (cells_.size() > 1) t = from_lowest(t);
         turned_.push_back(t);
-        ++starts_[t[0] + 1];
+        ++by_second_[t[1] + 1];
+        ++by_lowest_[t[0] + 1];
     }
-    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+    for (std::size_t p = 1; p < count; ++p) { // now each is where the triangles of p begin
+        by_second_[p] += by_second_[p - 1];
+        by_lowest_[p] += by_lowest_[p - 1];
+    }
     ordered_.resize(turned_.size());
-    for (const auto& t : turned_) ordered_[starts_[t[0]]++] = t; // then starts_[p] is where p ends
-    for (auto first = ordered_.begin(), last = first; first != ordered_.end(); first = last) {
-        last = ordered_.begin() + starts_[(*first)[0]];
-        if (last - first > 1)
-            std::sort(first, last, [](const auto& t, const auto& u) { return t[1] < u[1]; });
-    }
-    for (std::size_t k = 0; k < ordered_.size(); ++k)
-        for (unsigned i = 0; i < 3; ++i) result_[k][i] = by_rank_[ordered_[k][i]];
+    for (const auto& t : turned_) ordered_[by_second_[t[1]]++] = t;
+    result_.resize(ordered_.size());
+    for (const auto& [a, b, c] : ordered_)
+        result_[by_lowest_[a]++] = {by_rank_[a], by_rank_[b], by_rank_[c]};
     return result_;
 }
 

@@ -66,9 +66,13 @@ public:
                                                           std::span<const std::uint32_t> rank,
                                                           const FaceInput& face);
 
-    /// Returns the same triangles of the last face again, in an order that depends on its points alone
-    /// and not on the order of work: each starts with its lowest corner, and they are sorted by their
-    /// corners. A face of one triangle is returned as it is. Valid until the next call.
+    /// Divides a face as operator() does, and lists no triangles.
+    void divide(const PointStore& points, std::span<const std::uint32_t> rank,
+                const FaceInput& face);
+
+    /// Returns the triangles of the last face in an order that depends on its points alone and not on
+    /// the order of work: each starts with its lowest corner, and they are sorted by their corners. A
+    /// face of one triangle is returned as it is. Valid until the next call.
     std::span<const std::array<PointIndex, 3>> in_order();
 
     using Local = std::uint32_t; ///< index into points_ or cells_
@@ -172,7 +176,7 @@ private:
     std::vector<PointIndex> by_rank_;                    ///< those of sorted_
     std::vector<std::uint32_t> positions_;               ///< per point, in sorted_
     std::vector<std::array<Local, 3>> turned_, ordered_; ///< triangles of positions, lowest first
-    std::vector<std::uint32_t> starts_; ///< per position: its first triangle in ordered_
+    std::vector<std::uint32_t> by_second_, by_lowest_; ///< per position: the next triangle's place
     std::vector<std::array<PointIndex, 3>> result_;
     bool is_reversed_ = false; ///< the corners are clockwise in the projection
 };

@@ -2,7 +2,6 @@
 #include <terrane/algorithms/rounding/detail/reports.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -61,11 +60,18 @@ double largest_distance(std::span<const Point3> points, std::span<const Triangle
     return length_bound(high.x - low.x, high.y - low.y, high.z - low.z);
 }
 
+// Most moves are in the decade of the one before.
 std::array<std::size_t, 32> decades_of(std::span<const double> moves) {
+    static constexpr std::array<double, 30> starts{
+        1e-22, 1e-21, 1e-20, 1e-19, 1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13,
+        1e-12, 1e-11, 1e-10, 1e-9,  1e-8,  1e-7,  1e-6,  1e-5,  1e-4,  1e-3,
+        1e-2,  1e-1,  1e0,   1e1,   1e2,   1e3,   1e4,   1e5,   1e6,   1e7}; // of decades 2 to 31
     std::array<std::size_t, 32> decades{};
+    std::size_t d = 1;
     for (const double m : moves) {
-        const double decade = m > 0 ? std::floor(std::log10(m)) + 24 : 0;
-        ++decades[static_cast<std::size_t>(m > 0 ? std::clamp(decade, 1.0, 31.0) : 0)];
+        while (d < 31 && m >= starts[d - 1]) ++d;
+        while (d > 1 && m < starts[d - 2]) --d;
+        ++decades[m > 0 ? d : 0];
     }
     return decades;
 }

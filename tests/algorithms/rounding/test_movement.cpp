@@ -10,6 +10,7 @@
 
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/rounding/detail/decimal_frame.hpp>
+#include <terrane/algorithms/rounding/detail/reports.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
@@ -17,9 +18,13 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <random>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -80,6 +85,26 @@ void check_consistent(const RoundingReport& r) {
 }
 
 } // namespace
+
+TEST_CASE("rounding: moves are counted by decade", "[rounding]") {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const double least = std::numeric_limits<double>::denorm_min();
+    std::array<std::size_t, 32> expected{};
+    std::vector<double> moves{0, least, 9e-23, infinity, 1e300};
+    expected[0] = 1;
+    expected[1] = 2;
+    expected[31] = 2;
+    for (int k = 2; k < 32; ++k) {
+        const double start = std::stod("1e" + std::to_string(k - 24));
+        for (const double m : {start, 3 * start, std::nextafter(start, 0.0)}) moves.push_back(m);
+        expected[static_cast<std::size_t>(k)] += 2;
+        expected[static_cast<std::size_t>(k - 1)] += 1;
+    }
+    CHECK(decades_of(moves) == expected);
+    std::ranges::reverse(moves);
+    CHECK(decades_of(moves) == expected);
+    CHECK(decades_of({}) == std::array<std::size_t, 32>{});
+}
 
 TEST_CASE("movement: surfaces on a decimal lattice move by a few spacings of the doubles") {
     const auto surfaces = read_data("rounding/utm.obj");

@@ -15,6 +15,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <stop_token>
 
 namespace {
 
@@ -167,7 +168,7 @@ Triangles triangulate(const Sheet& s, const FaceInput& face) {
 Triangles triangulate_in_order(const Sheet& s, const FaceInput& face) {
     const UpwardRounding guard;
     FaceTriangulation triangulation(guard);
-    triangulation(s.store, s.rank, face);
+    triangulation.divide(s.store, s.rank, face);
     const auto result = triangulation.in_order();
     return {result.begin(), result.end()};
 }
@@ -304,6 +305,17 @@ TEST_CASE("face triangulation does not depend on the order of anything") {
     });
 }
 
+TEST_CASE("face triangulation is empty once a stop is requested") {
+    std::stop_source stop;
+    stop.request_stop();
+    for_faces(78, 200, [&](Random&, const Sheet& sheet, const FaceInput& face) {
+        FaceInput stopped = face;
+        stopped.stop = stop.get_token();
+        REQUIRE(triangulate(sheet, stopped).empty());
+        REQUIRE(triangulate_in_order(sheet, stopped).empty());
+    });
+}
+
 TEST_CASE("face triangulation: triangles in order start with their lowest corner and are sorted") {
     const auto check = [](Random& random, const Sheet& sheet, const FaceInput& face) {
         const Triangles triangles = triangulate_in_order(sheet, face);
@@ -318,8 +330,10 @@ TEST_CASE("face triangulation: triangles in order start with their lowest corner
     };
     for_faces(76, 2000, [&](Random& random, const Sheet& sheet, const FaceInput& face) {
         if (face.edge_points[0].empty() && face.edge_points[1].empty() &&
-            face.edge_points[2].empty() && face.inner_points.empty())
+            face.edge_points[2].empty() && face.inner_points.empty()) {
+            REQUIRE(triangulate_in_order(sheet, face) == Triangles{face.corners});
             return;
+        }
         check(random, sheet, face);
     });
     Random random(77);
