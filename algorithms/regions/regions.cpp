@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <span>
 #include <utility>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
@@ -303,9 +304,9 @@ private:
             for (std::size_t k = first[r]; k < first[r + 1]; ++k) ascending[next[others[k]]++] = r;
         for_ranges(out.regions.size(), run_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t r = begin; r < end; ++r) {
-                std::uint32_t* list = ascending.data();
-                const auto* last = std::unique(list + first[r], list + first[r + 1]);
-                out.regions[r].neighbours.assign(list + first[r], last);
+                const std::span list(ascending.data() + first[r], ascending.data() + first[r + 1]);
+                const auto last = std::unique(list.begin(), list.end());
+                out.regions[r].neighbours.assign(list.begin(), last);
             }
         });
     }
