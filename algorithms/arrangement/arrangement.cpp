@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/arrangement/intersection_edges.hpp>
+#include <terrane/algorithms/arrangement/known_pairs.hpp>
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
@@ -219,8 +220,9 @@ std::vector<std::uint32_t> name_vertices(Arrangement& a, const PointStore& point
 }
 
 /// Finds the pairs of triangles that are to be tested, and what they leave out.
-std::vector<CandidatePair> find_candidates(const Soup& soup, std::span<const std::uint32_t> patches,
-                                           Search method, LeftOut& left_out, const Run& run) {
+std::vector<CandidatePair> find_all_candidates(const Soup& soup,
+                                               std::span<const std::uint32_t> patches,
+                                               Search method, LeftOut& left_out, const Run& run) {
     Pencils& pencils = left_out.pencils;
     const TriangleSoup all{soup.points, soup.triangles};
     const auto find_crowds = [&](std::span<const std::uint32_t> busy) {
@@ -236,6 +238,16 @@ std::vector<CandidatePair> find_candidates(const Soup& soup, std::span<const std
     std::set_union(candidates.begin(), candidates.end(), coplanar.begin(), coplanar.end(),
                    std::back_inserter(both_kinds));
     return both_kinds;
+}
+
+/// Does the same, but takes over what an earlier arrangement found.
+Candidates find_candidates(const Soup& soup, std::span<const std::uint32_t> patches,
+                           const ArrangeOptions& options, LeftOut& left_out, const Run& run) {
+    const Search used = method_used(options.search, soup.triangles.size());
+    if (options.known != nullptr && used == Search::bvh)
+        if (auto candidates = options.known->candidates(soup, patches, run))
+            return *std::move(candidates);
+    return {find_all_candidates(soup, patches, used, left_out, run), {}};
 }
 
 Error interrupted() {
@@ -255,14 +267,27 @@ void assert_invariants([[maybe_unused]] const Arrangement& a) {
     TERRANE_ASSERT_PARANOID(is_sorted_unique(a.degenerate));
 }
 
-ArrangeStatistics statistics_of(std::size_t candidates, const Retriangulation& division) {
+ArrangeStatistics statistics_of(const Candidates& candidates, const Retriangulation& division) {
     ArrangeStatistics all;
-    all.candidates = candidates;
+    all.candidates = candidates.pairs.size();
+    all.known_apart = static_cast<std::size_t>(std::ranges::count(candidates.known_apart, 1));
     all.improper_contacts = division.statistics.improper_contacts;
     all.divided = division.statistics.divided;
     all.constructed_points = division.ascending.size();
     all.predicates = division.statistics.predicates;
     return all;
+}
+
+/// Keeps the candidates for the next arrangement if they are all pairs, and all were tested.
+void keep_candidates(const ArrangeOptions& options, const Soup& soup,
+                     std::span<const std::uint32_t> patches, const Retriangulation& division,
+                     const LeftOut& left_out, Candidates candidates) {
+    if (options.known == nullptr || left_out.any_crowded || !left_out.pencils.of.empty() ||
+        !division.pools.empty())
+        return;
+    const auto points = division.points.inputs();
+    options.known->keep({points.begin(), points.end()}, soup.triangles, patches,
+                        std::move(candidates.pairs), division.near);
 }
 
 /// Makes one mesh of the triangles after division, with what later stages ask of it.
@@ -317,22 +342,22 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
 
     // (b) candidate pairs
     step.next("search");
-    const Search used = method_used(options.search, soup.triangles.size());
     LeftOut left_out;
-    const auto candidates =
-        find_candidates(soup, patches.of, used, left_out, part_of_stage(run, "arrange", 0.1, 0.3));
-    TERRANE_ASSERT_PARANOID(is_sorted_unique(candidates));
+    Candidates candidates = find_candidates(soup, patches.of, options, left_out,
+                                            part_of_stage(run, "arrange", 0.1, 0.3));
+    TERRANE_ASSERT_PARANOID(is_sorted_unique(candidates.pairs));
     step.stop();
     report(0.3);
     if (run.stop.stop_requested()) return interrupted();
 
     // (c) contacts, (d) equal points, (e) triangulation of the faces with contacts
     Retriangulation division =
-        retriangulate(std::move(soup.points), soup.triangles, candidates, left_out.pencils,
-                      part_of_stage(run, "arrange", 0.3, 0.85));
+        retriangulate(std::move(soup.points), soup.triangles, candidates.pairs, left_out.pencils,
+                      part_of_stage(run, "arrange", 0.3, 0.85), candidates.known_apart);
     if (run.stop.stop_requested()) return interrupted();
-    a.statistics = statistics_of(candidates.size(), division);
-    a.statistics.search = used;
+    a.statistics = statistics_of(candidates, division);
+    a.statistics.search = method_used(options.search, soup.triangles.size());
+    keep_candidates(options, soup, patches.of, division, left_out, std::move(candidates));
 
     // (f) one mesh
     step.next("assemble");

@@ -429,13 +429,13 @@ private:
 
 Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triangle> triangles,
                               std::span<const CandidatePair> candidates, const Pencils& pencils,
-                              const Run& run) {
+                              const Run& run, std::span<const char> known_apart) {
     StageTimer step(run, "intersect");
     Retriangulation out;
     const TriangleSoup soup{points, triangles}; // moving the vector does not move the points
     constexpr std::string_view stage = "retriangulate";
     Contacts contacts = find_contacts(soup, std::move(points), candidates, pencils,
-                                      part_of_stage(run, stage, 0, 0.4));
+                                      part_of_stage(run, stage, 0, 0.4), known_apart);
     if (run.stop.stop_requested()) return out;
     merge_segments(soup, contacts, run);
     if (run.stop.stop_requested()) return out; // the pieces may be unfinished

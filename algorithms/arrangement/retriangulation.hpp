@@ -46,11 +46,12 @@ struct Retriangulation {
 };
 
 /// Retriangulates a soup; points and triangles are those of a TriangleSoup. `candidates` must
-/// contain all pairs that meet improperly but for those in different planes of a pencil. Check run.stop afterwards: a stopped run leaves the
+/// contain all pairs that meet improperly but for those in different planes of a pencil. known_apart:
+/// see find_contacts. Check run.stop afterwards: a stopped run leaves the
 /// result unfinished. Throws std::logic_error if an assertion fails. Times: intersect, triangulate
 /// and stitch.
 Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triangle> triangles,
                               std::span<const CandidatePair> candidates, const Pencils& pencils,
-                              const Run& run);
+                              const Run& run, std::span<const char> known_apart = {});
 
 } // namespace terrane

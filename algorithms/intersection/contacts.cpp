@@ -56,7 +56,7 @@ bool have_common_vertex(const Triangle& t, const Triangle& u) {
 }
 
 PairBlock test_pairs(const TriangleSoup& soup, const PlanePools& pools,
-                     std::span<const CandidatePair> pairs) {
+                     std::span<const CandidatePair> pairs, std::span<const char> known_apart) {
     PairBlock block;
     const PredicateCounts before = predicate_counts();
     const auto at = [&](std::uint32_t t, unsigned i) -> const Point3& {
@@ -64,7 +64,9 @@ PairBlock test_pairs(const TriangleSoup& soup, const PlanePools& pools,
     };
     std::uint32_t last = UINT32_MAX;
     std::optional<SeparationFilter> first; // reused, as pairs are sorted by their first triangle
-    for (const CandidatePair& p : pairs) {
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        if (!known_apart.empty() && known_apart[k] != 0) continue;
+        const CandidatePair& p = pairs[k];
         const auto [f, g] = p;
         if (pools.are_one(f, g)) continue;
         if (f != last) first.emplace(at(f, 0), at(f, 1), at(f, 2));
@@ -240,7 +242,7 @@ bool FaceConstraint::is_inner_segment() const {
 
 Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
                        std::span<const CandidatePair> candidates, const Pencils& pencils,
-                       const Run& run) {
+                       const Run& run, std::span<const char> known_apart) {
     Contacts contacts;
     contacts.candidates = candidates.size();
     contacts.overlapped.assign(soup.triangles.size(), false);
@@ -259,7 +261,9 @@ Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
         const auto pairs = candidates.subspan(start, std::min(wave, candidates.size() - start));
         const auto blocks =
             for_blocks<PairBlock>(pairs.size(), 1024, run, [&](std::size_t a, std::size_t b) {
-                return test_pairs(soup, contacts.pools, pairs.subspan(a, b - a));
+                return test_pairs(soup, contacts.pools, pairs.subspan(a, b - a),
+                                  known_apart.empty() ? known_apart
+                                                      : known_apart.subspan(start + a, b - a));
             });
         for (const PairBlock& block : blocks) collector.add(block);
         if (run.stop.stop_requested()) return contacts;

@@ -95,10 +95,11 @@ PlanePools find_plane_pools(const TriangleSoup& soup, std::span<const CandidateP
 /// Performs steps (b) and (c): tests all candidates and collects the points and segments that must
 /// appear in each triangle. `points` are the soup's points; the store of the result takes them
 /// over. Pairs of triangles in different planes of one pencil need not be candidates. Equal points and, in triangles with many, equal segments are merged as they come. So the
-/// memory follows the distinct ones.
+/// memory follows the distinct ones. known_apart: per candidate, not 0 if the two are known to stay
+/// apart, also when their points are rounded, so that they need no test; or empty.
 Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
                        std::span<const CandidatePair> candidates, const Pencils& pencils,
-                       const Run& run);
+                       const Run& run, std::span<const char> known_apart = {});
 
 /// Merges collinear segments that overlap: in pools, whose edges become segments, and in triangles
 /// with many segments on few lines. Fills `crossings` with the points that lie on merged segments.

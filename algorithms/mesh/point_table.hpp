@@ -40,6 +40,14 @@ public:
         }
     }
 
+    /// Returns the index of the entered point with these coordinates, or UINT32_MAX.
+    [[nodiscard]] std::uint32_t find(std::span<const Point3> points, const Point3& p) const {
+        const std::size_t mask = slots_.size() - 1;
+        std::size_t s = hash_of(p) & mask;
+        while (slots_[s] != none && points[slots_[s]] != p) s = (s + 1) & mask;
+        return slots_[s];
+    }
+
 private:
     static constexpr std::uint32_t none = UINT32_MAX;
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include <terrane/algorithms/arrangement/known_pairs.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 
 namespace terrane {
@@ -127,9 +128,12 @@ Result<Arranged> arrange_exactly_within(std::vector<Surface> surfaces,
                                         const ArrangeWithinOptions& options, const Run& run) {
     return guarded("for the arrangement", "arrange", [&]() -> Result<Arranged> {
         ArrangeWithinOptions chosen = options;
+        KnownPairs known; // of the surfaces, which all arrangements below have in common
+        const bool arranges_again = chosen.seal_automatic || chosen.extend != 0 || seals(chosen);
+        if (arranges_again && chosen.arrange.known == nullptr) chosen.arrange.known = &known;
         Arranged arranged;
         if (options.seal_automatic) {
-            auto choice = choose_seal(surfaces, boundary, options, run);
+            auto choice = choose_seal(surfaces, boundary, chosen, run);
             if (!choice) return choice.error();
             chosen.seal = choice->distance;
             arranged.choice = std::move(*choice);

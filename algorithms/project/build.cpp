@@ -107,6 +107,7 @@ private:
 
     Status arrange_surfaces() {
         ArrangeWithinOptions options{
+            .arrange = {.known = input_.known},
             .rounding = {.check = project_.check, .max_move = project_.max_move},
             .seal = project_.seal.value_or(0),
             .seal_automatic = project_.seal == 0.0,

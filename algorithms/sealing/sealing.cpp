@@ -14,6 +14,7 @@
 #include <utility>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/arrangement/known_pairs.hpp>
 #include <terrane/algorithms/arrangement/restricted.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
@@ -84,8 +85,10 @@ Result<Arrangement> judged_again(Arrangement a, const std::vector<ExtensionTrian
 class Sealing {
 public:
     Sealing(std::vector<Surface> surfaces, const SealOptions& options, const Run& run) :
-        surfaces_(std::move(surfaces)), options_(options),
-        distances_(options.distance, options.rules), run_(run) {}
+        surfaces_(std::move(surfaces)), arrange_(options.arrange),
+        distances_(options.distance, options.rules), run_(run) {
+        if (arrange_.known == nullptr) arrange_.known = &known_;
+    }
 
     Result<Sealed> operator()() {
         if (auto done = update(); !done) return done.error();
@@ -117,7 +120,7 @@ private:
 
     /// Arranges the surfaces with their strips and decides what is kept.
     Status update() {
-        auto a = arrange(with(strips_), options_.arrange, run_);
+        auto a = arrange(with(strips_), arrange_, run_);
         if (!a) return a.error();
         whole_ = std::move(a).value();
         judged_ = judge(whole_, strips_, distances_, run_);
@@ -336,7 +339,8 @@ private:
     }
 
     const std::vector<Surface> surfaces_; ///< those of the input
-    const SealOptions& options_;
+    KnownPairs known_; ///< of the surfaces, which all arrangements have in common
+    ArrangeOptions arrange_;
     const SealDistances distances_;
     const Run& run_;
     std::vector<ExtensionTriangle> strips_;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/arrangement/known_pairs.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
@@ -81,6 +82,7 @@ struct Realisations::State {
     std::vector<Motion> motions;
     std::vector<Mover> movers;
     std::unique_ptr<SharedPlaces> places;
+    KnownPairs known{}; ///< of the surfaces that do not move
 
     Status find_movers(const Project& full);
     Status add_movers(const Project& full, std::size_t entry, std::vector<bool>& taken);
@@ -247,6 +249,7 @@ Result<Realisations> Realisations::prepare(Project project, BuildInput input,
 
 BuildInput Realisations::input_of(std::uint64_t seed, std::uint64_t number) const {
     BuildInput moved = state_->input;
+    moved.known = &state_->known;
     if (number == 0 || state_->movers.empty()) return moved;
     std::vector<std::vector<Point3>> own;
     for (const Surface& s : moved.surfaces) own.emplace_back(s.vertices.size());

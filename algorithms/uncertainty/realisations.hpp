@@ -44,7 +44,7 @@ public:
 
     /// Returns the project of every realisation: holes are filled already, and nothing is uncertain.
     [[nodiscard]] const Project& project() const;
-    /// Returns the input of build() for a realisation.
+    /// Returns the input of build() for a realisation. It must not outlive this object.
     [[nodiscard]] BuildInput input_of(std::uint64_t seed, std::uint64_t number) const;
 
 private:

@@ -4,6 +4,8 @@
 #include "fixture.hpp"
 #include "stage.hpp"
 
+#include <terrane/algorithms/arrangement/known_pairs.hpp>
+
 namespace failing {
 namespace {
 
@@ -29,6 +31,14 @@ std::vector<Stage> arranging() {
             [&f, threads] { return arrange(f.surfaces, {}, {.threads = threads}); }, as_text));
     stages.push_back(stage(
         "arrange, search mixed", [&f] { return arrange(f.surfaces, {.search = Search::mixed}); },
+        as_text));
+    stages.push_back(stage(
+        "arrange, known pairs",
+        [&f]() -> Result<Arrangement> {
+            KnownPairs known;
+            if (auto first = arrange(f.surfaces, {.known = &known}); !first) return first;
+            return arrange(f.surfaces, {.known = &known});
+        },
         as_text));
     stages.push_back(stage(
         "round_to_doubles", [&f] { return round_to_doubles(f.arranged.exact); },
