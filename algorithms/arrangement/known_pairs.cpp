@@ -2,13 +2,12 @@
 #include <terrane/algorithms/arrangement/known_pairs.hpp>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <bit>
 #include <utility>
 
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/mesh/point_table.hpp>
+#include <terrane/algorithms/mesh/triangle_table.hpp>
 
 namespace terrane {
 
@@ -26,30 +25,6 @@ namespace {
 /// New triangles with more pairs than this on average are found anew with all others, as the search
 /// can then find pencils and leave out most of their pairs.
 constexpr std::size_t most_pairs = 256;
-
-/// Finds triangles by their corners. It is a hash table with open addressing.
-class TriangleTable {
-public:
-    explicit TriangleTable(std::span<const Triangle> triangles) :
-        triangles_(triangles), slots_(std::bit_ceil(2 * triangles.size() + 2), no_index) {
-        for (std::uint32_t t = 0; t < triangles.size(); ++t) slots_[slot_of(triangles[t])] = t;
-    }
-    /// Returns the triangle with these corners in this order, or no_index.
-    [[nodiscard]] std::uint32_t find(const Triangle& t) const { return slots_[slot_of(t)]; }
-
-private:
-    /// Returns the slot of the triangle, or the free one where it would be entered.
-    [[nodiscard]] std::size_t slot_of(const Triangle& t) const {
-        const std::uint64_t h = (t[0] * 0x9e3779b97f4a7c15u ^ t[1]) * 0x9e3779b97f4a7c15u;
-        const std::size_t mask = slots_.size() - 1;
-        std::size_t s = ((h ^ t[2]) * 0x9e3779b97f4a7c15u >> 29) & mask;
-        while (slots_[s] != no_index && triangles_[slots_[s]] != t) s = (s + 1) & mask;
-        return s;
-    }
-
-    std::span<const Triangle> triangles_;
-    std::vector<std::uint32_t> slots_;
-};
 
 /// Returns for each point the first of the old ones with its coordinates, or no_index.
 std::vector<std::uint32_t> old_points(std::span<const Point3> old, std::span<const Point3> points) {
@@ -70,14 +45,15 @@ std::vector<std::uint32_t> old_points(std::span<const Point3> old, std::span<con
 std::vector<std::uint32_t> old_triangles(std::span<const Triangle> old,
                                          std::span<const Triangle> triangles,
                                          std::span<const std::uint32_t> old_point) {
-    const TriangleTable table(old);
+    TriangleTable table(old.size());
+    for (std::uint32_t t = 0; t < old.size(); ++t) table.enter(old, t);
     std::vector<std::uint32_t> found(triangles.size(), no_index);
     std::uint32_t next = 0; // most triangles follow in the same order
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const auto& [a, b, c] = triangles[t];
         const Triangle wanted{old_point[a], old_point[b], old_point[c]};
         if (std::ranges::count(wanted, no_index) > 0) continue;
-        found[t] = next < old.size() && old[next] == wanted ? next : table.find(wanted);
+        found[t] = next < old.size() && old[next] == wanted ? next : table.find(old, wanted);
         if (found[t] != no_index) next = found[t] + 1;
     }
     return found;
@@ -102,6 +78,24 @@ struct KnownPair {
     CandidatePair pair;
     char apart;
 };
+
+/// Merges known candidates with those of new triangles.
+Candidates merged(std::span<const KnownPair> known, std::span<const CandidatePair> found) {
+    Candidates all;
+    all.pairs.reserve(known.size() + found.size());
+    all.known_apart.reserve(known.size() + found.size());
+    const auto add = [&](const CandidatePair& pair, char apart) {
+        all.pairs.push_back(pair);
+        all.known_apart.push_back(apart);
+    };
+    auto next = known.begin();
+    for (const CandidatePair& p : found) {
+        for (; next != known.end() && next->pair < p; ++next) add(next->pair, next->apart);
+        add(p, 0);
+    }
+    for (; next != known.end(); ++next) add(next->pair, next->apart);
+    return all;
+}
 
 } // namespace
 
@@ -166,22 +160,7 @@ KnownPairs::candidates(const Soup& soup, std::span<const std::uint32_t> patches,
         candidate_pairs_of({soup.points, soup.triangles}, new_ones, patches, is_within_limit, run);
     if (count > most_found) return std::nullopt;
 
-    Candidates all;
-    all.pairs.reserve(known.size() + found.size());
-    all.known_apart.reserve(known.size() + found.size());
-    auto next = known.begin();
-    const auto add_known = [&] {
-        all.pairs.push_back(next->pair);
-        all.known_apart.push_back(next->apart);
-        ++next;
-    };
-    for (const CandidatePair& p : found) {
-        while (next != known.end() && next->pair < p) add_known();
-        all.pairs.push_back(p);
-        all.known_apart.push_back(0);
-    }
-    while (next != known.end()) add_known();
-    return all;
+    return merged(known, found);
 }
 
 } // namespace terrane

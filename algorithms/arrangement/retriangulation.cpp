@@ -2,7 +2,6 @@
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <iterator>
 #include <string_view>
 #include <tuple>
@@ -12,6 +11,7 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
+#include <terrane/algorithms/mesh/triangle_table.hpp>
 #include <terrane/algorithms/triangulation/triangulation.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -258,27 +258,14 @@ private:
         }
     };
 
-    static std::size_t hash(const Triangle& c) {
-        const std::uint64_t h = (c[0] * 0x9e3779b97f4a7c15u ^ c[1]) * 0x9e3779b97f4a7c15u;
-        return (h ^ c[2]) * 0x9e3779b97f4a7c15u >> 7;
-    }
-
     /// Numbers distinct triangles from 0 in the order of their first occurrence.
     static std::vector<std::uint32_t> numbers_of(std::span<const Triangle> triangles) {
-        const std::size_t mask = std::bit_ceil(2 * triangles.size() + 1) - 1;
-        std::vector<std::uint32_t> first_at(mask + 1, none); // by hash: an index of a triangle
+        TriangleTable table(triangles.size());
         std::vector<std::uint32_t> numbers(triangles.size());
         std::uint32_t next = 0;
         for (std::uint32_t k = 0; k < triangles.size(); ++k) {
-            std::size_t place = hash(triangles[k]) & mask;
-            while (first_at[place] != none && triangles[first_at[place]] != triangles[k])
-                place = (place + 1) & mask;
-            if (first_at[place] == none) {
-                first_at[place] = k;
-                numbers[k] = next++;
-            } else {
-                numbers[k] = numbers[first_at[place]];
-            }
+            const std::uint32_t first = table.enter(triangles, k);
+            numbers[k] = first == k ? next++ : numbers[first];
         }
         return numbers;
     }

@@ -10,6 +10,7 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/distribution/detail/hashes.hpp>
 #include <terrane/algorithms/distribution/detail/steps.hpp>
+#include <terrane/algorithms/mesh/triangle_table.hpp>
 
 namespace terrane::distribution::detail {
 
@@ -161,9 +162,7 @@ void send_overlapping_parts(Block& b, Outbox& out) {
     std::vector<std::uint32_t> parents;
     for (std::size_t p = 0; p < b.parts.size(); ++p) {
         const auto corners = ascending(b.parts[p].corners);
-        const std::uint64_t hash =
-            (corners[0] * 0x9e3779b97f4a7c15U ^ corners[1]) * 0x9e3779b97f4a7c15U ^ corners[2];
-        const std::size_t to = (hash * 0x9e3779b97f4a7c15U >> 32) % b.count;
+        const std::size_t to = (hash_of(corners) >> 32) % b.count;
         for (const std::uint32_t f : b.own_faces_of[p]) {
             if (!std::binary_search(b.overlapped.begin(), b.overlapped.end(), f)) continue;
             parents.assign(1, f);
