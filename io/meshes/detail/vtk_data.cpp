@@ -31,9 +31,10 @@ public:
     ByteSource(std::string_view text, bool base64, std::size_t at) :
         text_(text), base64_(base64), at_(at) {}
 
-    /// Takes the next bytes; in base64 they are a stream of their own, padded at its end. Returns
-    /// false if there are not as many, or other characters.
-    bool take(std::size_t count, std::string& bytes) {
+    /// Takes the next bytes; in base64 they are a stream of their own, padded at its end, or, if not
+    /// `whole`, may be the beginning of one. Returns false if there are not as many, or other
+    /// characters.
+    bool take(std::size_t count, std::string& bytes, bool whole = true) {
         bytes.clear();
         if (at_ > text_.size() || count > text_.size() - at_) return false;
         if (!base64_) {
@@ -47,7 +48,7 @@ public:
         for (std::size_t i = at_; i < at_ + letters; i += 4)
             if (!append_group(i, bytes)) return false;
         at_ += letters;
-        if (bytes.size() < count) return false;
+        if (bytes.size() < count || (whole && bytes.size() > count)) return false;
         bytes.resize(count);
         return true;
     }
@@ -70,6 +71,9 @@ private:
             digits[k] = base64_digit(text_[at + k]);
             if (digits[k] == no_digit) return false;
         }
+        const bool has_spare_bits = (count == 2 && digits[1] % 16 != 0) ||
+                                    (count == 3 && digits[2] % 4 != 0); // which say nothing
+        if (has_spare_bits) return false;
         const unsigned group = digits[0] << 18U | digits[1] << 12U | digits[2] << 6U | digits[3];
         for (std::size_t k = 0; k + 1 < count; ++k)
             bytes += static_cast<char>(group >> (16 - 8 * k) & 255U);
@@ -91,7 +95,7 @@ constexpr auto too_short = "the data of the array end too soon, or are not base6
 std::optional<std::string> decode_plain(ByteSource& in, const VtkEncoding& e, std::string& bytes) {
     const std::size_t word = e.wide_headers ? 8 : 4, start = in.at();
     std::string header;
-    if (!in.take(word, header)) return too_short;
+    if (!in.take(word, header, false)) return too_short;
     const std::uint64_t size = header_word(header, 0, e);
     if (size > SIZE_MAX / 2) return too_short;
     // Most programs encode the header and the data as one stream, some as two.
@@ -117,7 +121,7 @@ std::optional<std::string> decode_compressed(ByteSource& in, const VtkEncoding& 
                                              std::string_view text, std::string& bytes) {
     const std::size_t word = e.wide_headers ? 8 : 4, start = in.at();
     std::string header, packed;
-    if (!in.take(word, header)) return too_short;
+    if (!in.take(word, header, false)) return too_short;
     const std::uint64_t blocks = header_word(header, 0, e);
     if (blocks == 0) return std::nullopt;
     if (blocks > text.size()) return too_short;

@@ -283,6 +283,26 @@ TEST_CASE("VTP: what can't be read is named with its line", "[io][vtk]") {
                 "a:24: the data of the array end too soon, or are not base64");
 }
 
+TEST_CASE("VTP: base64 is padded, and bits that are no data are 0", "[io][vtk]") {
+    for (const bool compress : {false, true}) {
+        const auto text = format_mesh(awkward_mesh(), Format::vtp, {.compress = compress});
+        REQUIRE(text);
+        REQUIRE(parse_surfaces(*text, "a", Format::vtp));
+        std::size_t paddings = 0;
+        for (std::size_t k = text->find("<Points>"); k < text->find("</Points>"); ++k) {
+            if ((*text)[k] != '=' || (*text)[k + 1] == '"') continue;
+            ++paddings;
+            std::string unpadded = *text, spare = *text;
+            unpadded[k] = '5';
+            CHECK_FALSE(parse_surfaces(unpadded, "a", Format::vtp));
+            if (spare[k - 1] == '=') continue;
+            ++spare[k - 1]; // its last two bits were 0
+            CHECK_FALSE(parse_surfaces(spare, "a", Format::vtp));
+        }
+        CHECK(paddings > 0);
+    }
+}
+
 TEST_CASE("legacy VTK: what can't be read is named with its place", "[io][vtk]") {
     using enum ErrorCode;
     const std::string start = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n";
