@@ -192,8 +192,8 @@ std::string VtkScanner::inflated(std::string_view text, std::size_t size) const 
     const std::size_t header_size = base64_size(8 * (3 + blocks));
     if (text.size() < header_size) in_.fail("the array has another length");
     const std::string header = decoded(text.substr(0, header_size), in_);
-    if (number_at(header, 0) != blocks || number_at(header, 1) != block ||
-        number_at(header, 2) != size % block)
+    if (header.size() != 8 * (3 + blocks) || number_at(header, 0) != blocks ||
+        number_at(header, 1) != block || number_at(header, 2) != size % block)
         in_.fail("the array has another length");
     const std::string data = decoded(text.substr(header_size), in_);
     std::string bytes(size, '\0');
