@@ -278,7 +278,8 @@ ArrangeStatistics statistics_of(const Candidates& candidates, const Retriangulat
     return all;
 }
 
-/// Keeps the candidates for the next arrangement if they are all pairs, and all were tested.
+/// Passes the candidates on to the next arrangement, unless some pairs were left out of the search or
+/// of the test.
 void keep_candidates(const ArrangeOptions& options, const Soup& soup,
                      std::span<const std::uint32_t> patches, const Retriangulation& division,
                      const LeftOut& left_out, Candidates candidates) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Keeps the pairs of triangles that one arrangement found and tested for the next one, in which most
-// surfaces are the same: those of a model while its gaps are closed, or of the versions of a model.
+// Passes the candidate pairs of one arrangement on to the next one, where most surfaces have not
+// changed: the gaps of a model are closed in several arrangements, and the versions of a model share
+// surfaces.
 //
-// A pair of triangles that both have kept their corners is not searched for again, nor tested if the
-// two stay apart. The next arrangement is the same mesh as without this. Nothing is kept where
-// triangles meet so densely that pairs were left out: at crowded vertices, in pencils, and in pools.
+// If both triangles of a pair have kept their corners, the pair is not searched for again. If the
+// two did not meet, they are not tested again. The next arrangement is the mesh that arrange() makes
+// without this object. No pairs are kept where the search or the test left some out: at crowded
+// vertices, in pencils, and in pools.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +26,9 @@ namespace terrane {
 /// The candidate pairs of a soup.
 struct Candidates {
     std::vector<CandidatePair> pairs; ///< sorted, unique
-    std::vector<char> known_apart; ///< per pair: whether an earlier arrangement found that the two
-                                   ///< stay apart, also when their points are rounded; or empty
+    std::vector<char> known_apart; ///< per pair: 1 if an earlier arrangement found that the two do
+                                   ///< not meet, and will not when their points are rounded;
+                                   ///< or empty
 };
 
 /// What the last arrangement with this object tested; nothing at first. Several threads may use one
@@ -38,9 +41,9 @@ public:
     KnownPairs(const KnownPairs&) = delete;
     KnownPairs& operator=(const KnownPairs&) = delete;
 
-    /// Returns the candidates of a soup: what candidate_pairs() returns. Returns nothing where it
-    /// would cost more than to find them anew, or where some may have to be left out. patches: per
-    /// triangle, see find_injective_patches.
+    /// Returns the pairs that candidate_pairs() finds in a soup. Returns nothing if most triangles
+    /// are new, if the new ones have very many pairs, or if a vertex is crowded: the caller then
+    /// searches all. patches: per triangle, see find_injective_patches.
     [[nodiscard]] std::optional<Candidates>
     candidates(const Soup& soup, std::span<const std::uint32_t> patches, const Run& run = {});
 

@@ -95,8 +95,8 @@ PlanePools find_plane_pools(const TriangleSoup& soup, std::span<const CandidateP
 /// Performs steps (b) and (c): tests all candidates and collects the points and segments that must
 /// appear in each triangle. `points` are the soup's points; the store of the result takes them
 /// over. Pairs of triangles in different planes of one pencil need not be candidates. Equal points and, in triangles with many, equal segments are merged as they come. So the
-/// memory follows the distinct ones. known_apart: per candidate, not 0 if the two are known to stay
-/// apart, also when their points are rounded, so that they need no test; or empty.
+/// memory follows the distinct ones. known_apart: per candidate, 1 if a test has
+/// shown that the two do not meet, and will not when their points are rounded. It may be empty.
 Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
                        std::span<const CandidatePair> candidates, const Pencils& pencils,
                        const Run& run, std::span<const char> known_apart = {});

@@ -15,17 +15,6 @@ namespace terrane {
 
 using namespace triangulation::detail;
 
-namespace {
-
-/// Turns a triangle so that it starts with its lowest corner.
-std::array<std::uint32_t, 3> from_lowest(const std::array<std::uint32_t, 3>& t) {
-    if (t[1] < t[0] && t[1] < t[2]) return {t[1], t[2], t[0]};
-    if (t[2] < t[0]) return {t[2], t[0], t[1]};
-    return t;
-}
-
-} // namespace
-
 void FaceInput::clear() {
     for (auto& e : edge_points) e.clear();
     inner_points.clear();
@@ -65,9 +54,9 @@ void FaceTriangulation::divide(const PointStore& points, std::span<const std::ui
     if (face.stop.stop_requested()) cells_.clear(); // points or segments may be missing
 }
 
-// This function sorts the points of the face, and then counts its triangles into place: first by
-// their second corners, then by their lowest ones. Two triangles never share both, because a
-// directed edge belongs to one triangle.
+// A counting sort orders the triangles by their second corners, and another one, which is stable, by
+// their lowest corners. Two triangles never share both corners, because a directed edge belongs to
+// one triangle.
 std::span<const std::array<PointIndex, 3>> FaceTriangulation::in_order() {
     sort_points();
     const std::size_t count = points_.size();
