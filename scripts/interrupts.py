@@ -10,7 +10,7 @@ are those of an undisturbed run and the status is the same, or the status is 2, 
 and all files are the old ones; nothing else is left, but for the finished realisations of an ensemble, which it keeps.
 The process must end within a second. A signal that comes before the program listens ends the process by itself;
 then nothing may have changed, either, and it must listen soon after its start. --large takes larger models, too.
-Ensembles are among the runs, so that the Python package must be built, too, or PYTHONPATH must name a folder with it.
+Some runs are ensembles. They need the Python package, beside the program or in a folder of PYTHONPATH.
 """
 import argparse
 import hashlib
