@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -120,6 +121,7 @@ private:
 
     /// Arranges the surfaces with their strips and decides what is kept.
     Status update() {
+        measured_.reset();
         auto a = arrange(with(strips_), arrange_, run_);
         if (!a) return a.error();
         whole_ = std::move(a).value();
@@ -138,12 +140,17 @@ private:
     }
 
     /// Finds the free parts of the original borders that are near enough to another surface.
-    [[nodiscard]] std::vector<Gap> gaps() const {
-        const GapDistances distances(kept_, distances_);
+    [[nodiscard]] std::vector<Gap> gaps() {
         std::vector<Gap> found;
         for (const BorderEdge& edge : free_edges())
-            if (auto gap = distances.gap_at(edge)) found.push_back(std::move(*gap));
+            if (auto gap = measured().gap_at(edge)) found.push_back(std::move(*gap));
         return found;
+    }
+
+    /// Returns the distances in what is kept now.
+    [[nodiscard]] const GapDistances& measured() {
+        if (!measured_) measured_ = std::make_unique<const GapDistances>(kept_, distances_);
+        return *measured_;
     }
 
     /// Lists the ends, in order, of the border edges that already have a strip.
@@ -154,19 +161,19 @@ private:
         return edges;
     }
 
-    [[nodiscard]] std::vector<ExtensionTriangle> strips_along() { return strips_over(gaps(), {}); }
+    [[nodiscard]] std::vector<ExtensionTriangle> strips_along() {
+        return strips_over(gaps(), Towards::tangent);
+    }
     [[nodiscard]] std::vector<ExtensionTriangle> strips_to_nearest() {
-        const GapDistances farther(kept_, distances_, constants.end_reach);
-        return strips_over(gaps(), &farther);
+        return strips_over(gaps(), Towards::nearest);
     }
     /// Makes strips where a border ends short of another part of its own surface.
     [[nodiscard]] std::vector<ExtensionTriangle> strips_to_own() {
-        const GapDistances distances(kept_, distances_);
-        const FacingBorders borders(kept_, free_edges(), distances_, distances);
+        const FacingBorders borders(kept_, free_edges(), distances_, measured());
         std::vector<Gap> found;
         for (std::uint32_t e = 0; e < borders.edges().size(); ++e)
-            if (auto gap = gap_to_own(borders, distances, e)) found.push_back(std::move(*gap));
-        return strips_over(std::move(found), {});
+            if (auto gap = gap_to_own(borders, measured(), e)) found.push_back(std::move(*gap));
+        return strips_over(std::move(found), Towards::tangent);
     }
     [[nodiscard]] std::vector<ExtensionTriangle> bridges() {
         auto edges = free_edges();
@@ -175,17 +182,18 @@ private:
             return done.contains(
                 in_order(kept_.state->points.input(e.from), kept_.state->points.input(e.to)));
         });
-        const GapDistances distances(kept_, distances_);
-        const FacingBorders borders(kept_, std::move(edges), distances_, distances);
+        const FacingBorders borders(kept_, std::move(edges), distances_, measured());
         auto made = make_bridges(kept_, borders, static_cast<std::uint32_t>(gaps_.size()));
         std::move(made.gaps.begin(), made.gaps.end(), std::back_inserter(gaps_));
         return std::move(made.triangles);
     }
 
-    /// Makes strips beyond the edges of gaps: to the nearest points that `farther` finds, or along
-    /// the tangent plane if there is none.
+    enum class Towards { tangent, nearest };
+
+    /// Makes strips beyond the edges of gaps: along the tangent plane, or to the nearest points, if
+    /// both ends have one.
     [[nodiscard]] std::vector<ExtensionTriangle> strips_over(std::vector<Gap> wanted,
-                                                             const GapDistances* farther) {
+                                                             Towards towards) {
         std::vector<StripEdge> edges;
         const auto done = edges_with_strip();
         for (Gap& gap : wanted) {
@@ -197,9 +205,9 @@ private:
             strip.piece = static_cast<std::uint32_t>(gaps_.size());
             strip.reach = std::max(constants.width_per_gap * gap.largest,
                                    constants.least_width * step_at(ends));
-            if (farther != nullptr) {
-                const auto a = farther->nearest(ends[0], gap.edge),
-                           b = farther->nearest(ends[1], gap.edge);
+            if (towards == Towards::nearest) {
+                const auto a = measured().nearest(ends[0], gap.edge, constants.end_reach),
+                           b = measured().nearest(ends[1], gap.edge, constants.end_reach);
                 if (a && b) strip.targets = {a->place, b->place};
             }
             gaps_.push_back(std::move(gap));
@@ -233,6 +241,7 @@ private:
                 continue;
             whole_ = std::move(whole); // none was of use: all is as it was
             kept_ = std::move(kept);
+            measured_.reset();
             judged_ = std::move(judged);
             return Done{};
         }
@@ -309,9 +318,8 @@ private:
     }
 
     void list_open() {
-        const GapDistances distances(kept_, distances_);
         sealed_.open =
-            list_open_gaps(FacingBorders(kept_, free_edges(), distances_, distances), distances);
+            list_open_gaps(FacingBorders(kept_, free_edges(), distances_, measured()), measured());
         for (const OpenGap& gap : sealed_.open)
             if (gap.reason != OpenReason::partly_farther) sealed_.left += gap.length;
     }
@@ -344,10 +352,11 @@ private:
     const SealDistances distances_;
     const Run& run_;
     std::vector<ExtensionTriangle> strips_;
-    std::vector<Gap> gaps_; ///< per piece of all strips ever made
-    Arrangement whole_;     ///< arrangement of the surfaces with strips_
-    Judged judged_;         ///< of whole_
-    Arrangement kept_;      ///< of whole_
+    std::vector<Gap> gaps_;                        ///< per piece of all strips ever made
+    Arrangement whole_;                            ///< arrangement of the surfaces with strips_
+    Judged judged_;                                ///< of whole_
+    Arrangement kept_;                             ///< of whole_
+    std::unique_ptr<const GapDistances> measured_; ///< in kept_; null until it is asked for
     Sealed sealed_;
 };
 

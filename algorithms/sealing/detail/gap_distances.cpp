@@ -18,8 +18,8 @@ Point3 middle(const Point3& p, const Point3& q) {
 
 } // namespace
 
-GapDistances::GapDistances(const Arrangement& a, SealDistances distances, double factor) :
-    arrangement_(a), distances_(std::move(distances)), factor_(factor) {
+GapDistances::GapDistances(const Arrangement& a, SealDistances distances) :
+    arrangement_(a), distances_(std::move(distances)) {
     for (const PointIndex v : a.vertices) places_.push_back(a.state->points.nearest(v));
     std::vector<std::vector<Triangle>> triangles(a.surfaces.size());
     for (std::size_t t = 0; t < a.triangles.size(); ++t)
@@ -27,9 +27,9 @@ GapDistances::GapDistances(const Arrangement& a, SealDistances distances, double
     for (auto& of_surface : triangles) trees_.emplace_back(places_, std::move(of_surface));
 }
 
-double GapDistances::bound(std::uint32_t surface, std::uint32_t other) const {
+double GapDistances::bound(std::uint32_t surface, std::uint32_t other, double factor) const {
     const double distance = distances_.between(surface, other);
-    return distance > 0 ? std::nextafter(factor_ * distance, HUGE_VAL) : 0;
+    return distance > 0 ? std::nextafter(factor * distance, HUGE_VAL) : 0;
 }
 
 /// Measures the parts of an edge of which both ends and the middle have a nearest point.
@@ -91,13 +91,13 @@ std::optional<Gap> GapDistances::part_gap_at(const BorderEdge& edge) const {
     return gap;
 }
 
-std::optional<GapDistances::Near> GapDistances::nearest(const Point3& p,
-                                                        const BorderEdge& edge) const {
+std::optional<GapDistances::Near> GapDistances::nearest(const Point3& p, const BorderEdge& edge,
+                                                        double factor) const {
     std::optional<Near> best;
     double least = HUGE_VAL;
     for (std::uint32_t s = 0; s < trees_.size(); ++s) {
         if (std::binary_search(edge.own.begin(), edge.own.end(), s)) continue;
-        const double most = std::min(least, bound(edge.surface, s));
+        const double most = std::min(least, bound(edge.surface, s, factor));
         if (!(most > 0)) continue;
         if (const auto near = trees_[s].nearest(p, most)) {
             best = Near{near->place, s};

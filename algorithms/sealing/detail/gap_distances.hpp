@@ -31,8 +31,8 @@ public:
         std::uint32_t surface = 0;
     };
 
-    /// Looks as far as `factor` times the distances. The arrangement must outlive the object.
-    GapDistances(const Arrangement& arrangement, SealDistances distances, double factor = 1);
+    /// The arrangement must outlive the object. Cost: a tree for each surface.
+    GapDistances(const Arrangement& arrangement, SealDistances distances);
     GapDistances(const GapDistances&) = delete; // the trees refer to places_
     GapDistances& operator=(const GapDistances&) = delete;
     GapDistances(GapDistances&&) = delete;
@@ -50,8 +50,9 @@ public:
     /// another surface that lies ahead. Returns nothing if there are none.
     [[nodiscard]] std::optional<Gap> part_gap_at(const BorderEdge& edge) const;
     /// Finds the point nearest to p on a surface that does not contain the edge's triangle; that of
-    /// the first surface among equals.
-    [[nodiscard]] std::optional<Near> nearest(const Point3& p, const BorderEdge& edge) const;
+    /// the first surface among equals. Looks as far as `factor` times the distances.
+    [[nodiscard]] std::optional<Near> nearest(const Point3& p, const BorderEdge& edge,
+                                              double factor = 1) const;
     /// Tells whether a surface other than the edge's own and `except` lies ahead of p, as in
     /// own_gap_at(), and is nearer than a distance.
     [[nodiscard]] bool is_any_ahead(const Point3& p, const BorderEdge& edge, std::uint32_t except,
@@ -62,11 +63,10 @@ public:
 private:
     template <class Nearest>
     [[nodiscard]] std::optional<Gap> measured(const BorderEdge& edge, const Nearest& find) const;
-    [[nodiscard]] double bound(std::uint32_t surface, std::uint32_t other) const;
+    [[nodiscard]] double bound(std::uint32_t surface, std::uint32_t other, double factor = 1) const;
 
     const Arrangement& arrangement_;
     const SealDistances distances_;
-    const double factor_;
     std::vector<Point3> places_;
     std::vector<TriangleTree> trees_; ///< per surface
 };
