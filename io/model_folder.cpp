@@ -27,14 +27,6 @@ std::vector<std::int32_t> as_cells(const std::vector<std::uint32_t>& values) {
     return {values.begin(), values.end()};
 }
 
-/// Returns the block on one side of each triangle.
-std::vector<std::int32_t> side_cells(const Volumes& volumes, std::size_t side) {
-    std::vector<std::int32_t> values;
-    for (const auto& sides : volumes.of_sides)
-        values.push_back(static_cast<std::int32_t>(sides[side]));
-    return values;
-}
-
 class FolderWriter {
 public:
     FolderWriter(const ModelReports& reports, const std::string& part_format,
@@ -114,10 +106,9 @@ private:
     }
 
     Status write_result() {
-        const std::vector<CellArray> cells{{"volume_front", side_cells(model_.volumes, 0)},
-                                           {"volume_back", side_cells(model_.volumes, 1)},
-                                           {"interface", as_cells(model_.structure.interface_of)},
-                                           {"patch", as_cells(model_.structure.patch_of)}};
+        std::vector<CellArray> cells = volume_cells(model_.volumes.of_sides);
+        cells.push_back({"interface", as_cells(model_.structure.interface_of)});
+        cells.push_back({"patch", as_cells(model_.structure.patch_of)});
         std::vector<std::string> block_names;
         for (const ModelBlock& block : model_.structure.blocks) block_names.push_back(block.name);
         WriteOptions options;

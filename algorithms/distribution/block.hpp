@@ -67,6 +67,13 @@ struct DoubleFace {
     std::array<Point3, 3> at{};
 };
 
+/// A corner of triangles of doubles that meet improperly or have no area, or a point that is where
+/// another one is.
+struct UncleanPoint {
+    std::uint32_t name = 0, unused = 0;
+    Point3 at{};
+};
+
 /// The hash of an input triangle, by the digest.
 struct ParentHash {
     std::uint32_t id = 0;
@@ -167,10 +174,17 @@ struct Block {
                                              ///< is in the same region
     std::vector<Hash> records;               ///< of the digest, in the range of this block
     std::uint64_t unclean = 0;               ///< pairs and triangles of doubles that are not proper
-    std::uint64_t result_triangles = 0;      ///< of all blocks
-    double deviation = 0;                    ///< largest move of a point, in all blocks
-    std::uint64_t edges = 0;                 ///< intersection edges that this block counts
-    std::uint64_t regions = 0;               ///< number of regions of the whole
+    std::vector<UncleanPoint>
+        unclean_points;                 ///< by name; those of the first pairs, if they are many
+    std::uint64_t result_triangles = 0; ///< of all blocks
+    double deviation = 0;               ///< largest move of a point, in all blocks
+    std::uint64_t edges = 0;            ///< intersection edges that this block counts
+    std::uint64_t regions = 0;          ///< number of regions of the whole
+
+    // Repair of the doubles (repairing.cpp).
+    std::vector<std::uint32_t> removed; ///< points that no triangle has any more, by name, of all
+                                        ///< blocks
+    std::uint32_t added = 0;            ///< points that are new, in all blocks
 
     // Volumes (algorithms/volumes/volumes_in_blocks.cpp).
     std::vector<std::uint32_t> shell_of; ///< per side: the first one here of its shell; then the
@@ -196,7 +210,7 @@ struct Block {
         use(geometry), use(point_splitters), use(used), use(requests), use(used_here);
         use(triangles), use(face_of), use(ids), use(parents_of.offsets), use(parents_of.values);
         use(surfaces_of.offsets), use(surfaces_of.values), use(region_of), use(records);
-        use(parent_hashes), use(component_of), use(repeated);
+        use(parent_hashes), use(component_of), use(repeated), use(unclean_points), use(removed);
         use(shell_of), use(line_triangles), use(least_vertices), use(volume_of_shell);
         use(volumes_of_sides), use(measures);
     }

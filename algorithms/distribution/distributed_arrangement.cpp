@@ -104,8 +104,9 @@ constexpr std::uint64_t Work::*counts[] = {
     &Work::divided,       &Work::predicates, &Work::constructed, &Work::triangles,  &Work::messages,
     &Work::rounded_pairs, &Work::bytes,      &Work::memory};
 
-/// Sums up what the blocks report.
-Result<DistributedReport> summary_of(Supersteps& blocks) {
+} // namespace
+
+Result<DistributedReport> detail::summary_of(Supersteps& blocks) {
     struct Passed {
         std::uint64_t edges = 0, contacts = 0, triangles = 0, vertices = 0, regions = 0;
         std::uint64_t input_vertices = 0, input_triangles = 0;
@@ -117,7 +118,8 @@ Result<DistributedReport> summary_of(Supersteps& blocks) {
         sum.edges += b.edges;
         sum.contacts = b.unclean;
         sum.triangles = b.result_triangles;
-        sum.vertices = std::uint64_t{b.used_total} + b.constructed_total;
+        sum.vertices =
+            std::uint64_t{b.used_total} + b.constructed_total + b.added - b.removed.size();
         sum.regions = b.regions;
         sum.input_vertices = b.vertex_total();
         sum.input_triangles = b.triangle_total();
@@ -143,8 +145,6 @@ Result<DistributedReport> summary_of(Supersteps& blocks) {
     if (auto counted = count_work(blocks, report); !counted) return counted.error();
     return report;
 }
-
-} // namespace
 
 Status count_work(Supersteps& blocks, DistributedReport& report) {
     using LargestAndTotal = std::array<Work, 2>;
@@ -174,10 +174,12 @@ Result<DistributedReport> arrange_in_blocks(Supersteps& blocks, const FileReader
     auto report = summary_of(blocks);
     if (!report) return report;
     report->clean = report->contacts == 0 && report->deviation <= report->limit;
-    if (!options.digest) return report;
-    auto digest = digest_of(blocks);
-    if (!digest) return digest.error();
-    report->digest = std::move(*digest);
+    if (options.digest) {
+        auto digest = digest_of(blocks);
+        if (!digest) return digest.error();
+        report->digest = std::move(*digest);
+    }
+    if (auto repaired = repair_few(blocks, *report, run); !repaired) return repaired.error();
     return report;
 }
 

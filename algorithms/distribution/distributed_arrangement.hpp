@@ -4,8 +4,9 @@
 //
 // Guarantees: the triangles of all blocks together are those of arrange() rounded by
 // round_to_doubles(), with the same numbers, parents and regions, for any number of blocks; the digest
-// is the same. Where the nearest doubles are not a conforming mesh, that is found and reported: repair
-// needs the whole model (docs/explanation/scale.md).
+// is the same. Where the nearest doubles are not a conforming mesh, few pairs in the way are repaired as
+// round_to_doubles() repairs them, with the triangles near them. Many are reported: their repair needs
+// the whole model (docs/explanation/scale.md).
 // Cost: that of arrange(), divided by the number of blocks as far as they balance, and of the faces
 // that overlap several blocks.
 // Source: the paper, section 2 (structured grid); Valiant (1990) for the steps.
@@ -37,19 +38,31 @@ struct DistributedOptions {
     bool digest = false;   ///< whether the digest is computed, which costs more than all else
 };
 
+/// How doubles in the way were repaired.
+struct RepairInBlocks {
+    std::uint64_t contacts = 0;   ///< pairs of triangles that met improperly
+    std::uint64_t triangles = 0;  ///< those that were gathered
+    unsigned rounds = 0;          ///< of moving vertices, and of snapping
+    double surface_deviation = 0; ///< see RoundingReport
+    double lost_length = 0;       ///< likewise
+};
+
 /// What all processes know of the result.
 struct DistributedReport {
-    bool clean = false;         ///< conforming in nearest doubles, by exact check of all pairs
+    bool clean = false;         ///< the doubles are a conforming mesh, by exact check of all pairs
     std::uint64_t contacts = 0; ///< pairs, points and triangles that are in the way
     double deviation = 0;       ///< no vertex is farther from its exact point
     double limit = 0;           ///< farthest that is allowed unless the user says otherwise
     std::uint64_t input_vertices = 0, input_triangles = 0;
     std::uint64_t vertices = 0, triangles = 0, intersection_edges = 0, regions = 0;
-    std::string digest{}; ///< if it is wanted
+    std::string digest{};                   ///< if it is wanted
+    std::optional<RepairInBlocks> repair{}; ///< if the nearest doubles were not conforming, but are
+                                            ///< repaired
     /// As Volumes::measures, once they are found (volumes_in_blocks.hpp).
     std::optional<std::vector<double>> volumes{};
-    Work largest{}; ///< of each count the largest of any block
-    Work total{};   ///< of each count the sum over all blocks; memory: as largest
+    std::vector<std::string> volume_names{}; ///< likewise (names_in_blocks.hpp); [0] is "outside"
+    Work largest{};                          ///< of each count the largest of any block
+    Work total{}; ///< of each count the sum over all blocks; memory: as largest
 };
 
 /// The triangles of one block.
@@ -75,8 +88,8 @@ BlockPiece piece_of(const Block& block);
 /// Tells, for each vertex of the piece of a block, whether several blocks use it.
 std::vector<bool> shared_vertices(const Block& block, const BlockPiece& piece);
 
-/// Arranges and rounds all surfaces in the process of the first block, for a mesh whose nearest doubles
-/// are not conforming: snapping may move any part of it. That process then needs the memory and the
+/// Arranges and rounds all surfaces in the process of the first block, for a mesh that is not clean:
+/// moving the input may change any part of it. That process then needs the memory and the
 /// time of arrange() and round_to_doubles(). Call it after arrange_in_blocks(), in all processes; in
 /// others the piece is empty. Errors: those of arrange() and round_to_doubles().
 struct RepairedWhole {

@@ -72,43 +72,79 @@ DoubleSoup double_soup(const Block& b, const std::vector<DoubleFace>& parts,
     return soup;
 }
 
-/// Counts points at the same place, and triangles without area.
-std::uint64_t count_collapsed(const DoubleSoup& soup) {
+/// What is in the way of a mesh of doubles.
+struct Unclean {
+    std::vector<std::uint32_t> points; ///< of the soup
     std::uint64_t count = 0;
+
+    void add(const Triangle& t) { points.insert(points.end(), t.begin(), t.end()); }
+};
+
+/// Finds points at the same place, which become one, and triangles without area.
+void find_collapsed(DoubleSoup& soup, Unclean& unclean) {
+    std::vector<std::uint32_t> first(soup.points.size());
     PointTable places(soup.points.size());
-    for (std::uint32_t p = 0; p < soup.points.size(); ++p)
-        count += places.enter(soup.points, p) != p;
+    bool any = false;
+    for (std::uint32_t p = 0; p < soup.points.size(); ++p) {
+        first[p] = places.enter(soup.points, p);
+        if (first[p] == p) continue;
+        any = true;
+        ++unclean.count;
+        unclean.points.insert(unclean.points.end(), {first[p], p});
+    }
     for (const std::uint32_t t : soup.dirty) {
         const Triangle& c = soup.triangles[t];
-        count += collinear(soup.points[c[0]], soup.points[c[1]], soup.points[c[2]]);
+        if (!collinear(soup.points[c[0]], soup.points[c[1]], soup.points[c[2]])) continue;
+        ++unclean.count;
+        unclean.add(c);
     }
-    return count;
+    if (!any) return;
+    for (Triangle& t : soup.triangles)
+        for (std::uint32_t& p : t) p = first[p];
 }
 
-/// Counts the pairs of this block that meet improperly.
-std::uint64_t count_improper(Block& b, const DoubleSoup& soup, const Run& run) {
-    auto pairs = candidate_pairs_of({soup.points, soup.triangles}, soup.dirty, {}, {},
-                                    without_progress(run));
+bool have_same_corners(Triangle t, Triangle u) {
+    std::sort(t.begin(), t.end());
+    std::sort(u.begin(), u.end());
+    return t == u;
+}
+
+/// Finds the pairs of this block that meet improperly. If something collapsed, that and triangles that
+/// have become the same are in the way anyhow.
+void find_improper(Block& b, const DoubleSoup& soup, Unclean& unclean, const Run& run) {
+    const auto& triangles = soup.triangles;
+    auto pairs =
+        candidate_pairs_of({soup.points, triangles}, soup.dirty, {}, {}, without_progress(run));
     std::erase_if(pairs, [&](const CandidatePair& p) {
-        const Box f = terrane::box_of(soup.points, soup.triangles[p.first]),
-                  g = terrane::box_of(soup.points, soup.triangles[p.second]);
+        const Box f = terrane::box_of(soup.points, triangles[p.first]),
+                  g = terrane::box_of(soup.points, triangles[p.second]);
         return owner_of(b.grid, b.splitters,
                         {std::max(f.low[0], g.low[0]), std::max(f.low[1], g.low[1]),
                          std::max(f.low[2], g.low[2])}) != b.index;
     });
     b.work.rounded_pairs = pairs.size();
-    const auto counts = for_blocks<std::uint64_t>(
-        pairs.size(), 1024, run, [&](std::size_t first, std::size_t last) {
-            std::uint64_t improper = 0;
+    const bool any_collapsed = unclean.count > 0;
+    const auto has_area = [&](const Triangle& t) {
+        return !collinear(soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]);
+    };
+    const auto is_improper = [&](const CandidatePair& p) {
+        const Triangle &t = triangles[p.first], &u = triangles[p.second];
+        if (any_collapsed && (!has_area(t) || !has_area(u) || have_same_corners(t, u)))
+            return false;
+        return improper_contact(soup.points, t, u).has_value();
+    };
+    const auto found = concatenated(parts_of_ranges<std::vector<CandidatePair>>(
+        pairs.size(), run, [&](std::size_t first, std::size_t last) {
+            std::vector<CandidatePair> improper;
             for (std::size_t k = first; k < last; ++k)
-                improper += improper_contact(soup.points, soup.triangles[pairs[k].first],
-                                             soup.triangles[pairs[k].second])
-                                .has_value();
+                if (is_improper(pairs[k])) improper.push_back(pairs[k]);
             return improper;
-        });
-    std::uint64_t sum = 0;
-    for (const std::uint64_t c : counts) sum += c;
-    return sum;
+        }));
+    unclean.count += found.size();
+    for (std::size_t k = 0; k < std::min(found.size(), most_repaired); ++k) {
+        unclean.add(triangles[found[k].first]);
+        unclean.add(triangles[found[k].second]);
+    }
 }
 
 } // namespace
@@ -123,9 +159,14 @@ Status check_doubles(Block& b, Inbox& in, Outbox& out, const Run& run) {
     sort_unique(divided);
     keep_records(b, in, 3);
     BlockVerdict verdict;
-    const DoubleSoup soup = double_soup(b, parts, divided);
-    verdict.unclean = count_collapsed(soup);
-    if (verdict.unclean == 0 && !soup.dirty.empty()) verdict.unclean = count_improper(b, soup, run);
+    DoubleSoup soup = double_soup(b, parts, divided);
+    Unclean unclean;
+    find_collapsed(soup, unclean);
+    if (!soup.dirty.empty()) find_improper(b, soup, unclean, run);
+    verdict.unclean = unclean.count;
+    sort_unique(unclean.points);
+    for (const std::uint32_t p : unclean.points)
+        b.unclean_points.push_back({soup.names[p], 0, soup.points[p]});
     for (const OwnPoint& p : b.points) verdict.deviation = std::max(verdict.deviation, p.bound);
     for (const std::uint32_t c : b.home_count) verdict.triangles += c;
     out.put_to_all(0, verdict);

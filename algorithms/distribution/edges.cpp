@@ -37,6 +37,17 @@ std::vector<std::uint32_t> signature_of(const Block& b, std::uint32_t t) {
     return surfaces;
 }
 
+/// Takes the numbers of the triangles.
+void take_numbers(Block& b, Inbox& in) {
+    b.ids.assign(b.triangles.size(), 0);
+    in.take<FaceStart>(0, [&](std::uint32_t, const FaceStart& f) {
+        const auto begin = std::lower_bound(b.face_of.begin(), b.face_of.end(), f.face);
+        std::uint32_t id = f.start;
+        for (auto t = begin; t != b.face_of.end() && *t == f.face; ++t)
+            b.ids[static_cast<std::size_t>(t - b.face_of.begin())] = id++;
+    });
+}
+
 } // namespace
 
 std::vector<EdgeSide> sides_of(const Block& b) {
@@ -62,8 +73,20 @@ std::uint32_t first_same(const Block& b, std::uint32_t triangle) {
     return found != b.repeated.end() && (*found)[0] == triangle ? (*found)[1] : triangle;
 }
 
-/// Channel 0: FaceStart, to the owners; channel 1: EdgeTriangle and channel 2: its surfaces, to where
-/// a hash of the ends points; channel 3: parents at shared vertices.
+/// Channel 1: EdgeTriangle and channel 2: its surfaces, to where a hash of the ends points.
+void send_sides(const Block& b, Outbox& out) {
+    for (const EdgeSide& s : sides_of(b)) {
+        if (!is_shared(b, s.ends[0]) || !is_shared(b, s.ends[1])) continue;
+        const std::size_t to = keeper_of_edge(b, s.ends);
+        const auto signature = signature_of(b, s.triangle);
+        out.put(to, 1,
+                EdgeTriangle{s.ends, s.triangle, static_cast<std::uint32_t>(signature.size())});
+        for (const std::uint32_t surface : signature) out.put(to, 2, surface);
+    }
+}
+
+/// Channel 0: FaceStart, to the owners; channels 1 and 2: see send_sides; channel 3: parents at shared
+/// vertices.
 Status send_shared_edges(Block& b, Inbox& in, Outbox& out) {
     std::uint32_t start = 0;
     in.take<BlockVerdict>(0, [&](std::uint32_t from, const BlockVerdict& v) {
@@ -78,28 +101,12 @@ Status send_shared_edges(Block& b, Inbox& in, Outbox& out) {
         start += b.home_count[k];
     }
     release(b.home_owner);
-    for (const EdgeSide& s : sides_of(b)) {
-        if (!is_shared(b, s.ends[0]) || !is_shared(b, s.ends[1])) continue;
-        const std::size_t to = keeper_of_edge(b, s.ends);
-        const auto signature = signature_of(b, s.triangle);
-        out.put(to, 1,
-                EdgeTriangle{s.ends, s.triangle, static_cast<std::uint32_t>(signature.size())});
-        for (const std::uint32_t surface : signature) out.put(to, 2, surface);
-    }
+    send_sides(b, out);
     if (b.wants_digest) send_parents_of_shared(b, out, 3);
     return Done{};
 }
 
-/// Channel 0: DecidedEdge, to the blocks of its triangles; channel 1: Neighbour, to the block of the
-/// first of two triangles that are in one region; channel 3: records of the digest.
-Status decide_shared_edges(Block& b, Inbox& in, Outbox& out) {
-    b.ids.assign(b.triangles.size(), 0);
-    in.take<FaceStart>(0, [&](std::uint32_t, const FaceStart& f) {
-        const auto begin = std::lower_bound(b.face_of.begin(), b.face_of.end(), f.face);
-        std::uint32_t id = f.start;
-        for (auto t = begin; t != b.face_of.end() && *t == f.face; ++t)
-            b.ids[static_cast<std::size_t>(t - b.face_of.begin())] = id++;
-    });
+void decide_edges(Inbox& in, Outbox& out) {
     struct Side {
         EdgeTriangle at;
         std::uint32_t block;
@@ -136,6 +143,13 @@ Status decide_shared_edges(Block& b, Inbox& in, Outbox& out) {
         const Side &s = sides[k], &t = sides[k + 1];
         out.put(s.block, 1, Neighbour{s.at.triangle, t.block, t.at.triangle});
     }
+}
+
+/// Channel 0: DecidedEdge, to the blocks of its triangles; channel 1: Neighbour, to the block of the
+/// first of two triangles that are in one region; channel 3: records of the digest.
+Status decide_shared_edges(Block& b, Inbox& in, Outbox& out) {
+    take_numbers(b, in);
+    decide_edges(in, out);
     if (b.wants_digest) decide_shared_vertices(b, in, 3, out, 3);
     return Done{};
 }

@@ -49,7 +49,8 @@ Status PieceJoiner::add(const BlockPiece& piece) {
     const std::size_t count = m.triangles.size();
     if (piece.vertex_ids.size() != m.vertices.size() || piece.triangle_ids.size() != count ||
         m.surfaces_of.size() != count || m.regions_of.size() != count ||
-        m.parents_of.size() != count)
+        m.parents_of.size() != count ||
+        (!piece.volumes_of_sides.empty() && piece.volumes_of_sides.size() != count))
         return bad_piece("the lists of a piece do not fit its vertices and triangles");
     if (mesh_.surfaces.empty()) mesh_.surfaces = m.surfaces;
     if (mesh_.surfaces != m.surfaces) return bad_piece("two pieces name different surfaces");
@@ -61,6 +62,8 @@ Status PieceJoiner::add(const BlockPiece& piece) {
         has_vertex_[id] = true;
         mesh_.vertices[id] = m.vertices[v];
     }
+    with_volumes_ += piece.volumes_of_sides.size();
+    if (with_volumes_ > 0) volumes_of_sides_.resize(has_triangle_.size());
     for (std::size_t t = 0; t < count; ++t) {
         const std::uint32_t id = piece.triangle_ids[t];
         if (id >= has_triangle_.size() || has_triangle_[id])
@@ -79,6 +82,7 @@ Status PieceJoiner::add(const BlockPiece& piece) {
         surfaces_.set(id, m.surfaces_of[t]);
         regions_.set(id, m.regions_of[t]);
         parents_.set(id, m.parents_of[t]);
+        if (!piece.volumes_of_sides.empty()) volumes_of_sides_[id] = piece.volumes_of_sides[t];
     }
     return Done{};
 }
@@ -91,6 +95,8 @@ Result<Mesh> PieceJoiner::finish() && {
                                          has == &has_vertex_ ? "vertex" : "triangle",
                                          missing - has->begin()));
     }
+    if (with_volumes_ != 0 && with_volumes_ != has_triangle_.size())
+        return bad_piece("some pieces tell the volumes beside their triangles, and others do not");
     mesh_.surfaces_of = std::move(surfaces_).lists();
     mesh_.regions_of = std::move(regions_).lists();
     mesh_.parents_of = std::move(parents_).lists();

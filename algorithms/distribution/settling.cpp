@@ -141,8 +141,10 @@ bool is_shared(const Block& b, std::uint32_t name) {
 }
 
 std::uint32_t vertex_number(const Block& b, std::uint32_t name) {
-    return name < b.vertex_total() ? used_vertex(b, name).number
-                                   : b.used_total + (name - b.vertex_total());
+    const std::uint32_t number = name < b.vertex_total() ? used_vertex(b, name).number
+                                                         : b.used_total + (name - b.vertex_total());
+    const auto removed = std::lower_bound(b.removed.begin(), b.removed.end(), name);
+    return number - static_cast<std::uint32_t>(removed - b.removed.begin());
 }
 
 Hash hash_of_point(const Block& b, std::uint32_t name) {

@@ -23,8 +23,10 @@ namespace {
 /// Describes blocks by the surfaces around them.
 class BlockDescriptions {
 public:
-    BlockDescriptions(const Mesh& mesh, std::vector<std::vector<BlockContact>> contacts) :
-        mesh_(mesh), labels_(unique_labels(mesh.surfaces)), contacts_(std::move(contacts)) {
+    BlockDescriptions(std::span<const SurfaceInfo> surfaces,
+                      std::vector<std::vector<BlockContact>> contacts) :
+        surfaces_(surfaces),
+        labels_(unique_labels(surfaces)), contacts_(std::move(contacts)) {
         for (auto& of_block : contacts_) // by size, which does not depend on the last digits
             std::ranges::sort(of_block, {}, [&](const BlockContact& c) {
                 return std::tuple(-static_cast<float>(c.area), labels_[c.surface]);
@@ -84,7 +86,7 @@ public:
 
 private:
     [[nodiscard]] bool is_boundary(const BlockContact& c) const {
-        return mesh_.surfaces[c.surface].role == Role::boundary;
+        return surfaces_[c.surface].role == Role::boundary;
     }
 
     [[nodiscard]] static std::string place(const BlockContact& c) {
@@ -128,7 +130,7 @@ private:
         return text;
     }
 
-    const Mesh& mesh_;
+    std::span<const SurfaceInfo> surfaces_;
     std::vector<std::string> labels_;
     std::vector<std::vector<BlockContact>> contacts_; ///< per block, the largest first
 };
@@ -160,10 +162,22 @@ std::string at_block(const std::vector<std::string>& names, std::size_t block) {
 
 } // namespace
 
+std::vector<std::string>
+structure::detail::names_by_contacts(std::span<const SurfaceInfo> surfaces,
+                                     std::vector<std::vector<BlockContact>> contacts) {
+    const std::size_t count = contacts.size();
+    const BlockDescriptions descriptions(surfaces, std::move(contacts));
+    std::vector<std::string> names{"outside"};
+    for (std::size_t b = 1; b < count; ++b) names.push_back(descriptions.name(b));
+    tell_apart(descriptions, names);
+    number_equals(names);
+    return names;
+}
+
 void name_blocks(const Mesh& mesh, const Volumes& volumes, const GivenNames& given,
                  Structure& structure) {
     const StandardArithmetic guard;
-    const BlockDescriptions descriptions(mesh, find_contacts(mesh, volumes));
+    const BlockDescriptions descriptions(mesh.surfaces, find_contacts(mesh, volumes));
     const ColumnInMesh column(given.column, mesh);
     std::vector<std::string> names{"outside"};
     for (std::size_t b = 1; b < structure.blocks.size(); ++b) {

@@ -15,6 +15,8 @@
 
 #include <terrane/algorithms/core/process_memory.hpp>
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
+#include <terrane/algorithms/structure/names_in_blocks.hpp>
+#include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/algorithms/volumes/volumes_in_blocks.hpp>
 #include <terrane/cli/mpi/mpi_supersteps.hpp>
@@ -81,12 +83,17 @@ Status find_volumes_of(MpiSupersteps& blocks, DistributedReport& report, BlockPi
         auto volumes = find_volumes_in_blocks(blocks);
         if (!volumes) return volumes.error();
         report.volumes = std::move(*volumes);
+        auto names = name_volumes_in_blocks(blocks);
+        if (!names) return names.error();
+        report.volume_names = std::move(*names);
         return count_work(blocks, report);
     }
     return blocks.visit([&](Block& b) -> Status {
         if (b.index != 0) return Done{};
         auto volumes = find_volumes(whole.mesh);
         if (!volumes) return volumes.error();
+        const Structure structure = build_structure(whole.mesh, *volumes);
+        for (const ModelBlock& block : structure.blocks) report.volume_names.push_back(block.name);
         report.volumes = std::move(volumes->measures);
         whole.volumes_of_sides = std::move(volumes->of_sides);
         return Done{};

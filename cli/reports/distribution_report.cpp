@@ -30,12 +30,49 @@ Json counts_of_work(const Work& w) {
             {"memory", w.memory}};
 }
 
-std::string volumes_text(const std::vector<double>& measures) {
+/// Tells how the doubles were repaired: near what was in the way, in one process, or not at all.
+Json rounding_json(const DistributedReport& r, const RoundingReport* whole) {
+    Json all{{"in_blocks", whole == nullptr},
+             {"contacts", 0},
+             {"gathered_triangles", 0},
+             {"rounds", 0},
+             {"deviation", r.deviation}};
+    const auto set = [&](std::uint64_t contacts, std::uint64_t triangles, unsigned rounds,
+                         double deviation) {
+        all["contacts"] = contacts;
+        all["gathered_triangles"] = triangles;
+        all["rounds"] = rounds;
+        all["deviation"] = deviation;
+    };
+    if (whole != nullptr)
+        set(whole->naive_contacts, r.triangles, whole->rounds, whole->surface_deviation);
+    else if (r.repair)
+        set(r.repair->contacts, r.repair->triangles, r.repair->rounds, r.repair->surface_deviation);
+    return all;
+}
+
+std::string rounding_text(const DistributedReport& r, const RoundingReport* whole) {
+    if (whole != nullptr)
+        return fmt::format("doubles: repaired in one process, in {}; no surface moved farther than "
+                           "{:.3g}\n",
+                           counted(whole->rounds, "round"), whole->surface_deviation);
+    if (r.repair)
+        return fmt::format("doubles: {} in the way repaired, in {}, with {} near; no surface moved "
+                           "farther than {:.3g}\n",
+                           counted(r.repair->contacts, "pair"), counted(r.repair->rounds, "round"),
+                           counted(r.repair->triangles, "triangle"), r.repair->surface_deviation);
+    return fmt::format("doubles: no vertex is more than {:.3g} from its exact place\n",
+                       r.deviation);
+}
+
+std::string volumes_text(const std::vector<double>& measures,
+                         const std::vector<std::string>& names) {
     constexpr std::size_t most = 50; // listed on the terminal
     auto text = fmt::format("{}, volume {:.9g} in all\n",
                             counted(measures.size() - 1, "closed block"), measures[0]);
     for (std::size_t v = 1; v <= std::min(measures.size() - 1, most); ++v)
-        text += fmt::format("  block {:<4} volume {:.9g}\n", v, measures[v]);
+        text += fmt::format("  block {:<4} volume {:<16} {}\n", v,
+                            fmt::format("{:.9g}", measures[v]), names.at(v));
     if (measures.size() - 1 > most)
         text += fmt::format("  and {} more\n", measures.size() - 1 - most);
     return text;
@@ -51,14 +88,13 @@ Json distribution_json(const DistributedReport& r, const RoundingReport* repaire
               {{"vertices", r.vertices},
                {"triangles", r.triangles},
                {"intersection_edges", r.intersection_edges}}},
-             {"rounding",
-              {{"in_blocks", repaired == nullptr},
-               {"rounds", repaired == nullptr ? 0 : repaired->rounds},
-               {"deviation", repaired == nullptr ? r.deviation : repaired->surface_deviation}}},
+             {"rounding", rounding_json(r, repaired)},
              {"most_in_a_block", counts_of_work(r.largest)},
              {"all_blocks", counts_of_work(r.total)}};
     if (!r.digest.empty()) all["digest"] = r.digest;
-    if (r.volumes) all["volumes"] = {{"count", r.volumes->size() - 1}, {"measures", *r.volumes}};
+    if (r.volumes)
+        all["volumes"] = {
+            {"count", r.volumes->size() - 1}, {"measures", *r.volumes}, {"names", r.volume_names}};
     return all;
 }
 
@@ -66,16 +102,9 @@ std::string distribution_text(const DistributedReport& r, const RoundingReport* 
                               const std::string& blocks) {
     auto text = fmt::format("{}: {} triangles -> {}, {}\n", blocks, r.input_triangles, r.triangles,
                             counted(r.intersection_edges, "intersection edge"));
-    if (repaired != nullptr)
-        text +=
-            fmt::format("doubles: repaired in one process, in {}; no surface moved farther than "
-                        "{:.3g}\n",
-                        counted(repaired->rounds, "round"), repaired->surface_deviation);
-    else
-        text += fmt::format("doubles: no vertex is more than {:.3g} from its exact place\n",
-                            r.deviation);
+    text += rounding_text(r, repaired);
     if (!r.digest.empty()) text += "digest: " + r.digest + "\n";
-    if (r.volumes) text += volumes_text(*r.volumes);
+    if (r.volumes) text += volumes_text(*r.volumes, r.volume_names);
     return text;
 }
 

@@ -16,6 +16,7 @@
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
 #include <terrane/algorithms/distribution/local_supersteps.hpp>
 #include <terrane/algorithms/distribution/pieces.hpp>
+#include <terrane/algorithms/structure/names_in_blocks.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/reports/distribution_report.hpp>
 #include <terrane/io/atomic/file_set.hpp>
@@ -112,12 +113,22 @@ std::size_t blocks_for(const FileOptions& files, std::uint64_t memory) {
         std::clamp<std::uint64_t>(bytes * per_byte / (memory / 2 + 1) + 1, 1, most));
 }
 
+/// The mesh of all pieces, and the volumes beside each triangle, if they were found.
+struct Joined {
+    Mesh mesh;
+    std::vector<CellArray> volumes;
+};
+
 /// Joins all pieces in memory.
-Result<Mesh> joined(Supersteps& blocks, const DistributedReport& report) {
+Result<Joined> joined(Supersteps& blocks, const DistributedReport& report) {
     PieceJoiner joiner(report.vertices, report.triangles);
     const auto added = blocks.visit([&](Block& b) -> Status { return joiner.add(piece_of(b)); });
     if (!added) return added.error();
-    return std::move(joiner).finish();
+    auto mesh = std::move(joiner).finish();
+    if (!mesh) return mesh.error();
+    Joined all{std::move(*mesh), {}};
+    if (report.volumes) all.volumes = volume_cells(joiner.volumes_of_sides());
+    return all;
 }
 
 Status write_in_blocks(const FileOptions& files, Supersteps& blocks,
@@ -133,12 +144,16 @@ Status write_in_blocks(const FileOptions& files, Supersteps& blocks,
         tell_when_written(summary_stream(files), "wrote " + path + "\n");
     }
     if (!wants_whole) return Done{};
-    const auto mesh = joined(blocks, report);
-    if (!mesh) return mesh.error();
+    const auto all = joined(blocks, report);
+    if (!all) return all.error();
+    WriteOptions options;
+    options.cells = all->volumes;
+    options.region_names = report.volume_names;
     for (const std::string& path : files.outputs) {
         if (is_in_pieces(path)) continue;
         const Output output{path, Format::vtp};
-        if (auto written = write_output(*mesh, output, {}, session); !written) return written;
+        if (auto written = write_output(all->mesh, output, options, session); !written)
+            return written;
         tell_when_written(summary_stream(files), wrote(output));
     }
     return Done{};
@@ -202,6 +217,9 @@ Result<ExitStatus> arrange_blockwise(const FileOptions& files, const BlockwiseOp
         auto volumes = find_volumes_in_blocks(blocks);
         if (!volumes) return volumes.error();
         report->volumes = std::move(*volumes);
+        auto names = name_volumes_in_blocks(blocks);
+        if (!names) return names.error();
+        report->volume_names = std::move(*names);
         if (auto counted = count_work(blocks, *report); !counted) return counted.error();
     }
     session.end_stage();
@@ -210,8 +228,8 @@ Result<ExitStatus> arrange_blockwise(const FileOptions& files, const BlockwiseOp
     if (!report->clean)
         return Error{
             ErrorCode::unsupported,
-            fmt::format("the nearest doubles are not a conforming mesh ({} in the way), and "
-                        "their repair needs the whole model in memory; leave out --memory",
+            fmt::format("the nearest doubles are not a conforming mesh ({} in the way), and a "
+                        "repair needs the whole model in memory; leave out --memory",
                         counted(report->contacts, "pair or point")),
             memory_option};
     if (const auto written = write_in_blocks(files, blocks, *report, session); !written)

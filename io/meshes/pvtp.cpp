@@ -289,12 +289,9 @@ std::string to_vtp_piece(const distribution::BlockPiece& piece, bool has_volumes
     out.array("surface_count", counts);
     out.array("region", firsts(mesh.regions_of));
     out.array("parent", firsts(mesh.parents_of));
-    for (std::size_t side = 0; has_volumes && side < 2; ++side) {
-        std::vector<std::int32_t> volumes;
-        for (const auto& sides : piece.volumes_of_sides)
-            volumes.push_back(static_cast<std::int32_t>(sides[side]));
-        out.array(side_arrays[side], volumes);
-    }
+    if (has_volumes)
+        for (const CellArray& side : volume_cells(piece.volumes_of_sides))
+            out.array(side.name, std::get<std::vector<std::int32_t>>(side.values));
     out.array(element_ids, wide(piece.triangle_ids), 1, true);
     out.text("</CellData>");
     out.points(mesh.vertices);

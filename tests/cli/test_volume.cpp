@@ -76,9 +76,18 @@ TEST_CASE("cli: arrange --memory finds the same volumes in blocks of space", "[c
     REQUIRE(folder.run("convert m.pvtp m.vtp").status == 0);
     REQUIRE(folder.run("volume m.vtp -o model").status == 0);
     std::vector<double> expected;
+    std::vector<std::string> names;
     const auto made = Json::parse(folder.read("model/model.json"));
-    for (const auto& block : made["blocks"]) expected.push_back(block["volume"]);
+    for (const auto& block : made["blocks"]) {
+        expected.push_back(block["volume"]);
+        names.push_back(block["name"]);
+    }
     CHECK(stats["volumes"]["measures"] == Json(expected));
+    CHECK(stats["volumes"]["names"] == Json(names));
+    for (std::size_t b = 1; b < names.size(); ++b) CHECK(contains(r.out, " " + names[b] + "\n"));
+    REQUIRE(folder.run("arrange " + in + " -o joined.vtp --memory 8KiB --volumes").status == 0);
+    for (const std::string name : {"volume_front", "volume_back", "block_name"})
+        CHECK(contains(folder.read("joined.vtp"), "Name=\"" + name + "\""));
     CHECK(contains(folder.read("m.pvtp"), "Name=\"volume_front\""));
     CHECK(folder.run("arrange " + in + " -o x.pvtp --memory 8KiB").status == 0);
     CHECK_FALSE(contains(folder.read("x.pvtp"), "volume"));

@@ -9,6 +9,7 @@
 
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
 #include <terrane/algorithms/distribution/local_supersteps.hpp>
+#include <terrane/algorithms/structure/names_in_blocks.hpp>
 #include <terrane/algorithms/uncertainty/measures.hpp>
 #include <terrane/algorithms/uncertainty/realisations.hpp>
 #include <terrane/algorithms/volumes/volumes_in_blocks.hpp>
@@ -57,6 +58,20 @@ std::vector<Stage> simplifying() {
     return stages;
 }
 
+/// A needle one unit in the last place wide, in a sheet, and a wall that cuts its tip off: that has no area
+/// when it is rounded.
+const std::vector<Surface>& needle() {
+    static const double wide = 1 + 0x1p-52;
+    static const std::vector<Surface> surfaces{
+        {"needle", Role::unknown, {{0, 1, 0}, {1, 1, 0}, {0.5, wide, 0}}, {{0, 1, 2}}},
+        {"sheet",
+         Role::unknown,
+         {{0, 1, 0}, {0.5, 0, 0}, {1, 1, 0}, {0.5, wide, 0}, {0.5, 2, 0}},
+         {{0, 1, 2}, {0, 3, 4}, {3, 2, 4}}},
+        {"wall", Role::unknown, {{0.1, 0.5, -1}, {0.1, 1.5, -1}, {0.1, 1, 1}}, {{0, 1, 2}}}};
+    return surfaces;
+}
+
 /// Blocks in memory, or one after the other with files in a folder of their own.
 std::unique_ptr<LocalSupersteps> blocks_of(bool spools) {
     static const Run run;
@@ -68,13 +83,14 @@ std::unique_ptr<LocalSupersteps> blocks_of(bool spools) {
     return std::make_unique<LocalSupersteps>(LocalOptions{.blocks = 2, .spool = folder}, run);
 }
 
-Result<DistributedReport> arranged_in(Supersteps& blocks, bool digest) {
-    const Fixture& f = Fixture::get();
+Result<DistributedReport>
+arranged_in(Supersteps& blocks, bool digest,
+            const std::vector<Surface>& surfaces = Fixture::get().surfaces) {
     return arrange_in_blocks(blocks,
-                             [&f](std::size_t file) -> Result<std::vector<Surface>> {
-                                 return std::vector<Surface>{f.surfaces[file]};
+                             [&surfaces](std::size_t file) -> Result<std::vector<Surface>> {
+                                 return std::vector<Surface>{surfaces[file]};
                              },
-                             {.files = f.surfaces.size(), .digest = digest});
+                             {.files = surfaces.size(), .digest = digest});
 }
 
 std::vector<Stage> dividing() {
@@ -87,6 +103,14 @@ std::vector<Stage> dividing() {
                 return arranged_in(*blocks, true);
             },
             [](const DistributedReport& report) { return report.digest; }));
+    stages.push_back(stage_of(
+        "arrange_in_blocks, repair", [] { return blocks_of(false); },
+        [](const std::unique_ptr<LocalSupersteps>& blocks) {
+            return arranged_in(*blocks, false, needle());
+        },
+        [](const DistributedReport& report) {
+            return shown(report.repair.value().surface_deviation);
+        }));
     stages.push_back(stage_of(
         "repair_in_one_process",
         [] {
@@ -111,6 +135,22 @@ std::vector<Stage> dividing() {
         [](const std::vector<double>& measures) {
             const std::span bytes = std::as_bytes(std::span(measures));
             return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        }));
+    stages.push_back(stage_of(
+        "name_volumes_in_blocks",
+        [] {
+            auto blocks = blocks_of(false);
+            needed(arranged_in(*blocks, false));
+            needed(find_volumes_in_blocks(*blocks));
+            return blocks;
+        },
+        [](const std::unique_ptr<LocalSupersteps>& blocks) {
+            return name_volumes_in_blocks(*blocks);
+        },
+        [](const std::vector<std::string>& names) {
+            std::string text;
+            for (const std::string& name : names) text += name + "\n";
+            return text;
         }));
     for (Stage& s : stages) s.returns_errors = false; // see distributed_arrangement.hpp
     return stages;

@@ -20,7 +20,9 @@ ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROO
 RANKS = (1, 2, 3, 4, 7)
 # Crossing surfaces, coplanar overlaps, repeated and degenerate triangles, and doubles that need repair.
 CASES = ("horizons_and_fault", "coplanar_grids", "duplicates", "degenerate", "fractures_20",
-         "utm_millimetres", "negative_zero", "triple_point_inexact")
+         "utm_millimetres", "negative_zero", "triple_point_inexact", "needle_tip", "turned_ridges")
+# Doubles that are repaired with few triangles near them, in the first process.
+REPAIRED = ("needle_tip", "turned_ridges")
 
 
 def run(command, **more):
@@ -37,11 +39,12 @@ def names_in(folder: Path):
 
 
 def volumes_of(arguments, mesh: Path, work: Path):
-    """The measures that terrane volume finds in a mesh: all blocks together, then each."""
+    """What terrane volume finds in a mesh: all blocks together, then each."""
     folder = work / "volumes"
     done = run([arguments.terrane, "volume", mesh, "-o", folder])
     assert done.returncode == 0, (mesh, done.stderr)
-    return [block["volume"] for block in json.loads((folder / "model.json").read_text())["blocks"]]
+    blocks = json.loads((folder / "model.json").read_text())["blocks"]
+    return {"count": len(blocks) - 1, "measures": [b["volume"] for b in blocks], "names": [b["name"] for b in blocks]}
 
 
 def check_case(arguments, folder: Path, work: Path):
@@ -62,7 +65,9 @@ def check_case(arguments, folder: Path, work: Path):
         found = json.loads(stats.read_text())
         assert found["digest"] == expected["digest"], (where, found["digest"])
         assert found["blocks"] == ranks, where
-        assert found["volumes"]["measures"] == volumes, (where, found["volumes"], volumes)
+        if folder.name in REPAIRED:
+            assert found["rounding"]["in_blocks"] and found["rounding"]["gathered_triangles"] > 0, (where, found)
+        assert found["volumes"] == volumes, (where, found["volumes"], volumes)
         converted = run([arguments.terrane, "convert", pieces, joined])
         assert converted.returncode == 0, (where, converted.stderr)
         assert joined.read_bytes() == whole.read_bytes(), f"{where}: other bytes"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <terrane/algorithms/distribution/block.hpp>
+#include <terrane/algorithms/distribution/messages.hpp>
 
 namespace terrane::distribution::detail {
 
@@ -41,4 +42,11 @@ std::vector<EdgeSide> sides_of(const Block& b);
 bool agree(const Block& b, std::uint32_t s, std::uint32_t t);
 /// Returns the first input triangle with the same corners.
 std::uint32_t first_same(const Block& b, std::uint32_t triangle);
+
+/// Sends the sides of shared edges to where they are decided, in channels 1 and 2.
+void send_sides(const Block& b, Outbox& out);
+/// Decides shared edges. Channel 0: DecidedEdge, to the blocks of its triangles; channel 1: Neighbour, to
+/// the block of the first of two triangles that are in one region.
+void decide_edges(Inbox& in, Outbox& out);
+
 } // namespace terrane::distribution::detail

@@ -13,6 +13,7 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/distribution/block.hpp>
+#include <terrane/algorithms/distribution/distributed_arrangement.hpp>
 #include <terrane/algorithms/distribution/messages.hpp>
 #include <terrane/algorithms/search/search.hpp>
 
@@ -81,6 +82,8 @@ Status unite_parts(Block& b, Inbox& in, Outbox& out);
 Status settle(Block& b, Inbox& in, Outbox& out);
 
 // The check of the doubles (doubles.cpp).
+/// If more pairs are in the way, they are not repaired in blocks.
+constexpr std::size_t most_repaired = 65'536;
 Status check_doubles(Block& b, Inbox& in, Outbox& out, const Run& run);
 
 // Edges, regions and numbers of triangles (edges.cpp, regions.cpp).
@@ -90,6 +93,14 @@ Status join_within(Block& b, Inbox& in, Outbox& out);
 Status join_across(Block& b, Inbox& in, Outbox& out);
 Status number_regions(Block& b, Inbox& in, Outbox& out);
 Status receive_regions(Block& b, Inbox& in, Outbox& out);
+
+/// Repairs doubles that are not conforming, where few pairs are in the way (repairing.cpp). Then
+/// report.clean, or nothing has changed. Cost: some steps, in each of which a block looks at the boxes of
+/// its triangles; the process of the first block holds those near the pairs.
+Status repair_few(Supersteps& blocks, DistributedReport& report, const Run& run);
+
+/// Sums up what the blocks report, without the digest (distributed_arrangement.cpp).
+Result<DistributedReport> summary_of(Supersteps& blocks);
 
 // Lookups by name, once points are numbered (settling.cpp).
 /// Returns the coordinates of a point in doubles.

@@ -6,14 +6,12 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/arrangement/intersection_edges.hpp>
-#include <terrane/algorithms/arrangement/retriangulation.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
-#include <terrane/algorithms/intersection/pencils.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
-#include <terrane/algorithms/rounding/detail/neighbouring_doubles.hpp>
+#include <terrane/algorithms/rounding/detail/repair.hpp>
 #include <terrane/algorithms/rounding/detail/reports.hpp>
 
 namespace terrane::rounding::detail {
@@ -81,8 +79,7 @@ Point3 Rounding::given(const Point3& input) const {
 
 /// Returns a bound of the distance of surfaces from where they were.
 double Rounding::deviation() const {
-    if (moved_.largest == 0) return state_.deviation;
-    return (state_.deviation + moved_.largest) * (1 + 0x1p-52);
+    return deviation_of(state_, moved_.largest);
 }
 
 Error Rounding::too_far() const {
@@ -95,15 +92,8 @@ Error Rounding::too_far() const {
 
 /// Returns how many contacts are too many to be repaired.
 std::size_t Rounding::left_from() const {
-    if (repairs_ != Repairs::sparse) return hopeless_from();
-    return std::max(rounding_tuning.many,
-                    arrangement_.triangles.size() / rounding_tuning.crowded + 1);
-}
-
-/// Returns how many contacts are hopeless.
-std::size_t Rounding::hopeless_from() const {
-    return std::max(ParentsInContact::most_contacts + 1,
-                    rounding_tuning.hopeless * arrangement_.triangles.size());
+    const std::size_t count = arrangement_.triangles.size();
+    return repairs_ == Repairs::sparse ? crowded_from(count) : hopeless_from(count);
 }
 
 /// Notes which input triangles are in contact.
@@ -120,99 +110,19 @@ void Rounding::leave(std::span<const CandidatePair> pairs) {
     left_ = crowd_->parents();
 }
 
-/// Performs rounds of local snapping, and keeps the mesh with fewest contacts. With a whole
-/// arrangement it ends as soon as a round does not help much, as the input can be snapped instead.
-/// What was removed from an arrangement would then have to be decided again, perhaps otherwise.
-/// Therefore a part of one gets coarser grids, too, each as long as it removes contacts.
+/// Repairs what is left, and notes whether triangles may have changed.
 void Rounding::repair(std::vector<CandidatePair>& pairs) {
-    const bool is_whole = arrangement_.state->whole;
-    std::vector<int> grids(rounding_tuning.fine_digits.begin(), rounding_tuning.fine_digits.end());
-    if (!is_whole)
-        grids.insert(grids.end(), rounding_tuning.coarse_digits.begin(),
-                     rounding_tuning.coarse_digits.end());
-    for (auto digits = grids.begin(); digits != grids.end();) {
-        if (pairs.size() <= rounding_tuning.few) search_nearby(pairs);
-        if (pairs.empty()) return;
-        if (out_.report.rounds == options_.max_rounds || run_.stop.stop_requested()) return;
-        const auto grid =
-            grid_of_digits(state_.points, *digits, task_.limit - deviation(), task_.kept);
-        if (!grid) return;
-        ++out_.report.rounds;
-        const RoundingState before = state_;
-        const std::size_t count = pairs.size();
-        auto left = snap_round(pairs, *grid) ? contacts(quiet_) : pairs;
-        if (left.size() < count && deviation() <= task_.limit)
-            pairs = std::move(left);
-        else
-            state_ = before;
-        if (pairs.empty()) return;
-        if (is_whole && rounding_tuning.shrinking * pairs.size() > count) return;
-        if (is_whole || pairs.size() == count) ++digits;
-    }
-}
-
-/// Moves few vertices to doubles nearby, as one round, if that leaves fewer contacts.
-void Rounding::search_nearby(std::vector<CandidatePair>& pairs) {
-    if (out_.report.rounds == options_.max_rounds) return;
-    const RoundingState before = state_;
-    if (!search_neighbouring_doubles(state_, pairs, task_.kept, task_.limit - moved_.largest, run_))
-        return;
-    auto left = contacts(quiet_);
-    if (left.size() < pairs.size() && deviation() <= task_.limit) {
-        ++out_.report.rounds;
-        pairs = std::move(left);
-    } else {
-        state_ = before;
-    }
-}
-
-/// Performs one round. Returns false if snapping multiplied the contacts, or their division the
-/// triangles, so much that the round is not worthwhile, or left hopelessly many.
-bool Rounding::snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
-    changed_ = true;
-    snap_corners(pairs, grid);
-    state_.tidy(run_);
-    if (state_.is_torn ||
-        !divide_again(std::min(rounding_tuning.multiplied * pairs.size(), hopeless_from())))
-        return false;
-    state_.end_round();
-    state_.tidy(run_);
-    return !state_.is_torn;
-}
-
-void Rounding::snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid) {
-    std::vector<std::uint32_t> corners;
-    for (const CandidatePair& p : pairs)
-        for (const std::uint32_t t : {p.first, p.second})
-            corners.insert(corners.end(), state_.triangles[t].begin(), state_.triangles[t].end());
-    std::vector<Point3> cells;
-    for (const std::uint32_t v : corners) cells.push_back(grid.snap(state_.points[v]));
-    state_.move_into(cells, [&](const Point3& p) { return grid.snap(p); });
-}
-
-/// Divides the triangles that still cross, exactly, and rounds the new points to the nearest
-/// doubles. These are much finer than the grid, so most of the parts stay clear of each other.
-/// Returns false without dividing anything if there are more than most_pairs pairs, or the triangles
-/// would multiply.
-bool Rounding::divide_again(std::size_t most_pairs) {
-    const auto pairs = contacts(quiet_);
-    if (pairs.size() > most_pairs) return false;
-    if (pairs.empty()) return true;
-    Retriangulation division = retriangulate(state_.points, state_.triangles, pairs, {}, quiet_);
-    if (run_.stop.stop_requested()) return true;
-    if (division.triangles.size() > rounding_tuning.multiplied * state_.triangles.size())
-        return false;
-    const auto first_new = static_cast<std::uint32_t>(state_.points.size());
-    std::vector<std::uint32_t> name_of(division.points.size());
-    for (const PointIndex p : division.ascending) {
-        name_of[p] = static_cast<std::uint32_t>(state_.points.size());
-        state_.add_point(division.points.nearest(p), rounding_bound(division.points, p));
-    }
-    for (Triangle& t : division.triangles)
-        for (std::uint32_t& v : t)
-            if (v >= first_new) v = name_of[v];
-    state_.replace_triangles(std::move(division.triangles), division.faces_of);
-    return true;
+    const RepairTask task{task_.kept,
+                          task_.limit,
+                          moved_.largest,
+                          options_.max_rounds,
+                          hopeless_from(arrangement_.triangles.size()),
+                          arrangement_.state->whole,
+                          tests_all()};
+    Repair repair(state_, task, run_);
+    repair(pairs);
+    out_.report.rounds = repair.rounds();
+    changed_ = changed_ || repair.has_snapped();
 }
 
 /// Each vertex is at most as far from where it was as its own moves and that of the input add up

@@ -98,12 +98,10 @@ private:
         if (run_.progress) run_.progress("round", share);
     }
     [[nodiscard]] std::size_t left_from() const;
-    [[nodiscard]] std::size_t hopeless_from() const;
     void leave(std::span<const CandidatePair> pairs);
     void take_sample();
     [[nodiscard]] ParentsInContact contacts_of_sample() const;
     void repair(std::vector<CandidatePair>& pairs);
-    void search_nearby(std::vector<CandidatePair>& pairs);
     void to_nearest();
     void constructed_to_nearest(std::size_t v);
     [[nodiscard]] Point3 given(const Point3& input) const;
@@ -119,9 +117,6 @@ private:
     std::vector<CandidatePair>
     contacts_in_pools(const Pools& pools, std::span<const std::uint32_t> patches, const Run& run);
     std::vector<CandidatePair> contacts(const Run& run);
-    bool snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid);
-    void snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid);
-    bool divide_again(std::size_t most_pairs);
     void find_first_regions();
     void finish(std::span<const CandidatePair> pairs);
     [[nodiscard]] bool tests_all() const { return options_.check.method == PairCheck::full; }

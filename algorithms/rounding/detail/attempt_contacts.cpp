@@ -14,7 +14,7 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
-#include <terrane/algorithms/mesh/work_hook.hpp>
+#include <terrane/algorithms/rounding/detail/repair.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -52,24 +52,10 @@ bool Rounding::is_found(const CandidatePair& p) {
     return true;
 }
 
-/// Finds the pairs that meet improperly. Two triangles without a dirty corner never do, and are
-/// tested on request only.
+/// Finds the pairs that meet improperly.
 std::vector<CandidatePair> Rounding::contacts(const Run& run) {
-    state_.search_dirty();
-    std::vector<std::uint32_t> active;
-    if (tests_all()) {
-        active.resize(state_.triangles.size());
-        std::iota(active.begin(), active.end(), 0U);
-    } else {
-        active = state_.dirty_triangles(run);
-    }
-    if (active.empty()) return {};
-    terrane::detail::announce_work("search contacts", state_.points, state_.triangles);
-    auto pairs = candidate_pairs_of(
-        {state_.points, state_.triangles}, active, {},
-        [&](const CandidatePair& p) { return is_found(p); }, run);
-    state_.only_dirty(pairs);
-    return pairs;
+    return find_contacts(
+        state_, tests_all(), [&](const CandidatePair& p) { return is_found(p); }, run);
 }
 
 /// Takes a sample of the parts, where it has less than half of the triangles.

@@ -27,8 +27,9 @@ double SnapGrid::snap(double x, unsigned axis) const {
 }
 
 std::optional<SnapGrid> grid_of_digits(std::span<const Point3> points, int digits, double limit,
-                                       const KeptPlanes& kept) {
-    std::array<double, 3> largest{};
+                                       const KeptPlanes& kept,
+                                       const std::array<double, 3>& elsewhere) {
+    std::array<double, 3> largest = elsewhere;
     for (const Point3& p : points) {
         largest[0] = std::max(largest[0], std::fabs(p.x));
         largest[1] = std::max(largest[1], std::fabs(p.y));

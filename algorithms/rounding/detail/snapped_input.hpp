@@ -40,9 +40,10 @@ private:
 
 /// Returns the grid whose spacing on each axis is 2^digits units in the last place of the largest
 /// coordinate on that axis; or the coarsest finer one that moves no point by more than `limit`.
-/// Returns nothing if there is none.
+/// Returns nothing if there is none. `elsewhere`: the largest absolute coordinate of other points.
 std::optional<SnapGrid> grid_of_digits(std::span<const Point3> points, int digits, double limit,
-                                       const KeptPlanes& kept);
+                                       const KeptPlanes& kept,
+                                       const std::array<double, 3>& elsewhere = {});
 
 /// How the input of an arrangement differs from the surfaces that are rounded.
 struct MovedInput {

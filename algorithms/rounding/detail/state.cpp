@@ -259,7 +259,7 @@ bool RoundingState::tidy(const Run& run) {
 bool RoundingState::divide_sides(const CollapsedTriangles& lines) {
     std::size_t inside = 0; // each divides a triangle in two
     for (const Triangle& t : triangles) inside += lines.count_within(t);
-    is_torn |= inside > (rounding_tuning.multiplied - 1) * triangles.size();
+    is_torn |= inside > (rounding_tuning.multiplied - 1) * all_triangles();
     if (inside == 0 || is_torn) return false;
     std::vector<Triangle> fresh;
     IndexLists<std::uint32_t> faces_of;
@@ -294,6 +294,7 @@ void RoundingState::join_equal(std::span<const std::uint32_t> dirty, std::vector
     std::size_t kept = 0;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         if (gone[t]) continue;
+        if (!origins.empty()) origins[kept] = origins[t];
         triangles[kept++] = triangles[t];
         const auto more = extra.find(t);
         if (more == extra.end()) {
@@ -307,6 +308,7 @@ void RoundingState::join_equal(std::span<const std::uint32_t> dirty, std::vector
         parents.push_back(list);
     }
     triangles.resize(kept);
+    if (!origins.empty()) origins.resize(kept);
     parents_of = std::move(parents);
 }
 
@@ -314,8 +316,9 @@ void RoundingState::replace_triangles(std::vector<Triangle> fresh,
                                       const IndexLists<std::uint32_t>& faces_of) {
     IndexLists<std::uint32_t> parents;
     parents.offsets.reserve(fresh.size() + 1);
-    std::vector<std::uint32_t> list;
+    std::vector<std::uint32_t> list, fresh_origins;
     for (std::size_t t = 0; t < fresh.size(); ++t) {
+        if (!origins.empty()) fresh_origins.push_back(origins[faces_of[t][0]]);
         list.clear();
         for (const std::uint32_t f : faces_of[t])
             list.insert(list.end(), parents_of[f].begin(), parents_of[f].end());
@@ -324,6 +327,7 @@ void RoundingState::replace_triangles(std::vector<Triangle> fresh,
         parents.push_back(list);
     }
     triangles = std::move(fresh);
+    origins = std::move(fresh_origins);
     parents_of = std::move(parents);
 }
 

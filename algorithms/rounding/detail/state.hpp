@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -42,7 +43,10 @@ struct RoundingState {
     double gaps = 0;             ///< sum of the largest gaps of all ended rounds
     bool is_torn = false; ///< whether sides that met at dropped triangles do not coincide; see (2)
     std::vector<std::uint32_t>
-        found_dirty; ///< dirty_triangles(), if the last tidy() changed nothing
+        found_dirty;                     ///< dirty_triangles(), if the last tidy() changed nothing
+    std::vector<std::uint32_t> origins;  ///< per triangle: the one at the beginning in whose place
+                                         ///< it is; empty if nobody asks
+    std::size_t triangles_elsewhere = 0; ///< number, if these are a part of a mesh
 
     /// Returns the triangles with a dirty corner, ascending.
     [[nodiscard]] std::vector<std::uint32_t> dirty_triangles(const Run& run) const;
@@ -87,6 +91,12 @@ struct RoundingState {
 
     /// Moves a point, which is dirty then.
     void move_point(std::size_t v, const Point3& to);
+    /// Notes that points elsewhere have moved that far in this round.
+    void note_move_elsewhere(double moved) { largest_move_ = std::max(largest_move_, moved); }
+    /// Returns the number of triangles, with those elsewhere.
+    [[nodiscard]] std::size_t all_triangles() const {
+        return triangles.size() + triangles_elsewhere;
+    }
 
 private:
     bool merge_points(const Run& run);

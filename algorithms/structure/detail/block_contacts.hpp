@@ -3,7 +3,13 @@
 // How blocks and the surfaces around them lie to each other.
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <map>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,7 +31,55 @@ struct BlockContact {
     bool is_floor = false; ///< whether such a part is below it
 };
 
+/// A sum that does not depend on the order of its terms, but for errors of 1e-30 of it.
+class OrderlessSum {
+public:
+    void add(double x) {
+        const double sum = sum_ + x;
+        const double from_x = sum - sum_; // Knuth: the rounding error of a sum is a double
+        rest_ += (sum_ - (sum - from_x)) + (x - from_x);
+        sum_ = sum;
+    }
+    void add(const OrderlessSum& other) {
+        add(other.sum_);
+        rest_ += other.rest_;
+    }
+    [[nodiscard]] double value() const { return std::isfinite(rest_) ? sum_ + rest_ : sum_; }
+
+private:
+    double sum_ = 0, rest_ = 0;
+};
+
+/// Sums over triangles of a surface at a block. Normals are outward, as long as the area is.
+class ContactSums {
+public:
+    /// Adds a triangle. place: its centre.
+    void add_triangle(const Point3& outward, const Point3& place);
+    /// Adds the sums over other triangles.
+    void add(const ContactSums& other);
+    [[nodiscard]] BlockContact contact(std::uint32_t surface) const;
+
+private:
+    /// Area; areas in the map where the normal rises and where it falls; normal; centre by area; products of
+    /// centre and normal.
+    enum : std::size_t { area, up, down, normal, centre = normal + 3, moment = centre + 3, count };
+    std::array<OrderlessSum, count> sums_;
+};
+
+/// Adds the triangles of a mesh to the sums of their surfaces, per volume. of_sides: see Volumes. The
+/// centres of triangles are relative to `origin`, so that large coordinates cost no digits.
+void add_contacts(const Mesh& mesh, std::span<const std::array<std::uint32_t, 2>> of_sides,
+                  const Point3& origin, std::vector<std::map<std::uint32_t, ContactSums>>& sums);
+
+/// Lists the surfaces around each block, by their sums.
+std::vector<std::vector<BlockContact>>
+contacts_of(std::span<const std::map<std::uint32_t, ContactSums>> sums);
+
 /// Lists the surfaces around each block, by their indices. The outside has none.
 std::vector<std::vector<BlockContact>> find_contacts(const Mesh& mesh, const Volumes& volumes);
+
+/// Returns the names of blocks by the surfaces around them (block_names.hpp, (c)); [0] is "outside".
+std::vector<std::string> names_by_contacts(std::span<const SurfaceInfo> surfaces,
+                                           std::vector<std::vector<BlockContact>> contacts);
 
 } // namespace terrane::structure::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Volumes of a mesh in blocks are those of the mesh as a whole: their numbers and their measures.
+// Volumes of a mesh in blocks are those of the mesh as a whole: their numbers, measures and names.
 #include "support/certified_inputs.hpp"
 #include "support/effort.hpp"
 #include "support/files.hpp"
@@ -8,6 +8,8 @@
 #include "support/random_models.hpp"
 
 #include <terrane/algorithms/distribution/local_supersteps.hpp>
+#include <terrane/algorithms/structure/names_in_blocks.hpp>
+#include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/algorithms/volumes/volumes_in_blocks.hpp>
 
@@ -16,6 +18,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -63,6 +66,12 @@ std::optional<std::size_t> judge(const std::vector<Surface>& surfaces, std::size
     REQUIRE(expected);
     REQUIRE(found.volumes.of_sides == expected->of_sides);
     REQUIRE(found.volumes.measures == expected->measures);
+    const auto names = name_volumes_in_blocks(blocks);
+    REQUIRE(names);
+    std::vector<std::string> names_of_whole;
+    const Structure structure = build_structure(found.mesh, *expected);
+    for (const ModelBlock& block : structure.blocks) names_of_whole.push_back(block.name);
+    REQUIRE(*names == names_of_whole);
     return expected->block_count();
 }
 
