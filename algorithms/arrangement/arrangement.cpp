@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <atomic>
 #include <iterator>
+#include <memory>
 #include <utility>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/arrangement/intersection_edges.hpp>
-#include <terrane/algorithms/arrangement/known_pairs.hpp>
+#include <terrane/algorithms/arrangement/known_triangles.hpp>
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
@@ -240,13 +241,11 @@ std::vector<CandidatePair> find_all_candidates(const Soup& soup,
     return both_kinds;
 }
 
-/// Does the same, but takes over what an earlier arrangement found.
-Candidates find_candidates(const Soup& soup, std::span<const std::uint32_t> patches,
-                           const ArrangeOptions& options, LeftOut& left_out, const Run& run) {
-    const Search used = method_used(options.search, soup.triangles.size());
-    if (options.known != nullptr && used == Search::bvh)
-        if (auto candidates = options.known->candidates(soup, patches, run))
-            return *std::move(candidates);
+/// Does the same, but takes over what an earlier arrangement found. known: or null.
+Candidates find_candidates(const Soup& soup, std::span<const std::uint32_t> patches, Search used,
+                           const KnownInSoup* known, LeftOut& left_out, const Run& run) {
+    if (known != nullptr)
+        if (auto candidates = known->candidates(patches, run)) return *std::move(candidates);
     return {find_all_candidates(soup, patches, used, left_out, run), {}};
 }
 
@@ -270,7 +269,8 @@ void assert_invariants([[maybe_unused]] const Arrangement& a) {
 ArrangeStatistics statistics_of(const Candidates& candidates, const Retriangulation& division) {
     ArrangeStatistics all;
     all.candidates = candidates.pairs.size();
-    all.known_apart = static_cast<std::size_t>(std::ranges::count(candidates.known_apart, 1));
+    all.known = candidates.known.size() -
+                static_cast<std::size_t>(std::ranges::count(candidates.known, KnownPair::nothing));
     all.improper_contacts = division.statistics.improper_contacts;
     all.divided = division.statistics.divided;
     all.constructed_points = division.ascending.size();
@@ -278,17 +278,16 @@ ArrangeStatistics statistics_of(const Candidates& candidates, const Retriangulat
     return all;
 }
 
-/// Passes the candidates on to the next arrangement, unless some pairs were left out of the search or
-/// of the test.
-void keep_candidates(const ArrangeOptions& options, const Soup& soup,
-                     std::span<const std::uint32_t> patches, const Retriangulation& division,
-                     const LeftOut& left_out, Candidates candidates) {
+/// Passes patches and candidates on to the next arrangement, unless some pairs were left out of the
+/// search or of the test.
+void keep_known(const ArrangeOptions& options, const Soup& soup, const InjectivePatches& patches,
+                const Retriangulation& division, const LeftOut& left_out, Candidates candidates) {
     if (options.known == nullptr || left_out.any_crowded || !left_out.pencils.of.empty() ||
         !division.pools.empty())
         return;
     const auto points = division.points.inputs();
-    options.known->keep({points.begin(), points.end()}, soup.triangles, patches,
-                        std::move(candidates.pairs), division.near);
+    options.known->keep({points.begin(), points.end()}, soup, patches, std::move(candidates.pairs),
+                        division.near, division.near_meet);
 }
 
 /// Makes one mesh of the triangles after division, with what later stages ask of it.
@@ -337,15 +336,21 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
 
     // (a) one soup of distinct points and triangles
     Soup soup = merge_surfaces(surfaces, run);
-    InjectivePatches patches = find_injective_patches(soup.points, soup.triangles, soup.surface_of,
-                                                      soup.edges, run, soup.turns);
+    const Search search = method_used(options.search, soup.triangles.size());
+    std::unique_ptr<const KnownInSoup> known;
+    if (options.known != nullptr && search == Search::bvh) known = options.known->find_in(soup);
+    InjectivePatches patches =
+        known ? known->patches(run)
+              : find_injective_patches(soup.points, soup.triangles, soup.surface_of, soup.edges,
+                                       run, soup.turns);
     report(0.1);
 
     // (b) candidate pairs
     step.next("search");
     LeftOut left_out;
-    Candidates candidates = find_candidates(soup, patches.of, options, left_out,
+    Candidates candidates = find_candidates(soup, patches.of, search, known.get(), left_out,
                                             part_of_stage(run, "arrange", 0.1, 0.3));
+    known.reset();
     TERRANE_ASSERT_PARANOID(is_sorted_unique(candidates.pairs));
     step.stop();
     report(0.3);
@@ -354,11 +359,11 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     // (c) contacts, (d) equal points, (e) triangulation of the faces with contacts
     Retriangulation division =
         retriangulate(std::move(soup.points), soup.triangles, candidates.pairs, left_out.pencils,
-                      part_of_stage(run, "arrange", 0.3, 0.85), candidates.known_apart);
+                      part_of_stage(run, "arrange", 0.3, 0.85), candidates.known);
     if (run.stop.stop_requested()) return interrupted();
     a.statistics = statistics_of(candidates, division);
-    a.statistics.search = method_used(options.search, soup.triangles.size());
-    keep_candidates(options, soup, patches.of, division, left_out, std::move(candidates));
+    a.statistics.search = search;
+    keep_known(options, soup, patches, division, left_out, std::move(candidates));
 
     // (f) one mesh
     step.next("assemble");

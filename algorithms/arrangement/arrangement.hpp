@@ -32,20 +32,20 @@
 
 namespace terrane {
 
-class KnownPairs;
+class KnownTriangles;
 
 /// Options of arrange().
 struct ArrangeOptions {
     Search search = Search::automatic; ///< method that finds candidates; never changes the result
-    KnownPairs* known = nullptr; ///< if set, what the last arrangement with it tested is taken
-                                 ///< over; this never changes the result
+    KnownTriangles* known = nullptr; ///< if set, what the last arrangement with it found about the
+        ///< same triangles is taken over, which never changes the result
 };
 
 /// Counts of the steps. A part of an arrangement keeps those of the whole.
 struct ArrangeStatistics {
     Search search = Search::automatic;  ///< method that found the candidates; automatic if none did
     std::size_t candidates = 0;         ///< pairs of triangles whose boxes overlap
-    std::size_t known_apart = 0;        ///< candidates that need no test, by ArrangeOptions::known
+    std::size_t known = 0;              ///< candidates that need no test, by ArrangeOptions::known
     std::size_t improper_contacts = 0;  ///< pairs of input triangles that meet improperly
     std::size_t divided = 0;            ///< input triangles that were triangulated
     std::size_t constructed_points = 0; ///< distinct points that are no input vertices

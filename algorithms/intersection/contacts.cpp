@@ -31,7 +31,13 @@ struct PairBlock {
                                            ///< are indices into points
     std::vector<std::uint32_t> overlapped; ///< faces with a coplanar overlap
     std::vector<CandidatePair> near;
+    std::vector<char> near_meet;
     PredicateCounts predicates;
+
+    void add_near(const CandidatePair& pair, bool meet) {
+        near.push_back(pair);
+        near_meet.push_back(meet ? 1 : 0);
+    }
 
     void add(const CandidatePair& pair, const Contact& c) {
         ++improper;
@@ -56,7 +62,7 @@ bool have_common_vertex(const Triangle& t, const Triangle& u) {
 }
 
 PairBlock test_pairs(const TriangleSoup& soup, const PlanePools& pools,
-                     std::span<const CandidatePair> pairs, std::span<const char> known_apart) {
+                     std::span<const CandidatePair> pairs, std::span<const KnownPair> known) {
     PairBlock block;
     const PredicateCounts before = predicate_counts();
     const auto at = [&](std::uint32_t t, unsigned i) -> const Point3& {
@@ -65,10 +71,15 @@ PairBlock test_pairs(const TriangleSoup& soup, const PlanePools& pools,
     std::uint32_t last = UINT32_MAX;
     std::optional<SeparationFilter> first; // reused, as pairs are sorted by their first triangle
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-        if (!known_apart.empty() && known_apart[k] != 0) continue;
+        const KnownPair is_known = known.empty() ? KnownPair::nothing : known[k];
+        if (is_known == KnownPair::apart) continue;
         const CandidatePair& p = pairs[k];
         const auto [f, g] = p;
         if (pools.are_one(f, g)) continue;
+        if (is_known == KnownPair::near) {
+            block.add_near(p, false);
+            continue;
+        }
         if (f != last) first.emplace(at(f, 0), at(f, 1), at(f, 2));
         last = f;
         const bool joined = have_common_vertex(soup.triangles[f], soup.triangles[g]);
@@ -80,9 +91,9 @@ PairBlock test_pairs(const TriangleSoup& soup, const PlanePools& pools,
                 second.is_beyond(at(f, 0), at(f, 1), at(f, 2)))
                 continue;
         }
-        block.near.push_back(p);
         const auto contact = improper_contact(soup.points, soup.triangles[f], soup.triangles[g],
                                               joined ? Filters::all : Filters::none);
+        block.add_near(p, contact.has_value());
         if (contact) block.add(p, *contact);
     }
     block.predicates = predicate_counts() - before;
@@ -122,6 +133,8 @@ public:
                 pieces_[k].push_back(piece);
             }
         contacts_.near.insert(contacts_.near.end(), block.near.begin(), block.near.end());
+        contacts_.near_meet.insert(contacts_.near_meet.end(), block.near_meet.begin(),
+                                   block.near_meet.end());
         contacts_.improper += block.improper;
         contacts_.predicates += block.predicates;
     }
@@ -242,7 +255,7 @@ bool FaceConstraint::is_inner_segment() const {
 
 Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
                        std::span<const CandidatePair> candidates, const Pencils& pencils,
-                       const Run& run, std::span<const char> known_apart) {
+                       const Run& run, std::span<const KnownPair> known) {
     Contacts contacts;
     contacts.candidates = candidates.size();
     contacts.overlapped.assign(soup.triangles.size(), false);
@@ -262,8 +275,7 @@ Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
         const auto blocks =
             for_blocks<PairBlock>(pairs.size(), 1024, run, [&](std::size_t a, std::size_t b) {
                 return test_pairs(soup, contacts.pools, pairs.subspan(a, b - a),
-                                  known_apart.empty() ? known_apart
-                                                      : known_apart.subspan(start + a, b - a));
+                                  known.empty() ? known : known.subspan(start + a, b - a));
             });
         for (const PairBlock& block : blocks) collector.add(block);
         if (run.stop.stop_requested()) return contacts;

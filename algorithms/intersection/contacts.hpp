@@ -76,6 +76,7 @@ struct Contacts {
                                          ///< overlaps it
     std::vector<CandidatePair> near;     ///< candidates that may meet when points are rounded to
                                          ///< nearest doubles
+    std::vector<char> near_meet;         ///< per near pair: 1 if the two have an improper contact
     std::size_t candidates = 0;          ///< number of candidate pairs
     std::size_t improper = 0;            ///< number of pairs with an improper contact, without
                                          ///< pairs within a pool or in different planes of a
@@ -84,6 +85,13 @@ struct Contacts {
 };
 
 struct Pencils;
+
+/// What an earlier test has shown about a pair.
+enum class KnownPair : std::uint8_t {
+    nothing,
+    apart, ///< the two do not meet, and will not when their points are rounded
+    near,  ///< they may meet when their points are rounded, but have no improper contact
+};
 
 /// Returns a function with which PointStore::append distributes its work over the run's threads.
 PointStore::Share sharing(const Run& run);
@@ -95,11 +103,10 @@ PlanePools find_plane_pools(const TriangleSoup& soup, std::span<const CandidateP
 /// Performs steps (b) and (c): tests all candidates and collects the points and segments that must
 /// appear in each triangle. `points` are the soup's points; the store of the result takes them
 /// over. Pairs of triangles in different planes of one pencil need not be candidates. Equal points and, in triangles with many, equal segments are merged as they come. So the
-/// memory follows the distinct ones. known_apart: per candidate, 1 if a test has
-/// shown that the two do not meet, and will not when their points are rounded. It may be empty.
+/// memory follows the distinct ones. known: per candidate, or empty; what is known is not tested again.
 Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
                        std::span<const CandidatePair> candidates, const Pencils& pencils,
-                       const Run& run, std::span<const char> known_apart = {});
+                       const Run& run, std::span<const KnownPair> known = {});
 
 /// Merges collinear segments that overlap: in pools, whose edges become segments, and in triangles
 /// with many segments on few lines. Fills `crossings` with the points that lie on merged segments.

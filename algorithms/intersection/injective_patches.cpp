@@ -418,7 +418,26 @@ InjectivePatches find_injective_patches(std::span<const Point3> points,
                                         std::span<const std::uint32_t> surface_of,
                                         const EdgeSides& edges, const Run& run,
                                         std::span<const Sign> turns) {
-    return Prover(points, triangles, surface_of, edges, run, turns)();
+    auto patches = Prover(points, triangles, surface_of, edges, run, turns)();
+    number_by_first_triangle(patches);
+    return patches;
+}
+
+void number_by_first_triangle(InjectivePatches& patches) {
+    std::vector<std::uint32_t> number(patches.axis.size(), no_group);
+    std::vector<Axis> axis;
+    std::vector<Sign> turn;
+    for (std::uint32_t& p : patches.of) {
+        if (p == no_group) continue;
+        if (number[p] == no_group) {
+            number[p] = static_cast<std::uint32_t>(axis.size());
+            axis.push_back(patches.axis[p]);
+            turn.push_back(patches.turn[p]);
+        }
+        p = number[p];
+    }
+    patches.axis = std::move(axis);
+    patches.turn = std::move(turn);
 }
 
 std::vector<bool> recheck_injective_patches(

@@ -33,12 +33,16 @@ struct InjectivePatches {
 /// Finds injective patches. It tries (1) whole surfaces, (2) connected components of what remains,
 /// (3) connected parts of what remains whose normals are longest along the same axis; each in the
 /// three projections. `triangles` are distinct, with area, over distinct points, and `edges` groups
-/// their sides. `turns` are their orientations seen along z, if these are known already.
+/// their sides. `turns` are their orientations seen along z, if these are known already. Patches are
+/// numbered in the order of their first triangles. Those of a surface depend on its triangles alone.
 InjectivePatches find_injective_patches(std::span<const Point3> points,
                                         std::span<const Triangle> triangles,
                                         std::span<const std::uint32_t> surface_of,
                                         const EdgeSides& edges, const Run& run = {},
                                         std::span<const Sign> turns = {});
+
+/// Numbers patches in the order of their first triangles, and leaves out those without any.
+void number_by_first_triangle(InjectivePatches& patches);
 
 /// Proves injectivity again after some vertices have moved a little, and returns for each patch
 /// whether the proof succeeded. Cost: one predicate per triangle with a moved corner, and tests of

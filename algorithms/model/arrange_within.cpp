@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include <terrane/algorithms/arrangement/known_pairs.hpp>
+#include <terrane/algorithms/arrangement/known_triangles.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 
 namespace terrane {
@@ -128,7 +128,7 @@ Result<Arranged> arrange_exactly_within(std::vector<Surface> surfaces,
                                         const ArrangeWithinOptions& options, const Run& run) {
     return guarded("for the arrangement", "arrange", [&]() -> Result<Arranged> {
         ArrangeWithinOptions chosen = options;
-        KnownPairs known; // of the surfaces, which all arrangements below have in common
+        KnownTriangles known; // of the surfaces, which all arrangements below have in common
         const bool arranges_again = chosen.seal_automatic || chosen.extend != 0 || seals(chosen);
         if (arranges_again && chosen.arrange.known == nullptr) chosen.arrange.known = &known;
         Arranged arranged;

@@ -15,7 +15,7 @@
 #include <utility>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
-#include <terrane/algorithms/arrangement/known_pairs.hpp>
+#include <terrane/algorithms/arrangement/known_triangles.hpp>
 #include <terrane/algorithms/arrangement/restricted.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
@@ -347,7 +347,7 @@ private:
     }
 
     const std::vector<Surface> surfaces_; ///< those of the input
-    KnownPairs known_; ///< of the surfaces, which all arrangements have in common
+    KnownTriangles known_; ///< of the surfaces, which all arrangements have in common
     ArrangeOptions arrange_;
     const SealDistances distances_;
     const Run& run_;

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/arrangement/known_pairs.hpp>
+#include <terrane/algorithms/arrangement/known_triangles.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
@@ -82,7 +82,7 @@ struct Realisations::State {
     std::vector<Motion> motions;
     std::vector<Mover> movers;
     std::unique_ptr<SharedPlaces> places;
-    KnownPairs known{}; ///< of the surfaces that do not move
+    KnownTriangles known{}; ///< of the surfaces that do not move
 
     Status find_movers(const Project& full);
     Status add_movers(const Project& full, std::size_t entry, std::vector<bool>& taken);

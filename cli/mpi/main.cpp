@@ -15,16 +15,13 @@
 
 #include <terrane/algorithms/core/process_memory.hpp>
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
-#include <terrane/algorithms/structure/names_in_blocks.hpp>
-#include <terrane/algorithms/structure/structure.hpp>
-#include <terrane/algorithms/volumes/volumes.hpp>
-#include <terrane/algorithms/volumes/volumes_in_blocks.hpp>
 #include <terrane/cli/mpi/mpi_supersteps.hpp>
 #include <terrane/cli/options/command_table.hpp>
 #include <terrane/cli/options/manual.hpp>
 #include <terrane/cli/reports/distribution_report.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/session.hpp>
+#include <terrane/cli/stages/block_volumes.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/file_set.hpp>
 #include <terrane/io/files.hpp>
@@ -77,29 +74,6 @@ Status check_command(const MpiCommand& command, MpiSupersteps& blocks) {
     });
 }
 
-/// Finds the volumes of the blocks, or those of the repaired whole in the process that has it.
-Status find_volumes_of(MpiSupersteps& blocks, DistributedReport& report, BlockPiece& whole) {
-    if (report.clean) {
-        auto volumes = find_volumes_in_blocks(blocks);
-        if (!volumes) return volumes.error();
-        report.volumes = std::move(*volumes);
-        auto names = name_volumes_in_blocks(blocks);
-        if (!names) return names.error();
-        report.volume_names = std::move(*names);
-        return count_work(blocks, report);
-    }
-    return blocks.visit([&](Block& b) -> Status {
-        if (b.index != 0) return Done{};
-        auto volumes = find_volumes(whole.mesh);
-        if (!volumes) return volumes.error();
-        const Structure structure = build_structure(whole.mesh, *volumes);
-        for (const ModelBlock& block : structure.blocks) report.volume_names.push_back(block.name);
-        report.volumes = std::move(volumes->measures);
-        whole.volumes_of_sides = std::move(volumes->of_sides);
-        return Done{};
-    });
-}
-
 Result<ExitStatus> arrange_files(const MpiCommand& command, MpiSupersteps& blocks, const Run& run) {
     if (auto sound = check_command(command, blocks); !sound) return sound.error();
     const auto read = [&](std::size_t file) { return read_surfaces(command.inputs[file]); };
@@ -119,7 +93,7 @@ Result<ExitStatus> arrange_files(const MpiCommand& command, MpiSupersteps& block
         }
     }
     if (command.volumes)
-        if (auto found = find_volumes_of(blocks, *report, whole.piece); !found)
+        if (auto found = find_block_volumes(blocks, *report, whole.piece); !found)
             return found.error();
     const auto written =
         write_pvtp(blocks, command.output, command.volumes, report->clean ? nullptr : &whole.piece);

@@ -37,7 +37,7 @@ void add_statistics(Json& json, const Arrangement& a) {
     json["input"]["duplicates"] = a.inputs.duplicates.size();
     json["search"] = {{"method", name_of(s.search)},
                       {"candidates", s.candidates},
-                      {"tests", s.candidates - s.known_apart},
+                      {"tests", s.candidates - s.known},
                       {"improper_contacts", s.improper_contacts}};
     json["arrangement"] = {{"triangles", s.triangles},
                            {"vertices", s.vertices},

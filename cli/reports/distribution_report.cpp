@@ -56,6 +56,10 @@ std::string rounding_text(const DistributedReport& r, const RoundingReport* whol
         return fmt::format("doubles: repaired in one process, in {}; no surface moved farther than "
                            "{:.3g}\n",
                            counted(whole->rounds, "round"), whole->surface_deviation);
+    if (r.repair && r.repair->contacts == 0)
+        return fmt::format("doubles: what lost its area dropped; no surface moved farther than "
+                           "{:.3g}\n",
+                           r.repair->surface_deviation);
     if (r.repair)
         return fmt::format("doubles: {} in the way repaired, in {}, with {} near; no surface moved "
                            "farther than {:.3g}\n",

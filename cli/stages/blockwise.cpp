@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/volumes/volumes_in_blocks.hpp>
 #include <terrane/cli/stages/blockwise.hpp>
 
 #include <algorithm>
@@ -16,9 +15,9 @@
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
 #include <terrane/algorithms/distribution/local_supersteps.hpp>
 #include <terrane/algorithms/distribution/pieces.hpp>
-#include <terrane/algorithms/structure/names_in_blocks.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/reports/distribution_report.hpp>
+#include <terrane/cli/stages/block_volumes.hpp>
 #include <terrane/io/atomic/file_set.hpp>
 #include <terrane/io/meshes/pvtp_output.hpp>
 
@@ -113,6 +112,32 @@ std::size_t blocks_for(const FileOptions& files, std::uint64_t memory) {
         std::clamp<std::uint64_t>(bytes * per_byte / (memory / 2 + 1) + 1, 1, most));
 }
 
+/// An arrangement in blocks. Where it is not clean, `whole` is its repair.
+struct InBlocks {
+    DistributedReport report;
+    RepairedWhole whole;
+
+    [[nodiscard]] const RoundingReport* repaired() const {
+        return report.clean ? nullptr : &whole.report;
+    }
+};
+
+/// Repairs the doubles of the whole model, if it fits into the memory.
+Result<RepairedWhole> repair_whole(Supersteps& blocks, const DistributedReport& report,
+                                   std::uint64_t memory, const Run& run) {
+    constexpr std::uint64_t per_triangle = 1000; // bytes; 760 measured where grids overlap
+    if (report.triangles > memory / per_triangle)
+        return Error{
+            ErrorCode::unsupported,
+            fmt::format("the nearest doubles are not a conforming mesh ({} in the way), and a "
+                        "repair needs the whole model in memory: {:.1f} GiB for {} triangles",
+                        counted(report.contacts, "pair or point"),
+                        static_cast<double>(report.triangles * per_triangle) * 0x1p-30,
+                        report.triangles),
+            memory_option};
+    return repair_in_one_process(blocks, run);
+}
+
 /// The mesh of all pieces, and the volumes beside each triangle, if they were found.
 struct Joined {
     Mesh mesh;
@@ -120,7 +145,13 @@ struct Joined {
 };
 
 /// Joins all pieces in memory.
-Result<Joined> joined(Supersteps& blocks, const DistributedReport& report) {
+Result<Joined> joined(Supersteps& blocks, InBlocks& made) {
+    const DistributedReport& report = made.report;
+    if (!report.clean) {
+        Joined all{std::move(made.whole.piece.mesh), {}};
+        if (report.volumes) all.volumes = volume_cells(made.whole.piece.volumes_of_sides);
+        return all;
+    }
     PieceJoiner joiner(report.vertices, report.triangles);
     const auto added = blocks.visit([&](Block& b) -> Status { return joiner.add(piece_of(b)); });
     if (!added) return added.error();
@@ -131,24 +162,25 @@ Result<Joined> joined(Supersteps& blocks, const DistributedReport& report) {
     return all;
 }
 
-Status write_in_blocks(const FileOptions& files, Supersteps& blocks,
-                       const DistributedReport& report, Session& session) {
-    const bool has_volumes = report.volumes.has_value();
+Status write_in_blocks(const FileOptions& files, Supersteps& blocks, InBlocks& made,
+                       Session& session) {
+    const bool has_volumes = made.report.volumes.has_value();
+    const BlockPiece* whole = made.report.clean ? nullptr : &made.whole.piece;
     bool wants_whole = false;
     for (const std::string& path : files.outputs) {
         if (!is_in_pieces(path)) {
             wants_whole = true;
             continue;
         }
-        if (auto written = write_pvtp(blocks, path, has_volumes); !written) return written;
+        if (auto written = write_pvtp(blocks, path, has_volumes, whole); !written) return written;
         tell_when_written(summary_stream(files), "wrote " + path + "\n");
     }
     if (!wants_whole) return Done{};
-    const auto all = joined(blocks, report);
+    const auto all = joined(blocks, made);
     if (!all) return all.error();
     WriteOptions options;
     options.cells = all->volumes;
-    options.region_names = report.volume_names;
+    options.region_names = made.report.volume_names;
     for (const std::string& path : files.outputs) {
         if (is_in_pieces(path)) continue;
         const Output output{path, Format::vtp};
@@ -200,7 +232,8 @@ Result<ExitStatus> arrange_blockwise(const FileOptions& files, const BlockwiseOp
     if (const auto sound = check_outputs(files); !sound) return sound.error();
     const Spool spool(files.outputs.front());
     if (!spool.state()) return spool.state().error();
-    const std::size_t count = blocks_for(files, *bytes_of_size(options.memory));
+    const std::uint64_t memory = *bytes_of_size(options.memory);
+    const std::size_t count = blocks_for(files, memory);
     LocalSupersteps blocks({count, spool.path()}, session.run());
     session.begin("arrange in blocks", Phase::computing);
     const auto read = [&](std::size_t file) -> Result<std::vector<Surface>> {
@@ -211,30 +244,29 @@ Result<ExitStatus> arrange_blockwise(const FileOptions& files, const BlockwiseOp
         session.begin("arrange in blocks", Phase::computing);
         return std::move(inputs->surfaces);
     };
-    auto report =
-        arrange_in_blocks(blocks, read, {files.inputs.size(), options.digest}, session.run());
-    if (report && report->clean && options.volumes) {
-        auto volumes = find_volumes_in_blocks(blocks);
-        if (!volumes) return volumes.error();
-        report->volumes = std::move(*volumes);
-        auto names = name_volumes_in_blocks(blocks);
-        if (!names) return names.error();
-        report->volume_names = std::move(*names);
-        if (auto counted = count_work(blocks, *report); !counted) return counted.error();
-    }
-    session.end_stage();
+    const Run& run = session.run();
+    auto report = arrange_in_blocks(blocks, read, {files.inputs.size(), options.digest}, run);
     if (!report) return report.error();
-    say(summary_stream(files), distribution_text(*report, nullptr, counted(count, "block")));
-    if (!report->clean)
-        return Error{
-            ErrorCode::unsupported,
-            fmt::format("the nearest doubles are not a conforming mesh ({} in the way), and a "
-                        "repair needs the whole model in memory; leave out --memory",
-                        counted(report->contacts, "pair or point")),
-            memory_option};
-    if (const auto written = write_in_blocks(files, blocks, *report, session); !written)
+    InBlocks made{std::move(*report), {}};
+    if (!made.report.clean) {
+        auto whole = repair_whole(blocks, made.report, memory, run);
+        if (!whole) return whole.error();
+        made.whole = std::move(*whole);
+        if (!made.whole.report.clean)
+            return Error{ErrorCode::unsupported,
+                         "no conforming mesh of doubles was found; without this option the pairs "
+                         "in the way are named",
+                         memory_option};
+    }
+    if (options.volumes)
+        if (auto found = find_block_volumes(blocks, made.report, made.whole.piece); !found)
+            return found.error();
+    session.end_stage();
+    say(summary_stream(files),
+        distribution_text(made.report, made.repaired(), counted(count, "block")));
+    if (const auto written = write_in_blocks(files, blocks, made, session); !written)
         return written.error();
-    Json statistics = distribution_json(*report, nullptr, count);
+    Json statistics = distribution_json(made.report, made.repaired(), count);
     if (const auto done = write_statistics(std::move(statistics), files.stats, total.lap()); !done)
         return done.error();
     return ExitStatus::done;

@@ -28,8 +28,8 @@ void add_blockwise(CLI::App& command, BlockwiseOptions& options);
 std::optional<std::uint64_t> bytes_of_size(std::string_view text);
 
 /// Arranges the inputs in blocks and writes .vtp and .pvtp files. Errors: bad_option for options that
-/// need the whole model; those of arrange_in_blocks; unsupported where the nearest doubles are not
-/// conforming, as their repair needs the whole model.
+/// need the whole model; those of arrange_in_blocks; unsupported where a repair of
+/// the doubles needs the whole model, and that does not fit into the memory.
 Result<ExitStatus> arrange_blockwise(const FileOptions& files, const BlockwiseOptions& options,
                                      Session& session);
 

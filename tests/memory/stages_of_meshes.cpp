@@ -4,7 +4,7 @@
 #include "fixture.hpp"
 #include "stage.hpp"
 
-#include <terrane/algorithms/arrangement/known_pairs.hpp>
+#include <terrane/algorithms/arrangement/known_triangles.hpp>
 
 namespace failing {
 namespace {
@@ -33,9 +33,9 @@ std::vector<Stage> arranging() {
         "arrange, search mixed", [&f] { return arrange(f.surfaces, {.search = Search::mixed}); },
         as_text));
     stages.push_back(stage(
-        "arrange, known pairs",
+        "arrange, known triangles",
         [&f]() -> Result<Arrangement> {
-            KnownPairs known;
+            KnownTriangles known;
             if (auto first = arrange(f.surfaces, {.known = &known}); !first) return first;
             return arrange(f.surfaces, {.known = &known});
         },

@@ -4,9 +4,12 @@
 // cost far more than dividing their plane once.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/intersection/contacts.hpp>
+#include <terrane/kernel/plane_filter.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
@@ -27,15 +30,26 @@ public:
         candidates_(candidates), run_(run) {}
 
     PlanePools operator()() {
-        if (!has_seeds()) return {};
-        if (!join([](const CandidatePair&) { return true; })) return {};
+        if (!has_seeds() || !join()) return {};
         return pools();
     }
 
 private:
+    [[nodiscard]] const Point3& at(std::uint32_t v) const { return soup_.points[v]; }
+
+    /// Tells whether the static filter alone shows that g is not in the plane of f. It is quick for
+    /// pairs with the same f one after the other.
+    [[nodiscard]] bool quickly_askew(std::uint32_t f, std::uint32_t g) {
+        const Triangle &t = soup_.triangles[f], &u = soup_.triangles[g];
+        if (f != plane_of_) plane_.emplace(at(t[0]), at(t[1]), at(t[2]));
+        plane_of_ = f;
+        return std::any_of(u.begin(), u.end(), [&](std::uint32_t v) {
+            return v != t[0] && v != t[1] && v != t[2] && plane_->side(at(v)).has_value();
+        });
+    }
+
     [[nodiscard]] bool are_coplanar(std::uint32_t f, std::uint32_t g) const {
         const Triangle &t = soup_.triangles[f], &u = soup_.triangles[g];
-        const auto at = [&](std::uint32_t v) -> const Point3& { return soup_.points[v]; };
         return std::all_of(u.begin(), u.end(), [&](std::uint32_t v) {
             if (v == t[0] || v == t[1] || v == t[2]) return true;
             return orient3d(at(t[0]), at(t[1]), at(t[2]), at(v)) == Sign::Zero;
@@ -43,14 +57,17 @@ private:
     }
 
     /// Joins the sets of coplanar triangles of pairs. Returns whether it was not stopped.
-    template <class Takes>
-    bool join(const Takes& takes) {
+    bool join() {
+        sets_ = DisjointSets(soup_.triangles.size());
+        is_joined_.assign(soup_.triangles.size(), false);
         for (std::size_t k = 0; k < candidates_.size(); ++k) {
             const CandidatePair& p = candidates_[k];
             if (k % 65536 == 0 && run_.stop.stop_requested()) return false;
-            if (takes(p) && sets_.find(p.first) != sets_.find(p.second) &&
-                are_coplanar(p.first, p.second))
-                sets_.join(p.first, p.second);
+            if (quickly_askew(p.first, p.second) || sets_.find(p.first) == sets_.find(p.second) ||
+                !are_coplanar(p.first, p.second))
+                continue;
+            sets_.join(p.first, p.second);
+            is_joined_[p.first] = is_joined_[p.second] = true;
         }
         return true;
     }
@@ -59,29 +76,29 @@ private:
     [[nodiscard]] std::vector<std::uint64_t> partners() {
         std::vector<std::uint64_t> pairs(soup_.triangles.size(), 0);
         for (const CandidatePair& p : candidates_) {
+            if (!is_joined_[p.first]) continue;
             const std::uint32_t set = sets_.find(p.first);
             if (set == sets_.find(p.second)) ++pairs[set];
         }
         return pairs;
     }
 
-    /// Joins triangles with many candidates only. Returns whether one of the sets may be a pool.
-    /// This is quick for most inputs, which have none.
+    /// Tells whether a triangle has so many coplanar partners after it as the triangles of a pool have on
+    /// average. Otherwise there is no pool, as is quickly seen for most inputs.
     bool has_seeds() {
-        if (candidates_.size() < least_partners * least_partners / 2) return false;
-        std::vector<std::uint32_t> degrees(soup_.triangles.size(), 0);
-        std::uint32_t most = 0;
-        for (const CandidatePair& p : candidates_)
-            for (const std::uint32_t f : {p.first, p.second}) most = std::max(most, ++degrees[f]);
-        if (most < least_partners) return false;
-        sets_ = DisjointSets(soup_.triangles.size());
-        const auto is_busy = [&](std::uint32_t f) { return degrees[f] >= least_partners / 2; };
-        if (!join([&](const CandidatePair& p) { return is_busy(p.first) && is_busy(p.second); }))
-            return false;
-        const auto pairs = partners();
-        return std::any_of(pairs.begin(), pairs.end(), [](std::uint64_t n) {
-            return n >= least_partners * least_partners / 4;
-        });
+        constexpr std::size_t needed = least_partners / 2; // half of the partners come before it
+        for (std::size_t start = 0, end = 0; start < candidates_.size(); start = end) {
+            const std::uint32_t f = candidates_[start].first;
+            while (end < candidates_.size() && candidates_[end].first == f) ++end;
+            std::size_t found = 0;
+            for (std::size_t k = start; k < end && found + (end - k) >= needed; ++k) {
+                const std::uint32_t g = candidates_[k].second;
+                if (quickly_askew(f, g) || !are_coplanar(f, g)) continue;
+                if (++found == needed) return true;
+            }
+            if (run_.stop.stop_requested()) return false;
+        }
+        return false;
     }
 
     [[nodiscard]] bool has_room(std::uint32_t f) const {
@@ -127,6 +144,9 @@ private:
     std::span<const CandidatePair> candidates_;
     const Run& run_;
     DisjointSets sets_{0};
+    std::vector<bool> is_joined_; ///< per triangle: whether its set has others
+    std::uint32_t plane_of_ = no_index;
+    std::optional<PlaneFilter> plane_; ///< of this triangle
 };
 
 } // namespace

@@ -6,7 +6,9 @@
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
-#include <terrane/algorithms/arrangement/known_pairs.hpp>
+#include <terrane/algorithms/arrangement/known_triangles.hpp>
+#include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/algorithms/intersection/injective_patches.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 
 #include <catch2/catch.hpp>
@@ -67,6 +69,22 @@ Surface lattice_soup(Engine& random, int triangles) {
             s.vertices.push_back(
                 {below(random, 4) / 3.0, below(random, 4) / 3.0, below(random, 4) / 3.0});
         s.triangles.push_back({first, first + 1, first + 2});
+    }
+    return s;
+}
+
+/// Tetrahedra, some of which overlap: no projection is injective on one of them, but some are on parts of
+/// it.
+Surface tetrahedra(Engine& random, int count) {
+    Surface s{"tetrahedra", Role::unknown, {}, {}};
+    for (int k = 0; k < count; ++k) {
+        const auto a = static_cast<std::uint32_t>(s.vertices.size());
+        for (int corner = 0; corner < 4; ++corner)
+            s.vertices.push_back(
+                {uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1)});
+        for (const Triangle& t :
+             {Triangle{0, 1, 2}, Triangle{0, 3, 1}, Triangle{1, 3, 2}, Triangle{0, 2, 3}})
+            s.triangles.push_back({a + t[0], a + t[1], a + t[2]});
     }
     return s;
 }
@@ -133,13 +151,15 @@ void require_same(const Arrangement& a, const Arrangement& b) {
     REQUIRE(a.state->crowded == b.state->crowded);
     REQUIRE(a.state->pools == b.state->pools);
     REQUIRE(a.state->patches.of == b.state->patches.of);
+    REQUIRE(a.state->patches.axis == b.state->patches.axis);
+    REQUIRE(a.state->patches.turn == b.state->patches.turn);
     for (std::uint32_t v = 0; v < a.vertices.size(); ++v) {
         REQUIRE(a.construction(VertexId(v)) == b.construction(VertexId(v)));
         REQUIRE(a.nearest(VertexId(v)) == b.nearest(VertexId(v)));
     }
 }
 
-Arrangement arranged_with(KnownPairs& known, const std::vector<Surface>& model,
+Arrangement arranged_with(KnownTriangles& known, const std::vector<Surface>& model,
                           const Run& run = {}) {
     auto a = arrange(model, {.known = &known}, run);
     REQUIRE(a);
@@ -154,12 +174,12 @@ Arrangement arranged_anew(const std::vector<Surface>& model) {
 
 /// Arranges a model, and again after each of several changes.
 std::size_t check_changes(Engine& random, std::vector<Surface> model, int changes) {
-    KnownPairs known;
+    KnownTriangles known;
     std::size_t taken_over = 0;
     for (int k = 0; k <= changes; ++k) {
         const Arrangement again = arranged_with(known, model);
         require_same(again, arranged_anew(model));
-        taken_over += again.statistics.known_apart;
+        taken_over += again.statistics.known;
         change(random, model);
     }
     return taken_over;
@@ -167,7 +187,7 @@ std::size_t check_changes(Engine& random, std::vector<Surface> model, int change
 
 } // namespace
 
-TEST_CASE("known pairs: an arrangement after changes is the same as anew", "[arrangement]") {
+TEST_CASE("known triangles: an arrangement after changes is the same as anew", "[arrangement]") {
     Engine random(91);
     std::size_t taken_over = 0;
     for (int k = 0; k < cases(60); ++k) {
@@ -175,36 +195,104 @@ TEST_CASE("known pairs: an arrangement after changes is the same as anew", "[arr
         const int count = 2 + below(random, 4);
         for (int s = 0; s < count; ++s) model.push_back(random_sheet(random, 3 + below(random, 8)));
         if (k % 3 == 0) model.push_back(lattice_soup(random, 40));
+        if (k % 2 == 0) model.insert(model.begin(), tetrahedra(random, 1 + below(random, 4)));
         taken_over += check_changes(random, std::move(model), 8);
     }
     CHECK(taken_over > 0);
 }
 
-TEST_CASE("known pairs: soups on a lattice", "[arrangement]") {
+TEST_CASE("known triangles: soups on a lattice", "[arrangement]") {
     Engine random(92);
     for (int k = 0; k < cases(8); ++k)
         check_changes(random, {lattice_soup(random, 60), lattice_soup(random, 30)}, 5);
 }
 
-TEST_CASE("known pairs: what stays is not tested again", "[arrangement]") {
+TEST_CASE("known triangles: what stays is not tested again", "[arrangement]") {
     Engine random(93);
     std::vector<Surface> model{random_sheet(random, 20), random_sheet(random, 20),
                                random_sheet(random, 20)};
-    KnownPairs known;
+    KnownTriangles known;
     const Arrangement first = arranged_with(known, model);
-    CHECK(first.statistics.known_apart == 0);
+    CHECK(first.statistics.known == 0);
     const Arrangement same = arranged_with(known, model);
-    CHECK(same.statistics.known_apart > 0);
+    CHECK(same.statistics.known > 0);
     CHECK(same.statistics.candidates == first.statistics.candidates);
     for (Point3& p : model[1].vertices) p = moved(p, 0.01);
     const Arrangement after = arranged_with(known, model);
-    CHECK(after.statistics.known_apart < same.statistics.known_apart);
+    CHECK(after.statistics.known < same.statistics.known);
     for (Surface& s : model)
         for (Point3& p : s.vertices) p = moved(p, 0.001);
-    CHECK(arranged_with(known, model).statistics.known_apart == 0);
+    CHECK(arranged_with(known, model).statistics.known == 0);
 }
 
-TEST_CASE("known pairs: where triangles meet densely, pairs are left out", "[arrangement]") {
+TEST_CASE("known triangles: patches of surfaces that stay are taken over", "[arrangement]") {
+    Engine random(97);
+    std::vector<Surface> model{random_sheet(random, 9), tetrahedra(random, 3),
+                               random_sheet(random, 9)};
+    const auto patches_in = [](const Soup& soup) {
+        return find_injective_patches(soup.points, soup.triangles, soup.surface_of, soup.edges);
+    };
+    KnownTriangles known;
+    const Soup before = merge_surfaces(model);
+    const InjectivePatches found = patches_in(before);
+    REQUIRE(found.axis.size() > 4);
+    InjectivePatches marked = found; // as no proof finds them
+    for (Axis& axis : marked.axis) axis = axis == Axis::x ? Axis::y : Axis::x;
+    const auto axis_at = [](const InjectivePatches& patches, const Soup& soup, std::uint32_t s) {
+        const auto first = std::ranges::find(soup.surface_of, s) - soup.surface_of.begin();
+        return patches.axis.at(patches.of.at(static_cast<std::size_t>(first)));
+    };
+    const auto keep = [&] { known.keep(before.points, before, marked, {}, {}, {}); };
+
+    SECTION("one moved") {
+        for (Point3& p : model[0].vertices) p = moved(p, 0.01);
+        keep();
+        const Soup after = merge_surfaces(model);
+        const auto patches = known.find_in(after)->patches();
+        CHECK(patches.of == patches_in(after).of);
+        CHECK(axis_at(patches, after, 0) == axis_at(found, before, 0));
+        CHECK(axis_at(patches, after, 1) == axis_at(marked, before, 1));
+        CHECK(axis_at(patches, after, 2) == axis_at(marked, before, 2));
+        CHECK(known.find_in(after) == nullptr);
+    }
+    SECTION("another order") {
+        std::swap(model[0], model[1]);
+        keep();
+        const Soup after = merge_surfaces(model);
+        const auto patches = known.find_in(after)->patches();
+        CHECK(patches.of == patches_in(after).of);
+        CHECK(axis_at(patches, after, 0) == axis_at(marked, before, 1));
+        CHECK(axis_at(patches, after, 1) == axis_at(marked, before, 0));
+    }
+    SECTION("a triangle less, and one turned") {
+        model[0].triangles.pop_back();
+        auto& turned = model[2].triangles.front();
+        std::swap(turned[0], turned[1]);
+        keep();
+        const Soup after = merge_surfaces(model);
+        const auto patches = known.find_in(after)->patches();
+        CHECK(patches.axis.size() == found.axis.size());
+        CHECK(axis_at(patches, after, 0) == axis_at(found, before, 0));
+        CHECK(axis_at(patches, after, 1) == axis_at(marked, before, 1));
+        CHECK(axis_at(patches, after, 2) == axis_at(found, before, 2));
+        CHECK(patches.turn == patches_in(after).turn);
+    }
+    SECTION("two surfaces become one") {
+        const auto first = static_cast<std::uint32_t>(model[0].vertices.size());
+        for (const Point3& p : model[1].vertices) model[0].vertices.push_back(p);
+        for (const Triangle& t : model[1].triangles)
+            model[0].triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+        model.erase(model.begin() + 1);
+        keep();
+        const Soup after = merge_surfaces(model);
+        const auto patches = known.find_in(after)->patches();
+        CHECK(patches.of == patches_in(after).of);
+        CHECK(axis_at(patches, after, 0) == axis_at(patches_in(after), after, 0));
+        CHECK(axis_at(patches, after, 1) == axis_at(marked, before, 2));
+    }
+}
+
+TEST_CASE("known triangles: where triangles meet densely, pairs are left out", "[arrangement]") {
     Engine random(94);
     Surface dense{"dense", Role::unknown, {}, {}};
     const auto add = [&](const Point3& a, const Point3& b, const Point3& c) {
@@ -238,18 +326,18 @@ TEST_CASE("known pairs: where triangles meet densely, pairs are left out", "[arr
     Surface few = dense;
     few.triangles.resize(12);
     for (const auto& [first, second] : {std::pair{dense, few}, std::pair{few, dense}}) {
-        KnownPairs known;
+        KnownTriangles known;
         arranged_with(known, {sheet, first});
         require_same(arranged_with(known, {sheet, second}), arranged_anew({sheet, second}));
     }
     check_changes(random, {sheet, dense}, 2);
 }
 
-TEST_CASE("known pairs: several threads may use one object", "[arrangement][threads]") {
+TEST_CASE("known triangles: several threads may use one object", "[arrangement][threads]") {
     Engine random(95);
     const std::vector<Surface> model{random_sheet(random, 9), random_sheet(random, 9)};
     const Arrangement anew = arranged_anew(model);
-    KnownPairs known;
+    KnownTriangles known;
     std::vector<std::vector<Triangle>> found(4);
     std::vector<std::thread> threads;
     for (auto& triangles : found)
@@ -264,10 +352,10 @@ TEST_CASE("known pairs: several threads may use one object", "[arrangement][thre
     for (const auto& triangles : found) CHECK(triangles == anew.triangles);
 }
 
-TEST_CASE("known pairs: a stopped arrangement keeps nothing", "[arrangement]") {
+TEST_CASE("known triangles: a stopped arrangement keeps nothing", "[arrangement]") {
     Engine random(96);
     const std::vector<Surface> model{random_sheet(random, 9), random_sheet(random, 9)};
-    KnownPairs known;
+    KnownTriangles known;
     arranged_with(known, model);
     std::stop_source stop;
     stop.request_stop();

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Passes what one arrangement found about its triangles on to the next one, where most surfaces have not
+// changed: the gaps of a model are closed in several arrangements, and the versions of a model share
+// surfaces.
+//
+// If a surface has kept its triangles, its patches are taken over. If both triangles of a pair have kept
+// their corners, the pair is not searched for again. If they had no contact, they are not tested
+// again. The next arrangement is the mesh that arrange() makes without this object. Nothing is kept
+// where the search or the test left pairs out: at crowded vertices, in pencils, and in pools.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/intersection/contacts.hpp>
+#include <terrane/algorithms/intersection/injective_patches.hpp>
+#include <terrane/algorithms/search/search.hpp>
+
+namespace terrane {
+
+/// The candidate pairs of a soup.
+struct Candidates {
+    std::vector<CandidatePair> pairs; ///< sorted, unique
+    std::vector<KnownPair> known;     ///< per pair: what an earlier arrangement found; or empty
+};
+
+/// The triangles of an arrangement, and what it found about them.
+struct KeptTriangles;
+
+/// The triangles of a soup that an earlier arrangement had, with the same corners in the same order.
+class KnownInSoup {
+public:
+    KnownInSoup(std::unique_ptr<const KeptTriangles> kept, const Soup& soup);
+    ~KnownInSoup();
+    KnownInSoup(const KnownInSoup&) = delete;
+    KnownInSoup& operator=(const KnownInSoup&) = delete;
+
+    /// Returns what find_injective_patches() finds in the soup. Only surfaces with other triangles than
+    /// before are looked at.
+    [[nodiscard]] InjectivePatches patches(const Run& run = {}) const;
+    /// Returns the pairs that candidate_pairs() finds in the soup. Returns nothing if most triangles
+    /// are new, if the new ones have very many pairs, or if a vertex is crowded: the caller then
+    /// searches all. patches: per triangle, see find_injective_patches.
+    [[nodiscard]] std::optional<Candidates> candidates(std::span<const std::uint32_t> patches,
+                                                       const Run& run = {}) const;
+
+private:
+    [[nodiscard]] std::uint32_t old_surface(std::uint32_t first, std::uint32_t last) const;
+
+    const std::unique_ptr<const KeptTriangles> kept_;
+    const Soup& soup_;
+    std::vector<std::uint32_t> old_of_; ///< per triangle: the kept one, or no_index
+};
+
+/// What the last arrangement with this object found; nothing at first. Several threads may use one
+/// object. An arrangement takes what is there, and leaves its own at the end; another one that begins
+/// in the meantime finds nothing.
+class KnownTriangles {
+public:
+    KnownTriangles();
+    ~KnownTriangles();
+    KnownTriangles(const KnownTriangles&) = delete;
+    KnownTriangles& operator=(const KnownTriangles&) = delete;
+
+    /// Takes what is there and finds it in a soup, which must outlive the result. Returns null if
+    /// nothing is there.
+    [[nodiscard]] std::unique_ptr<const KnownInSoup> find_in(const Soup& soup);
+
+    /// Keeps the patches of a soup, its candidates, all of them, and those that are near, sorted.
+    /// points: those of the soup. near, near_meet: see Contacts.
+    void keep(std::vector<Point3> points, const Soup& soup, const InjectivePatches& patches,
+              std::vector<CandidatePair> candidates, std::span<const CandidatePair> near,
+              std::span<const char> near_meet);
+
+private:
+    std::mutex mutex_;
+    std::unique_ptr<const KeptTriangles> kept_;
+};
+
+} // namespace terrane
