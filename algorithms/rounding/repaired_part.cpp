@@ -55,8 +55,8 @@ RepairedPart repair_part(PartOfDoubles part, const Run& run) {
     const double largest_move = part.largest_move;
     RoundingState state = state_of(part);
     const std::size_t all = state.all_triangles();
-    const KeptPlanes none;
-    RepairTask task{none};
+    const KeptPlanes no_planes;
+    RepairTask task{no_planes};
     task.limit = part.limit;
     task.max_rounds = RoundingOptions{}.max_rounds;
     task.hopeless = hopeless_from(all);

@@ -277,6 +277,20 @@ TEST_CASE("known triangles: patches of surfaces that stay are taken over", "[arr
         CHECK(axis_at(patches, after, 2) == axis_at(found, before, 2));
         CHECK(patches.turn == patches_in(after).turn);
     }
+    SECTION("the last triangle of a surface becomes the first one of the next") {
+        const Triangle last = model[0].triangles.back();
+        model[0].triangles.pop_back();
+        const auto first = static_cast<std::uint32_t>(model[1].vertices.size());
+        for (const std::uint32_t v : last) model[1].vertices.push_back(model[0].vertices[v]);
+        model[1].triangles.insert(model[1].triangles.begin(), {first, first + 1, first + 2});
+        keep();
+        const Soup after = merge_surfaces(model);
+        const auto patches = known.find_in(after)->patches();
+        CHECK(patches.of == patches_in(after).of);
+        CHECK(axis_at(patches, after, 0) == axis_at(found, before, 0));
+        CHECK(axis_at(patches, after, 1) == axis_at(patches_in(after), after, 1));
+        CHECK(axis_at(patches, after, 2) == axis_at(marked, before, 2));
+    }
     SECTION("two surfaces become one") {
         const auto first = static_cast<std::uint32_t>(model[0].vertices.size());
         for (const Point3& p : model[1].vertices) model[0].vertices.push_back(p);
@@ -331,6 +345,27 @@ TEST_CASE("known triangles: where triangles meet densely, pairs are left out", "
         require_same(arranged_with(known, {sheet, second}), arranged_anew({sheet, second}));
     }
     check_changes(random, {sheet, dense}, 2);
+}
+
+TEST_CASE("known triangles: a pair that was near comes into a pool", "[arrangement]") {
+    Engine random(98);
+    const auto triangle = [](const Point3& a, const Point3& b, const Point3& c) {
+        return Surface{"triangle", Role::unknown, {a, b, c}, {{0, 1, 2}}};
+    };
+    std::vector<Surface> model{random_sheet(random, 40),
+                               triangle({0.5, 0.5, 0.5}, {0.9, 0.5, 0.5}, {0.5, 0.9, 0.5}),
+                               triangle({0.5, 0.5, 0.5}, {0.1, 0.5, 0.5}, {0.5, 0.1, 0.5})};
+    KnownTriangles known;
+    const Arrangement first = arranged_with(known, model);
+    CHECK(first.state->pools.empty());
+    for (int k = 0; k < 150; ++k) {
+        const auto at = [&] { return Point3{uniform(random, 0, 1), uniform(random, 0, 1), 0.5}; };
+        model.push_back(triangle(at(), at(), at()));
+    }
+    const Arrangement again = arranged_with(known, model);
+    CHECK(again.statistics.known > 0);
+    CHECK(again.state->pools[model.front().triangles.size()] != no_group);
+    require_same(again, arranged_anew(model));
 }
 
 TEST_CASE("known triangles: several threads may use one object", "[arrangement][threads]") {
