@@ -30,7 +30,8 @@ public:
     Status add(const BlockPiece& piece);
     /// Returns the mesh. Errors: bad_index (a number is missing; law 4).
     Result<Mesh> finish() &&;
-    /// Returns the volumes in front of and behind each triangle, if the pieces told them.
+    /// Returns the volumes in front of and behind each triangle, if the pieces told them. Call it
+    /// after the last piece and before finish().
     [[nodiscard]] std::span<const std::array<std::uint32_t, 2>> volumes_of_sides() const {
         return volumes_of_sides_;
     }

@@ -155,10 +155,11 @@ Result<Joined> joined(Supersteps& blocks, InBlocks& made) {
     PieceJoiner joiner(report.vertices, report.triangles);
     const auto added = blocks.visit([&](Block& b) -> Status { return joiner.add(piece_of(b)); });
     if (!added) return added.error();
+    Joined all;
+    if (report.volumes) all.volumes = volume_cells(joiner.volumes_of_sides());
     auto mesh = std::move(joiner).finish();
     if (!mesh) return mesh.error();
-    Joined all{std::move(*mesh), {}};
-    if (report.volumes) all.volumes = volume_cells(joiner.volumes_of_sides());
+    all.mesh = std::move(*mesh);
     return all;
 }
 
