@@ -37,7 +37,7 @@ struct BuildInput {
     std::vector<Surface> boundary{};     ///< of the volume of interest; empty: there is none
     std::vector<StatedRegion> regions{}; ///< that the files state, by the surfaces; without use
                                          ///< where layers are put in order
-    KnownTriangles* known = nullptr;         ///< see ArrangeOptions::known
+    KnownTriangles* known = nullptr;     ///< see ArrangeOptions::known
 };
 
 /// The stages in their order. A stage that the project does not ask for is left out.
