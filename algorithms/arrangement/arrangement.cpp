@@ -278,8 +278,8 @@ ArrangeStatistics statistics_of(const Candidates& candidates, const Retriangulat
     return all;
 }
 
-/// Passes patches and candidates on to the next arrangement, unless some pairs were left out of the
-/// search or of the test.
+/// Keeps patches and candidates for the next arrangement. Keeps nothing if the search or the test left
+/// pairs out.
 void keep_known(const ArrangeOptions& options, const Soup& soup, const InjectivePatches& patches,
                 const Retriangulation& division, const LeftOut& left_out, Candidates candidates) {
     if (options.known == nullptr || left_out.any_crowded || !left_out.pencils.of.empty() ||

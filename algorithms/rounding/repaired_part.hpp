@@ -4,8 +4,8 @@
 //
 // Guarantee: a part that needs no more of the whole (RepairedPart::missing is empty) and is clean has the
 // points and triangles that round_to_doubles() gives the whole mesh, in the same order.
-// Reason: what rounding does where doubles lie depends on triangles that overlap those in the way, on
-// counts of pairs, all of which are in the part, and on few numbers of the whole, which are passed on.
+// Reason: rounding looks at the triangles that overlap those in the way. It counts pairs that meet
+// improperly, and the part has all of them. The caller states the numbers of the whole that it uses.
 #pragma once
 
 #include <array>

@@ -57,7 +57,7 @@ std::string rounding_text(const DistributedReport& r, const RoundingReport* whol
                            "{:.3g}\n",
                            counted(whole->rounds, "round"), whole->surface_deviation);
     if (r.repair && r.repair->contacts == 0)
-        return fmt::format("doubles: what lost its area dropped; no surface moved farther than "
+        return fmt::format("doubles: triangles without area dropped; no surface moved farther than "
                            "{:.3g}\n",
                            r.repair->surface_deviation);
     if (r.repair)

@@ -17,7 +17,7 @@ TEST_CASE("cli: arrange --memory repairs doubles as arrange does, near what is i
         const auto r = folder.run("arrange" + in + "-o m.vtp --memory 8KiB --stats s.json");
         INFO(r.err);
         REQUIRE(r.status == 0);
-        CHECK(contains(r.out, name == "needle_tip" ? "doubles: what lost its area dropped; "
+        CHECK(contains(r.out, name == "needle_tip" ? "doubles: triangles without area dropped; "
                                                    : "in the way repaired, in "));
         const auto stats = Json::parse(folder.read("s.json"));
         CHECK(stats["blocks"] > 2);

@@ -39,7 +39,7 @@ private:
 
     /// Tells whether the static filter alone shows that g is not in the plane of f. It is quick for
     /// pairs with the same f one after the other.
-    [[nodiscard]] bool quickly_askew(std::uint32_t f, std::uint32_t g) {
+    [[nodiscard]] bool quickly_off_plane(std::uint32_t f, std::uint32_t g) {
         const Triangle &t = soup_.triangles[f], &u = soup_.triangles[g];
         if (f != plane_of_) plane_.emplace(at(t[0]), at(t[1]), at(t[2]));
         plane_of_ = f;
@@ -63,8 +63,8 @@ private:
         for (std::size_t k = 0; k < candidates_.size(); ++k) {
             const CandidatePair& p = candidates_[k];
             if (k % 65536 == 0 && run_.stop.stop_requested()) return false;
-            if (quickly_askew(p.first, p.second) || sets_.find(p.first) == sets_.find(p.second) ||
-                !are_coplanar(p.first, p.second))
+            if (quickly_off_plane(p.first, p.second) ||
+                sets_.find(p.first) == sets_.find(p.second) || !are_coplanar(p.first, p.second))
                 continue;
             sets_.join(p.first, p.second);
             is_joined_[p.first] = is_joined_[p.second] = true;
@@ -93,7 +93,7 @@ private:
             std::size_t found = 0;
             for (std::size_t k = start; k < end && found + (end - k) >= needed; ++k) {
                 const std::uint32_t g = candidates_[k].second;
-                if (quickly_askew(f, g) || !are_coplanar(f, g)) continue;
+                if (quickly_off_plane(f, g) || !are_coplanar(f, g)) continue;
                 if (++found == needed) return true;
             }
             if (run_.stop.stop_requested()) return false;

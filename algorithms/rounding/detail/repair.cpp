@@ -171,9 +171,9 @@ bool Repair::snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& 
 }
 
 /// Divides the triangles that still cross, exactly, and rounds the new points to the nearest
-/// doubles. These are much finer than the grid, so most of the parts stay clear of each other.
-/// Returns false without dividing anything if there are more than most_pairs pairs, or the triangles
-/// would multiply.
+/// doubles. Doubles are much finer than the grid, so most parts stay clear of each other. Where more
+/// than most_pairs pairs cross, or division would multiply the triangles, it divides nothing and
+/// returns false.
 bool Repair::divide_again(std::size_t most_pairs) {
     const auto pairs = contacts();
     if (pairs.size() > most_pairs) return false;

@@ -47,9 +47,9 @@ inline double deviation_of(const RoundingState& state, double moved) {
 std::size_t crowded_from(std::size_t triangles);
 std::size_t hopeless_from(std::size_t triangles);
 
-/// Finds the pairs that meet improperly; afterwards their corners only are dirty. Two triangles
-/// without a dirty corner never meet improperly, and are tested if `tests_all`. `is_improper` may
-/// leave pairs out.
+/// Finds the pairs that meet improperly. Afterwards only their corners are dirty. Two triangles without
+/// a dirty corner never meet improperly; `tests_all` tests them all the same. `is_improper` may leave
+/// pairs out.
 std::vector<CandidatePair> find_contacts(RoundingState& state, bool tests_all,
                                          const PairFilter& is_improper, const Run& run);
 

@@ -39,7 +39,7 @@ int below(Engine& random, int n) {
     return static_cast<int>(random() % static_cast<unsigned>(n));
 }
 
-/// Triangles in some inclined planes, in random order. A pair is a candidate with some probability.
+/// Draws triangles in inclined planes, in random order, and chooses pairs of them as candidates.
 Planes random_planes(Engine& random) {
     Planes all;
     const int planes = 1 + below(random, 4), triangles = 33 + below(random, 140);
