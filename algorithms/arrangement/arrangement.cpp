@@ -335,10 +335,12 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     for (const Surface& s : surfaces) a.surfaces.push_back({s.name, s.role});
 
     // (a) one soup of distinct points and triangles
-    Soup soup = merge_surfaces(surfaces, run);
+    Soup soup = merge_with_repeated(surfaces, run);
     const Search search = method_used(options.search, soup.triangles.size());
-    std::unique_ptr<const KnownInSoup> known;
+    std::unique_ptr<KnownInSoup> known;
     if (options.known != nullptr && search == Search::bvh) known = options.known->find_in(soup);
+    soup.edges = known ? known->edges(run) : group_edges(soup.triangles, soup.points.size(), run);
+    if (set_repeated_aside(soup, run) && known) known->find_again();
     InjectivePatches patches =
         known ? known->patches(run)
               : find_injective_patches(soup.points, soup.triangles, soup.surface_of, soup.edges,

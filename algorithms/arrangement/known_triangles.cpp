@@ -16,6 +16,7 @@ struct KeptTriangles {
     std::vector<Point3> points;
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> starts; ///< of surfaces, see starts_of()
+    EdgeSides edges;
     InjectivePatches patches;
     std::vector<CandidatePair> candidates; ///< sorted
     std::vector<KnownPair> known;          ///< per candidate
@@ -133,11 +134,24 @@ Candidates merged(std::span<const KnownCandidate> known, std::span<const Candida
 } // namespace
 
 KnownInSoup::KnownInSoup(std::unique_ptr<const KeptTriangles> kept, const Soup& soup) :
-    kept_(std::move(kept)), soup_(soup),
-    old_of_(
-        old_triangles(kept_->triangles, soup.triangles, old_points(kept_->points, soup.points))) {}
+    kept_(std::move(kept)), soup_(soup) {
+    find_again();
+}
 
 KnownInSoup::~KnownInSoup() = default;
+
+void KnownInSoup::find_again() {
+    old_of_ = old_triangles(kept_->triangles, soup_.triangles,
+                            old_points(kept_->points, soup_.points));
+}
+
+EdgeSides KnownInSoup::edges(const Run& run) const {
+    const RenamedTriangles renamed(kept_->triangles, kept_->points.size(), soup_.triangles,
+                                   old_of_);
+    if (2 * renamed.others.size() > soup_.triangles.size())
+        return group_edges(soup_.triangles, soup_.points.size(), run);
+    return edges_after(kept_->edges, renamed, soup_.triangles, soup_.points.size(), run);
+}
 
 /// Returns the first old triangle of the surface that had the triangles [first, last), in this order
 /// and no others; or no_index.
@@ -210,13 +224,13 @@ std::optional<Candidates> KnownInSoup::candidates(std::span<const std::uint32_t>
 KnownTriangles::KnownTriangles() = default;
 KnownTriangles::~KnownTriangles() = default;
 
-std::unique_ptr<const KnownInSoup> KnownTriangles::find_in(const Soup& soup) {
+std::unique_ptr<KnownInSoup> KnownTriangles::find_in(const Soup& soup) {
     std::unique_ptr<const KeptTriangles> kept;
     {
         const std::scoped_lock lock(mutex_);
         kept = std::move(kept_);
     }
-    return kept ? std::make_unique<const KnownInSoup>(std::move(kept), soup) : nullptr;
+    return kept ? std::make_unique<KnownInSoup>(std::move(kept), soup) : nullptr;
 }
 
 void KnownTriangles::keep(std::vector<Point3> points, const Soup& soup,
@@ -226,6 +240,7 @@ void KnownTriangles::keep(std::vector<Point3> points, const Soup& soup,
     kept->points = std::move(points);
     kept->triangles.assign(soup.triangles.begin(), soup.triangles.end());
     kept->starts = starts_of(soup.surface_of);
+    kept->edges = soup.edges;
     kept->patches = patches;
     kept->known.assign(candidates.size(), KnownPair::apart);
     for (std::size_t k = 0, next = 0; k < candidates.size() && next < near.size(); ++k)

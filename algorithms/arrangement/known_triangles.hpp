@@ -4,7 +4,8 @@
 // changed: the gaps of a model are closed in several arrangements, and the versions of a model share
 // surfaces.
 //
-// If a surface has kept its triangles, its patches are taken over. If both triangles of a pair have kept
+// If a surface has kept its triangles, its patches are taken over. Where all triangles at a vertex have
+// kept their corners, so are its edges. If both triangles of a pair have kept
 // their corners, the pair is not searched for again. If they had no contact, they are not tested
 // again. The next arrangement is the mesh that arrange() makes without this object. Nothing is kept
 // where the search or the test left pairs out: at crowded vertices, in pencils, and in pools.
@@ -42,6 +43,11 @@ public:
     KnownInSoup(const KnownInSoup&) = delete;
     KnownInSoup& operator=(const KnownInSoup&) = delete;
 
+    /// Finds them again, after triangles of the soup were removed.
+    void find_again();
+    /// Returns what group_edges() finds in the soup. The edges of triangles that are in it are taken
+    /// over.
+    [[nodiscard]] EdgeSides edges(const Run& run = {}) const;
     /// Returns what find_injective_patches() finds in the soup. Only surfaces with other triangles than
     /// before are looked at.
     [[nodiscard]] InjectivePatches patches(const Run& run = {}) const;
@@ -71,9 +77,9 @@ public:
 
     /// Takes what is there and finds it in a soup, which must outlive the result. Returns null if
     /// nothing is there.
-    [[nodiscard]] std::unique_ptr<const KnownInSoup> find_in(const Soup& soup);
+    [[nodiscard]] std::unique_ptr<KnownInSoup> find_in(const Soup& soup);
 
-    /// Keeps the patches of a soup, its candidates, all of them, and those that are near, sorted.
+    /// Keeps the edges and patches of a soup, its candidates, all of them, and those that are near, sorted.
     /// points: those of the soup. near, near_meet: see Contacts.
     void keep(std::vector<Point3> points, const Soup& soup, const InjectivePatches& patches,
               std::vector<CandidatePair> candidates, std::span<const CandidatePair> near,

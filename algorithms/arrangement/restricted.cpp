@@ -6,7 +6,7 @@
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/arrangement/intersection_edges.hpp>
-#include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/adjacency.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/kernel/assertion.hpp>
 
@@ -29,10 +29,11 @@ std::vector<T> kept_values(const std::vector<T>& values, const std::vector<bool>
     return kept;
 }
 
-void drop_unused_vertices(Arrangement& a) {
+void drop_unused_vertices(Arrangement& a, Adjacency& adjacency) {
     const VertexRenumbering numbers(used_vertices(a.vertices.size(), a.triangles));
     numbers.compact(a.vertices);
     numbers.rename(a.triangles);
+    numbers.rename(adjacency.edges);
 }
 
 /// Labels triangles by patch, and those without a patch by surface. Triangles with several parents
@@ -61,18 +62,18 @@ void drop_neighbours_without_parts(const Arrangement& a, ExactState& state) {
 
 } // namespace
 
-Arrangement restricted(Arrangement a, const std::vector<bool>& keep, const Run& run) {
+Arrangement restricted(Arrangement a, const std::vector<bool>& keep) {
     TERRANE_ASSERT(keep.size() == a.triangles.size());
     if (std::find(keep.begin(), keep.end(), false) == keep.end()) return a;
     ExactState& state = own_state(a);
     state.whole = false;
+    state.adjacency = adjacency_of_kept(state.adjacency, labels_of(a), a.triangles, keep);
     a.triangles = kept_values(a.triangles, keep);
     state.patches.of = kept_values(state.patches.of, keep);
     a.parents_of = kept_lists(a.parents_of, keep);
     a.surfaces_of = kept_lists(a.surfaces_of, keep);
-    drop_unused_vertices(a);
+    drop_unused_vertices(a, state.adjacency);
     drop_neighbours_without_parts(a, state);
-    state.adjacency = adjacency_of(group_edges(a.triangles, a.vertices.size(), run), labels_of(a));
     a.intersection_edges = find_intersection_edges(state.adjacency, a.inputs, a.parents_of);
     return a;
 }

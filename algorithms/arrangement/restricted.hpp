@@ -22,6 +22,6 @@ namespace terrane {
 ///     state becomes false, and no certificate can be written. If all triangles are kept, nothing
 ///     changes.
 /// Cost: linear.
-Arrangement restricted(Arrangement arrangement, const std::vector<bool>& keep, const Run& run = {});
+Arrangement restricted(Arrangement arrangement, const std::vector<bool>& keep);
 
 } // namespace terrane

@@ -172,29 +172,6 @@ std::vector<std::uint32_t> first_with_same_corners(const Soup& soup, const Run& 
     return first;
 }
 
-// Keeps the distinct triangles of the soup and lists the others.
-void set_duplicates_aside(Soup& soup, const Run& run) {
-    const auto first = first_with_same_corners(soup, run);
-    if (first.empty()) return;
-    std::uint32_t kept = 0;
-    const auto input_of = soup.input_of;
-    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
-        if (first[t] != t) {
-            soup.duplicates.push_back({input_of[t], input_of[first[t]]});
-            continue;
-        }
-        soup.triangles[kept] = soup.triangles[t];
-        soup.input_of[kept] = soup.input_of[t];
-        soup.turns[kept] = soup.turns[t];
-        soup.surface_of[kept++] = soup.surface_of[t];
-    }
-    soup.triangles.resize(kept);
-    soup.input_of.resize(kept);
-    soup.surface_of.resize(kept);
-    soup.turns.resize(kept);
-    soup.edges = group_edges(soup.triangles, soup.points.size(), run);
-}
-
 void name_corners(Soup& soup, std::span<const Surface> surfaces,
                   const std::vector<std::uint32_t>& first, const Run& run) {
     soup.input_corners.resize(soup.first_input_triangle.back());
@@ -251,7 +228,7 @@ void take_triangles(Soup& soup, const Run& run) {
 
 } // namespace
 
-Soup merge_surfaces(std::span<const Surface> surfaces, const Run& run) {
+Soup merge_with_repeated(std::span<const Surface> surfaces, const Run& run) {
     Soup soup;
     std::size_t vertices = 0, triangles = 0;
     for (const Surface& s : surfaces) {
@@ -275,8 +252,36 @@ Soup merge_surfaces(std::span<const Surface> surfaces, const Run& run) {
     places.reset();
     name_corners(soup, surfaces, first, run);
     take_triangles(soup, run);
+    return soup;
+}
+
+bool set_repeated_aside(Soup& soup, const Run& run) {
+    const auto first = first_with_same_corners(soup, run);
+    if (first.empty()) return false;
+    std::uint32_t kept = 0;
+    const auto input_of = soup.input_of;
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+        if (first[t] != t) {
+            soup.duplicates.push_back({input_of[t], input_of[first[t]]});
+            continue;
+        }
+        soup.triangles[kept] = soup.triangles[t];
+        soup.input_of[kept] = soup.input_of[t];
+        soup.turns[kept] = soup.turns[t];
+        soup.surface_of[kept++] = soup.surface_of[t];
+    }
+    soup.triangles.resize(kept);
+    soup.input_of.resize(kept);
+    soup.surface_of.resize(kept);
+    soup.turns.resize(kept);
     soup.edges = group_edges(soup.triangles, soup.points.size(), run);
-    set_duplicates_aside(soup, run);
+    return true;
+}
+
+Soup merge_surfaces(std::span<const Surface> surfaces, const Run& run) {
+    Soup soup = merge_with_repeated(surfaces, run);
+    soup.edges = group_edges(soup.triangles, soup.points.size(), run);
+    set_repeated_aside(soup, run);
     return soup;
 }
 

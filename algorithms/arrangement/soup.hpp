@@ -39,6 +39,13 @@ struct Soup {
 /// Merges surfaces. Cost: linear (hashing), one predicate per triangle.
 Soup merge_surfaces(std::span<const Surface> surfaces, const Run& run = {});
 
+// The two steps of merge_surfaces(), for callers who know the edges in between:
+/// Merges surfaces, but keeps repeated triangles, and groups no edges.
+Soup merge_with_repeated(std::span<const Surface> surfaces, const Run& run = {});
+/// Sets repeated triangles aside, given the edges of all. Returns whether there were any; the edges
+/// are then grouped anew.
+bool set_repeated_aside(Soup& soup, const Run& run = {});
+
 /// Returns the box of each triangle.
 std::vector<Box> boxes_of(std::span<const Point3> points, std::span<const Triangle> triangles);
 

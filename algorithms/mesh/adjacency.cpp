@@ -20,6 +20,15 @@ void add_edge(Adjacency& a, const Edge& edge, std::span<const std::uint32_t> tri
     a.triangles_at.push_back(triangles);
 }
 
+/// Returns the edge that two triangles have in common; they must share two corners and no more.
+Edge common_edge(const Triangle& t, const Triangle& u) {
+    std::array<std::uint32_t, 2> ends{};
+    std::size_t count = 0;
+    for (const std::uint32_t v : t)
+        if (count < 2 && (v == u[0] || v == u[1] || v == u[2])) ends[count++] = v;
+    return {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
+}
+
 /// Marks in `is_new` the vertices of the triangles that are not in the old mesh. Returns these
 /// triangles and all that may share an edge with one of them, ascending.
 std::vector<std::uint32_t> triangles_near_new(const Divided& divided, std::vector<char>& is_new,
@@ -170,6 +179,45 @@ Adjacency adjacency_after(const EdgeSides& old, const Labels& old_labels, const 
     for (std::size_t k = 1; k < parts.size(); ++k) append(all, std::move(parts[k]));
     merge(all, edges_of_new(divided, old_labels, near, is_new, run));
     return all;
+}
+
+Adjacency adjacency_of_kept(const Adjacency& all, const Labels& labels,
+                            std::span<const Triangle> triangles, const std::vector<bool>& keep) {
+    std::vector<std::uint32_t> number(keep.size(), no_index);
+    std::uint32_t next = 0;
+    for (std::size_t t = 0; t < keep.size(); ++t)
+        if (keep[t]) number[t] = next++;
+    Adjacency kept;
+    std::vector<std::pair<Edge, std::uint32_t>> alone; // triangles whose neighbours are gone
+    for (const Adjacency::Inner& list : all.inner) {
+        Adjacency::Inner& inner = kept.inner.emplace_back();
+        for (const auto& [t, u] : list)
+            if (keep[t] && keep[u])
+                inner.push_back({number[t], number[u]});
+            else if (keep[t] || keep[u])
+                alone.emplace_back(common_edge(triangles[t], triangles[u]),
+                                   number[keep[t] ? t : u]);
+    }
+    Adjacency::Inner& inner = kept.inner.emplace_back(); // of edges where others are gone
+    std::vector<std::uint32_t> here, numbers;
+    for (std::size_t e = 0; e < all.edges.size(); ++e) {
+        here.clear();
+        numbers.clear();
+        for (const std::uint32_t t : all.triangles_at[e]) {
+            if (!keep[t]) continue;
+            here.push_back(t);
+            numbers.push_back(number[t]);
+        }
+        if (here.size() == 2 && is_inner(labels[here[0]], labels[here[1]]))
+            inner.push_back({numbers[0], numbers[1]});
+        else if (!here.empty())
+            add_edge(kept, all.edges[e], numbers);
+    }
+    std::ranges::sort(alone);
+    Adjacency borders;
+    for (const auto& [edge, t] : alone) add_edge(borders, edge, std::span(&t, 1));
+    merge(kept, std::move(borders));
+    return kept;
 }
 
 } // namespace terrane

@@ -52,4 +52,10 @@ struct Divided {
 Adjacency adjacency_after(const EdgeSides& old, const Labels& old_labels, const Divided& divided,
                           const Run& run = {});
 
+/// Returns the adjacency of the triangles of a mesh that are kept, numbered in their order; vertices
+/// keep their numbers. `all`, `labels`: of all triangles. The inner edges are in another order than
+/// those of adjacency_of(). Cost: linear, without grouping.
+Adjacency adjacency_of_kept(const Adjacency& all, const Labels& labels,
+                            std::span<const Triangle> triangles, const std::vector<bool>& keep);
+
 } // namespace terrane

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/invariants.hpp>
+#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/kernel/assertion.hpp>
 
@@ -87,6 +88,78 @@ EdgeSides group_edges(std::span<const Triangle> triangles, std::size_t vertex_co
         for (std::size_t v = first; v < last; ++v)
             sort_by_high(std::span(e.sides).subspan(e.starts[v], e.starts[v + 1] - e.starts[v]));
     });
+    return e;
+}
+
+RenamedTriangles::RenamedTriangles(std::span<const Triangle> old, std::size_t old_vertices,
+                                   std::span<const Triangle> triangles,
+                                   std::span<const std::uint32_t> old_of) :
+    number(old.size(), no_index),
+    vertex_now(old_vertices, no_index) {
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const auto& [a, b, c] = triangles[t];
+        const bool is_known = old_of[t] != no_index && number[old_of[t]] == no_index && [&] {
+            const auto& [d, e, f] = old[old_of[t]];
+            return (a < b) == (d < e) && (b < c) == (e < f) && (c < a) == (f < d);
+        }();
+        if (!is_known) {
+            others.push_back(t);
+            continue;
+        }
+        number[old_of[t]] = t;
+        for (unsigned i = 0; i < 3; ++i) vertex_now[old[old_of[t]][i]] = triangles[t][i];
+    }
+}
+
+EdgeSides edges_after(const EdgeSides& old, const RenamedTriangles& renamed,
+                      std::span<const Triangle> triangles, std::size_t vertex_count,
+                      const Run& run) {
+    const auto for_old_vertices = [&](const auto& work) {
+        for_ranges(old.starts.size() - 1, run, [&](std::size_t first, std::size_t last) {
+            for (std::size_t v = first; v < last; ++v)
+                if (renamed.vertex_now[v] != no_index)
+                    work(renamed.vertex_now[v],
+                         std::span(old.sides).subspan(old.starts[v],
+                                                      old.starts[v + 1] - old.starts[v]));
+        });
+    };
+    EdgeSides e; // starts has the counts of the vertices first
+    e.starts.assign(vertex_count + 1, 0);
+    for_old_vertices([&](std::uint32_t v, std::span<const EdgeSides::Side> sides) {
+        e.starts[v] = static_cast<std::uint32_t>(std::ranges::count_if(sides, [&](const auto& s) {
+            return renamed.number[s.triangle] != no_index;
+        }));
+    });
+    std::vector<char> is_mixed(vertex_count, 0); // whether another triangle has sides there
+    for (const std::uint32_t t : renamed.others) {
+        const AscendingCorners c(triangles[t]);
+        e.starts[c.low] += 2;
+        e.starts[c.middle] += 1;
+        is_mixed[c.low] = is_mixed[c.middle] = 1;
+    }
+    std::uint32_t total = 0;
+    for (std::uint32_t& start : e.starts) total += std::exchange(start, total);
+    e.sides.resize(total);
+    std::vector<std::uint32_t> next = e.starts;
+    for (const std::uint32_t t : renamed.others) {
+        const AscendingCorners c(triangles[t]);
+        e.sides[next[c.low]++] = {c.middle, t};
+        e.sides[next[c.low]++] = {c.high, t};
+        e.sides[next[c.middle]++] = {c.high, t};
+    }
+    for_old_vertices([&](std::uint32_t v, std::span<const EdgeSides::Side> sides) {
+        std::uint32_t at = next[v];
+        for (const EdgeSides::Side& s : sides)
+            if (renamed.number[s.triangle] != no_index)
+                e.sides[at++] = {renamed.vertex_now[s.high], renamed.number[s.triangle]};
+        const auto here = std::span(e.sides).subspan(e.starts[v], at - e.starts[v]);
+        if (!std::ranges::is_sorted(here)) std::ranges::sort(here);
+        is_mixed[v] = 0;
+    });
+    for (std::size_t v = 0; v < vertex_count; ++v) // those without a known triangle
+        if (is_mixed[v] != 0)
+            std::ranges::sort(
+                std::span(e.sides).subspan(e.starts[v], e.starts[v + 1] - e.starts[v]));
     return e;
 }
 

@@ -54,4 +54,24 @@ inline bool runs_along(const Triangle& t, std::uint32_t from, std::uint32_t to) 
 EdgeSides group_edges(std::span<const Triangle> triangles, std::size_t vertex_count,
                       const Run& run = {});
 
+/// Triangles of an old mesh that a mesh still has, with the same corners in the same order, by other
+/// numbers. What else it has are the others; so are triangles whose corners are numbered in another
+/// order than before, as the vertices of their sides are then lower or higher than before.
+struct RenamedTriangles {
+    std::vector<std::uint32_t> number;     ///< per old triangle: its number now (the first), or no_index
+    std::vector<std::uint32_t> vertex_now; ///< per old vertex of these: its number, or no_index
+    std::vector<std::uint32_t> others;     ///< ascending
+
+    /// old_of: per triangle: the old one with these corners, or no_index. A vertex must be the same
+    /// old one in all of these triangles, and no two the same.
+    RenamedTriangles(std::span<const Triangle> old, std::size_t old_vertices,
+                     std::span<const Triangle> triangles, std::span<const std::uint32_t> old_of);
+};
+
+/// Returns what group_edges() finds. `old`: the edges of the old mesh. Cost: a pass over the old edges,
+/// without sorting where no other triangle is, and a counting sort of the others.
+EdgeSides edges_after(const EdgeSides& old, const RenamedTriangles& renamed,
+                      std::span<const Triangle> triangles, std::size_t vertex_count,
+                      const Run& run = {});
+
 } // namespace terrane

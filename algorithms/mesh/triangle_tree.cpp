@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
+#include <deque>
+#include <mutex>
 #include <utility>
 
 namespace terrane {
@@ -68,81 +72,102 @@ Point3 nearest_on_triangle(const Point3& p, const Point3& a, const Point3& b, co
     });
 }
 
-/// A triangle while the tree is built: what the splits compare lies together.
-struct TriangleTree::Item {
+/// A range of the triangles, and their box.
+struct TriangleTree::Node {
     Point3 low, high;
-    Point3 sum; ///< of the corners
-    Triangle triangle{};
+    std::uint32_t first, last;
+    std::atomic<Node*> left{}; ///< null: a leaf, or not split yet
+    Node* right{};
 
-    Item(const Triangle& t, const Point3& a, const Point3& b, const Point3& c) :
-        low{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
-        high{std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})},
-        sum{a.x + b.x + c.x, a.y + b.y + c.y, a.z + b.z + c.z}, triangle(t) {}
+    Node(const std::vector<Triangle>& triangles, std::span<const Point3> points,
+         std::uint32_t begin, std::uint32_t end) :
+        low{HUGE_VAL, HUGE_VAL, HUGE_VAL},
+        high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, first(begin), last(end) {
+        for (std::uint32_t k = first; k < last; ++k)
+            for (const std::uint32_t v : triangles[k]) {
+                const Point3& p = points[v];
+                low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+                high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+            }
+    }
+
+    [[nodiscard]] bool is_leaf() const { return last - first <= most_in_leaf; }
+};
+
+/// The nodes that searches have needed so far. A node changes once, when it is split; others may look at
+/// nodes with other triangles meanwhile.
+struct TriangleTree::Nodes {
+    std::vector<Triangle> triangles; ///< in the order of the nodes
+    std::mutex mutex{};              ///< of those who split
+    std::deque<Node> all{};          ///< the root is the first one; they never move
+
+    /// Returns the left one of the two parts of a node that is no leaf; the right one is set as well.
+    Node* split(Node& node, std::span<const Point3> points) {
+        if (Node* const left = node.left.load(std::memory_order_acquire)) return left;
+        const std::scoped_lock lock(mutex);
+        if (Node* const left = node.left.load(std::memory_order_relaxed)) return left;
+        const Point3 size = minus(node.high, node.low);
+        const auto longest = size.x >= size.y && size.x >= size.z ? &Point3::x
+                             : size.y >= size.z                   ? &Point3::y
+                                                                  : &Point3::z;
+        struct Item {
+            double sum; ///< of the corners' coordinates
+            Triangle triangle;
+        };
+        std::vector<Item> items;
+        items.reserve(node.last - node.first);
+        for (std::uint32_t k = node.first; k < node.last; ++k) {
+            const auto& [a, b, c] = triangles[k];
+            items.push_back(
+                {points[a].*longest + points[b].*longest + points[c].*longest, triangles[k]});
+        }
+        const std::uint32_t half = (node.last - node.first) / 2;
+        std::nth_element(items.begin(), items.begin() + half, items.end(),
+                         [](const Item& i, const Item& j) {
+                             return i.sum < j.sum || (i.sum == j.sum && i.triangle < j.triangle);
+                         });
+        for (std::uint32_t k = node.first; k < node.last; ++k)
+            triangles[k] = items[k - node.first].triangle;
+        Node& left = all.emplace_back(triangles, points, node.first, node.first + half);
+        node.right = &all.emplace_back(triangles, points, node.first + half, node.last);
+        node.left.store(&left, std::memory_order_release);
+        return &left;
+    }
 };
 
 TriangleTree::TriangleTree(std::span<const Point3> points, std::vector<Triangle> triangles) :
-    points_(points), triangles_(std::move(triangles)) {
-    if (triangles_.empty()) return;
-    std::vector<Item> items;
-    items.reserve(triangles_.size());
-    for (const Triangle& t : triangles_)
-        items.emplace_back(t, points_[t[0]], points_[t[1]], points_[t[2]]);
-    nodes_.reserve(items.size()); // about as many: leaves have two to four triangles
-    build(items, 0, static_cast<std::uint32_t>(items.size()));
-    for (std::size_t k = 0; k < items.size(); ++k) triangles_[k] = items[k].triangle;
+    points_(points), nodes_(new Nodes{std::move(triangles)}) {
+    const auto& all = nodes_->triangles;
+    if (!all.empty())
+        nodes_->all.emplace_back(all, points, 0U, static_cast<std::uint32_t>(all.size()));
 }
 
-std::uint32_t TriangleTree::build(std::vector<Item>& items, std::uint32_t first,
-                                  std::uint32_t last) {
-    const auto at = static_cast<std::uint32_t>(nodes_.size());
-    Node node{items[first].low, items[first].high, first, last, 0, 0};
-    for (std::uint32_t k = first + 1; k < last; ++k) {
-        const Point3 &low = items[k].low, &high = items[k].high;
-        node.low = {std::min(node.low.x, low.x), std::min(node.low.y, low.y),
-                    std::min(node.low.z, low.z)};
-        node.high = {std::max(node.high.x, high.x), std::max(node.high.y, high.y),
-                     std::max(node.high.z, high.z)};
-    }
-    nodes_.push_back(node);
-    if (last - first <= most_in_leaf) return at;
-    const Point3 size = minus(node.high, node.low);
-    const auto longest = size.x >= size.y && size.x >= size.z ? &Point3::x
-                         : size.y >= size.z                   ? &Point3::y
-                                                              : &Point3::z;
-    const std::uint32_t half = first + (last - first) / 2;
-    std::nth_element(items.begin() + first, items.begin() + half, items.begin() + last,
-                     [&](const Item& i, const Item& j) {
-                         const double x = i.sum.*longest, y = j.sum.*longest;
-                         return x < y || (x == y && i.triangle < j.triangle);
-                     });
-    const std::uint32_t left = build(items, first, half), right = build(items, half, last);
-    nodes_[at].left = left;
-    nodes_[at].right = right;
-    return at;
-}
+TriangleTree::~TriangleTree() = default;
+TriangleTree::TriangleTree(TriangleTree&&) noexcept = default;
+TriangleTree& TriangleTree::operator=(TriangleTree&&) noexcept = default;
 
 template <class Visit>
 void TriangleTree::for_near(const Point3& p, const double& bound, const Visit& visit) const {
-    if (nodes_.empty()) return;
+    if (nodes_->all.empty()) return;
     struct Open {
-        std::uint32_t node;
+        Node* node;
         double distance; ///< from the point to the box of the node
     };
-    const auto opened = [&](std::uint32_t n) {
-        return Open{n, distance_to_box(p, nodes_[n].low, nodes_[n].high)};
+    const auto opened = [&](Node* n) {
+        return Open{n, distance_to_box(p, n->low, n->high)};
     };
     std::array<Open, 96> stack; // at most two per level of the balanced tree
     std::size_t top = 0;
-    stack[top++] = opened(0);
+    stack[top++] = opened(&nodes_->all.front());
     while (top > 0) {
         const Open next = stack[--top];
         if (next.distance >= bound) continue;
-        const Node& node = nodes_[next.node];
-        if (node.left == 0) {
-            for (std::uint32_t t = node.first; t < node.last; ++t) visit(triangles_[t]);
+        Node& node = *next.node;
+        if (node.is_leaf()) {
+            for (std::uint32_t t = node.first; t < node.last; ++t) visit(nodes_->triangles[t]);
             continue;
         }
-        const Open left = opened(node.left), right = opened(node.right);
+        const Open left = opened(nodes_->split(node, points_)), right = opened(node.right);
         const bool left_first = left.distance <= right.distance;
         stack[top++] = left_first ? right : left;
         stack[top++] = left_first ? left : right;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,13 +11,20 @@
 namespace terrane {
 
 /// Finds the triangle nearest to a point, in floating point, by a tree of boxes that is split at
-/// medians. The points must outlive it.
+/// medians, where a search gets there first. The points must outlive it. Several threads may search
+/// at a time.
 class TriangleTree {
 public:
     TriangleTree(std::span<const Point3> points, std::vector<Triangle> triangles);
+    ~TriangleTree();
+    TriangleTree(TriangleTree&&) noexcept;
+    TriangleTree& operator=(TriangleTree&&) noexcept;
+    TriangleTree(const TriangleTree&) = delete;
+    TriangleTree& operator=(const TriangleTree&) = delete;
 
     /// Returns the distance to the nearest triangle if it is less than `bound`, otherwise `bound`.
-    /// Cost: about O(log n) if the bound or the distance is small compared with the tree.
+    /// Cost: about O(log n) if the bound or the distance is small compared with the tree, once what it
+    /// looks at has been split, which is linear in n for the first search.
     [[nodiscard]] double distance(const Point3& p, double bound) const;
 
     struct Near {
@@ -37,18 +44,11 @@ private:
     template <class Visit>
     void for_near(const Point3& p, const double& bound, const Visit& visit) const;
 
-    struct Node {
-        Point3 low, high;
-        std::uint32_t first = 0, last = 0; ///< triangles of the node
-        std::uint32_t left = 0, right = 0; ///< children; 0: a leaf
-    };
-
-    struct Item;
-    std::uint32_t build(std::vector<Item>& items, std::uint32_t first, std::uint32_t last);
+    struct Node;
+    struct Nodes;
 
     std::span<const Point3> points_;
-    std::vector<Triangle> triangles_;
-    std::vector<Node> nodes_;
+    std::unique_ptr<Nodes> nodes_;
 };
 
 /// Returns the distance from p to a box, in floating point; 0 inside.

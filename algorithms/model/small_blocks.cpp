@@ -177,7 +177,7 @@ Result<WithoutSmallBlocks> without_blocks_below(Arrangement a, double least, con
     result.report = graph.merge_below(least);
     const bool is_repeatable = a.state->whole || a.state->restrict_again;
     auto before = a.state->restrict_again;
-    result.arrangement = restricted(std::move(a), graph.keep(), run);
+    result.arrangement = restricted(std::move(a), graph.keep());
     if (is_repeatable && !result.arrangement.state->whole) {
         ExactState& state = own_state(result.arrangement);
         state.restrict_again = merged_again(std::move(before), least);

@@ -41,27 +41,40 @@ EdgeKey key_of(SurfaceId surface, std::uint32_t a, std::uint32_t b) {
     return {surface, std::min(a, b), std::max(a, b)};
 }
 
-/// Finds the border edges of one surface, from its distinct nondegenerate triangles.
-void add_borders(const Arrangement& a, SurfaceId surface, const std::vector<bool>& unusable,
-                 std::map<EdgeKey, BorderEdge>& borders) {
+/// Finds the border edges of some surfaces, from their distinct nondegenerate triangles.
+std::map<EdgeKey, BorderEdge> borders_of(const Arrangement& a, const std::vector<bool>& is_asked,
+                                         const std::vector<bool>& unusable) {
     const auto& inputs = a.inputs;
     std::vector<Triangle> triangles;
-    std::vector<std::uint32_t> number;
-    for (std::uint32_t t = inputs.first[surface]; t < inputs.first[surface + 1]; ++t) {
-        if (unusable[t]) continue;
-        triangles.push_back(a.state->corners[t]);
-        number.push_back(t);
-    }
-    // Vertices are in the range of this surface, or earlier ones with the same coordinates.
+    std::vector<std::uint32_t> number; // ascending, and so surface by surface
+    std::vector<SurfaceId> surface_of;
+    for (SurfaceId s; s < is_asked.size(); s = SurfaceId(s + 1))
+        for (std::uint32_t t = inputs.first[s]; is_asked[s] && t < inputs.first[s + 1]; ++t) {
+            if (unusable[t]) continue;
+            triangles.push_back(a.state->corners[t]);
+            number.push_back(t);
+            surface_of.push_back(s);
+        }
+    std::map<EdgeKey, BorderEdge> borders;
+    const auto add = [&](std::uint32_t low, std::uint32_t high, std::uint32_t t) {
+        const bool along = runs_along(triangles[t], low, high);
+        borders[key_of(surface_of[t], low, high)] = {surface_of[t],
+                                                     InputTriangleId(number[t]),
+                                                     along ? low : high,
+                                                     along ? high : low,
+                                                     {},
+                                                     {}};
+    };
     group_edges(triangles, a.state->points.input_count())
         .for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
-            if (sides.size() != 1) return;
-            const std::uint32_t t = sides[0].triangle;
-            const bool along = runs_along(triangles[t], low, high);
-            borders[key_of(surface, low, high)] = {
-                surface, InputTriangleId(number[t]), along ? low : high, along ? high : low, {},
-                {}};
+            for (std::size_t k = 0, end = 0; k < sides.size(); k = end) {
+                while (end < sides.size() &&
+                       surface_of[sides[end].triangle] == surface_of[sides[k].triangle])
+                    ++end;
+                if (end - k == 1) add(low, high, sides[k].triangle);
+            }
         });
+    return borders;
 }
 
 /// A vertex of extended borders.
@@ -171,37 +184,35 @@ std::vector<BorderEdge> open_border_edges(const Arrangement& a, std::vector<bool
         if (a.inputs.surface_of(InputTriangleId(repeated)) ==
             a.inputs.surface_of(InputTriangleId(first)))
             unusable[repeated] = true;
-    std::vector<std::vector<std::uint32_t>> open(a.surfaces.size()); // edges of the adjacency
+    std::vector<bool> has_open(a.surfaces.size(), false);
+    std::vector<std::uint32_t> open; // edges of the adjacency
     for (std::uint32_t e = 0; e < a.state->adjacency.edges.size(); ++e) {
         const auto at = a.state->adjacency.triangles_at[e];
         if (at.size() != 1) continue;
-        for (const std::uint32_t s : a.surfaces_of[at[0]]) open[s].push_back(e);
+        open.push_back(e);
+        for (const std::uint32_t s : a.surfaces_of[at[0]]) has_open[s] = true;
     }
+    auto borders = borders_of(a, has_open, unusable);
     const UpwardRounding guard;
-    std::vector<BorderEdge> found;
-    for (SurfaceId s; s < open.size(); s = SurfaceId(s + 1)) {
-        if (open[s].empty()) continue;
-        std::map<EdgeKey, BorderEdge> borders;
-        add_borders(a, s, unusable, borders);
-        for (const std::uint32_t e : open[s])
-            for (const std::uint32_t parent : a.parents_of[a.state->adjacency.triangles_at[e][0]]) {
-                const InputTriangleId p(parent);
-                if (a.inputs.surface_of(p) != s) continue;
-                const Triangle& c = a.state->corners[p];
-                for (unsigned k = 0; k < 3; ++k) {
-                    const auto border = borders.find(key_of(s, c[k], c[(k + 1) % 3]));
-                    if (border == borders.end() || border->second.triangle != p ||
-                        !lies_on(guard, a, a.state->adjacency.edges[e], p, c[k], c[(k + 1) % 3]))
-                        continue;
-                    border->second.open.push_back(a.state->adjacency.edges[e]);
-                    const auto own = a.surfaces_of[a.state->adjacency.triangles_at[e][0]];
-                    border->second.own.insert(border->second.own.end(), own.begin(), own.end());
-                    sort_unique(border->second.own);
-                }
+    for (const std::uint32_t e : open)
+        for (const std::uint32_t parent : a.parents_of[a.state->adjacency.triangles_at[e][0]]) {
+            const InputTriangleId p(parent);
+            const Triangle& c = a.state->corners[p];
+            for (unsigned k = 0; k < 3; ++k) {
+                const auto border =
+                    borders.find(key_of(a.inputs.surface_of(p), c[k], c[(k + 1) % 3]));
+                if (border == borders.end() || border->second.triangle != p ||
+                    !lies_on(guard, a, a.state->adjacency.edges[e], p, c[k], c[(k + 1) % 3]))
+                    continue;
+                border->second.open.push_back(a.state->adjacency.edges[e]);
+                const auto own = a.surfaces_of[a.state->adjacency.triangles_at[e][0]];
+                border->second.own.insert(border->second.own.end(), own.begin(), own.end());
+                sort_unique(border->second.own);
             }
-        for (auto& [key, border] : borders)
-            if (!border.open.empty()) found.push_back(std::move(border));
-    }
+        }
+    std::vector<BorderEdge> found;
+    for (auto& [key, border] : borders)
+        if (!border.open.empty()) found.push_back(std::move(border));
     return found;
 }
 

@@ -56,7 +56,7 @@ struct Judged {
 };
 
 Judged judge(const Arrangement& a, std::span<const ExtensionTriangle> strips,
-             const SealDistances& distances, const Run& run) {
+             const SealDistances& distances) {
     const auto of = strips_by_triangle(a, strips_by_input(a, strips));
     std::vector<bool> keep(a.triangles.size());
     std::vector<std::uint32_t> originals;
@@ -65,7 +65,7 @@ Judged judge(const Arrangement& a, std::span<const ExtensionTriangle> strips,
         if (keep[t]) originals.push_back(t);
     }
     Judged judged;
-    judged.overshoots = find_overshoots(strips.empty() ? a : restricted(a, keep, run), distances);
+    judged.overshoots = find_overshoots(strips.empty() ? a : restricted(a, keep), distances);
     for (Overshoot& shoot : judged.overshoots)
         for (std::uint32_t& t : shoot.triangles) {
             t = originals[t];
@@ -76,9 +76,9 @@ Judged judge(const Arrangement& a, std::span<const ExtensionTriangle> strips,
 }
 
 Result<Arrangement> judged_again(Arrangement a, const std::vector<ExtensionTriangle>& strips,
-                                 const SealDistances& distances, const Run& run) {
-    const Judged judged = judge(a, strips, distances, run);
-    return restricted(std::move(a), judged.keep, run);
+                                 const SealDistances& distances) {
+    const Judged judged = judge(a, strips, distances);
+    return restricted(std::move(a), judged.keep);
 }
 
 // ---- The steps
@@ -125,8 +125,8 @@ private:
         auto a = arrange(with(strips_), arrange_, run_);
         if (!a) return a.error();
         whole_ = std::move(a).value();
-        judged_ = judge(whole_, strips_, distances_, run_);
-        kept_ = restricted(whole_, judged_.keep, run_);
+        judged_ = judge(whole_, strips_, distances_);
+        kept_ = restricted(whole_, judged_.keep);
         if (run_.stop.stop_requested()) return interrupted();
         return Done{};
     }
@@ -275,8 +275,8 @@ private:
         sealed_.arrangement = std::move(kept_);
         if (!sealed_.arrangement.state->whole)
             own_state(sealed_.arrangement).restrict_again =
-                [strips = strips_, distances = distances_](Arrangement a, const Run& run) {
-                    return judged_again(std::move(a), strips, distances, run);
+                [strips = strips_, distances = distances_](Arrangement a, const Run&) {
+                    return judged_again(std::move(a), strips, distances);
                 };
     }
 

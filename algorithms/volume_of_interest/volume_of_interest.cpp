@@ -246,7 +246,7 @@ Result<VolumeOfInterest> cut(Arrangement a, std::span<const std::uint32_t> bound
     std::vector<bool> keep(a.triangles.size());
     for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = where.value()[t] != Where::outside;
     auto before = a.state->restrict_again;
-    result.arrangement = restricted(std::move(a), keep, run);
+    result.arrangement = restricted(std::move(a), keep);
     ExactState& state = own_state(result.arrangement);
     state.kept_planes = planes_of(result.arrangement, boundary);
     if (!state.whole) {
