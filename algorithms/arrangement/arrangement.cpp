@@ -246,7 +246,9 @@ Candidates find_candidates(const Soup& soup, std::span<const std::uint32_t> patc
                            const KnownInSoup* known, LeftOut& left_out, const Run& run) {
     if (known != nullptr)
         if (auto candidates = known->candidates(patches, run)) return *std::move(candidates);
-    return {find_all_candidates(soup, patches, used, left_out, run), {}};
+    Candidates all{find_all_candidates(soup, patches, used, left_out, run), {}};
+    all.tested.outcomes.assign(all.pairs.size(), TestedPairs::untested);
+    return all;
 }
 
 Error interrupted() {
@@ -266,11 +268,11 @@ void assert_invariants([[maybe_unused]] const Arrangement& a) {
     TERRANE_ASSERT_PARANOID(is_sorted_unique(a.degenerate));
 }
 
-ArrangeStatistics statistics_of(const Candidates& candidates, const Retriangulation& division) {
+ArrangeStatistics statistics_of(const Candidates& candidates, std::size_t untested,
+                                const Retriangulation& division) {
     ArrangeStatistics all;
     all.candidates = candidates.pairs.size();
-    all.known = candidates.known.size() -
-                static_cast<std::size_t>(std::ranges::count(candidates.known, KnownPair::nothing));
+    all.known = candidates.pairs.size() - untested;
     all.improper_contacts = division.statistics.improper_contacts;
     all.divided = division.statistics.divided;
     all.constructed_points = division.ascending.size();
@@ -286,8 +288,7 @@ void keep_known(const ArrangeOptions& options, const Soup& soup, const Injective
         !division.pools.empty())
         return;
     const auto points = division.points.inputs();
-    options.known->keep({points.begin(), points.end()}, soup, patches, std::move(candidates.pairs),
-                        division.near, division.near_meet);
+    options.known->keep({points.begin(), points.end()}, soup, patches, std::move(candidates));
 }
 
 /// Makes one mesh of the triangles after division, with what later stages ask of it.
@@ -359,11 +360,14 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     if (run.stop.stop_requested()) return interrupted();
 
     // (c) contacts, (d) equal points, (e) triangulation of the faces with contacts
-    Retriangulation division =
-        retriangulate(std::move(soup.points), soup.triangles, candidates.pairs, left_out.pencils,
-                      part_of_stage(run, "arrange", 0.3, 0.85), candidates.known);
+    const auto untested = static_cast<std::size_t>(
+        std::ranges::count(candidates.tested.outcomes, TestedPairs::untested));
+    Retriangulation division = retriangulate(
+        std::move(soup.points), soup.triangles, candidates.pairs, left_out.pencils,
+        part_of_stage(run, "arrange", 0.3, 0.85),
+        options.known != nullptr ? &candidates.tested : nullptr);
     if (run.stop.stop_requested()) return interrupted();
-    a.statistics = statistics_of(candidates, division);
+    a.statistics = statistics_of(candidates, untested, division);
     a.statistics.search = search;
     keep_known(options, soup, patches, division, left_out, std::move(candidates));
 

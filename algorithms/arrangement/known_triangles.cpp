@@ -18,8 +18,7 @@ struct KeptTriangles {
     std::vector<std::uint32_t> starts; ///< of surfaces, see starts_of()
     EdgeSides edges;
     InjectivePatches patches;
-    std::vector<CandidatePair> candidates; ///< sorted
-    std::vector<KnownPair> known;          ///< per candidate
+    Candidates candidates;
 };
 
 namespace {
@@ -110,24 +109,32 @@ void keep_patches(std::span<const std::uint32_t> old_patches,
 /// A candidate that was one before.
 struct KnownCandidate {
     CandidatePair pair;
-    KnownPair known;
+    std::uint32_t outcome;
 };
 
-/// Merges known candidates with those of new triangles.
-Candidates merged(std::span<const KnownCandidate> known, std::span<const CandidatePair> found) {
+/// Merges known candidates with those of new triangles. contacts: those of the former. names: per old
+/// point: its index now.
+Candidates merged(std::span<const KnownCandidate> known, const ContactList& contacts,
+                  std::span<const std::uint32_t> names, std::span<const CandidatePair> found) {
     Candidates all;
     all.pairs.reserve(known.size() + found.size());
-    all.known.reserve(known.size() + found.size());
-    const auto add = [&](const CandidatePair& pair, KnownPair is_known) {
+    all.tested.outcomes.reserve(known.size() + found.size());
+    const auto add = [&](const CandidatePair& pair, std::uint32_t outcome) {
+        if (outcome >= TestedPairs::first_contact) {
+            const std::uint32_t contact = outcome - TestedPairs::first_contact;
+            outcome = TestedPairs::first_contact +
+                      static_cast<std::uint32_t>(all.tested.contacts.size());
+            all.tested.contacts.add_renamed(contacts, contact, names);
+        }
         all.pairs.push_back(pair);
-        all.known.push_back(is_known);
+        all.tested.outcomes.push_back(outcome);
     };
     auto next = known.begin();
     for (const CandidatePair& p : found) {
-        for (; next != known.end() && next->pair < p; ++next) add(next->pair, next->known);
-        add(p, KnownPair::nothing);
+        for (; next != known.end() && next->pair < p; ++next) add(next->pair, next->outcome);
+        add(p, TestedPairs::untested);
     }
-    for (; next != known.end(); ++next) add(next->pair, next->known);
+    for (; next != known.end(); ++next) add(next->pair, next->outcome);
     return all;
 }
 
@@ -199,14 +206,20 @@ std::optional<Candidates> KnownInSoup::candidates(std::span<const std::uint32_t>
             new_of[old_of[t]] = t;
     if (2 * new_ones.size() > soup.triangles.size()) return std::nullopt;
 
+    const auto& [kept_pairs, tested] = kept_->candidates;
     std::vector<KnownCandidate> known;
-    known.reserve(kept_->candidates.size());
-    for (std::size_t k = 0; k < kept_->candidates.size(); ++k) {
-        const std::uint32_t t = new_of[kept_->candidates[k].first],
-                            u = new_of[kept_->candidates[k].second];
+    known.reserve(kept_pairs.size());
+    for (std::size_t k = 0; k < kept_pairs.size(); ++k) {
+        const auto& [f, g] = kept_pairs[k];
+        const std::uint32_t t = new_of[f], u = new_of[g];
         if (t == no_index || u == no_index) continue;
         if (patches[t] != no_group && patches[t] == patches[u]) continue;
-        known.push_back({{std::min(t, u), std::max(t, u)}, kept_->known[k]});
+        const bool is_same =
+            tested.outcomes[k] < TestedPairs::first_contact ||
+            (t < u && have_same_order({kept_->triangles[f], kept_->triangles[g]},
+                                      {soup.triangles[t], soup.triangles[u]}));
+        known.push_back({{std::min(t, u), std::max(t, u)},
+                         is_same ? tested.outcomes[k] : TestedPairs::untested});
     }
     if (!std::ranges::is_sorted(known, {}, &KnownCandidate::pair))
         std::ranges::sort(known, {}, &KnownCandidate::pair);
@@ -218,7 +231,16 @@ std::optional<Candidates> KnownInSoup::candidates(std::span<const std::uint32_t>
     const auto found =
         candidate_pairs_of({soup.points, soup.triangles}, new_ones, patches, is_within_limit, run);
     if (count > most_found) return std::nullopt;
-    return merged(known, found);
+    return merged(known, tested.contacts, point_names(), found);
+}
+
+/// Returns the index of each old point that a triangle of the soup has.
+std::vector<std::uint32_t> KnownInSoup::point_names() const {
+    std::vector<std::uint32_t> names(kept_->points.size(), no_index);
+    for (std::size_t t = 0; t < old_of_.size(); ++t)
+        for (unsigned i = 0; i < 3 && old_of_[t] != no_index; ++i)
+            names[kept_->triangles[old_of_[t]][i]] = soup_.triangles[t][i];
+    return names;
 }
 
 KnownTriangles::KnownTriangles() = default;
@@ -234,18 +256,13 @@ std::unique_ptr<KnownInSoup> KnownTriangles::find_in(const Soup& soup) {
 }
 
 void KnownTriangles::keep(std::vector<Point3> points, const Soup& soup,
-                          const InjectivePatches& patches, std::vector<CandidatePair> candidates,
-                          std::span<const CandidatePair> near, std::span<const char> near_meet) {
+                          const InjectivePatches& patches, Candidates candidates) {
     auto kept = std::make_unique<KeptTriangles>();
     kept->points = std::move(points);
     kept->triangles.assign(soup.triangles.begin(), soup.triangles.end());
     kept->starts = starts_of(soup.surface_of);
     kept->edges = soup.edges;
     kept->patches = patches;
-    kept->known.assign(candidates.size(), KnownPair::apart);
-    for (std::size_t k = 0, next = 0; k < candidates.size() && next < near.size(); ++k)
-        if (near[next] == candidates[k])
-            kept->known[k] = near_meet[next++] != 0 ? KnownPair::nothing : KnownPair::near;
     kept->candidates = std::move(candidates);
     const std::scoped_lock lock(mutex_);
     kept_ = std::move(kept);

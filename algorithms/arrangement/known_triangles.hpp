@@ -6,8 +6,8 @@
 //
 // If a surface has kept its triangles, its patches are taken over. Where all triangles at a vertex have
 // kept their corners, so are its edges. If both triangles of a pair have kept
-// their corners, the pair is not searched for again. If they had no contact, they are not tested
-// again. The next arrangement is the mesh that arrange() makes without this object. Nothing is kept
+// their corners, the pair is neither searched for nor tested again: its contact is taken over, with the
+// vertices by their new numbers. The next arrangement is the mesh that arrange() makes without this object. Nothing is kept
 // where the search or the test left pairs out: at crowded vertices, in pencils, and in pools.
 #pragma once
 
@@ -20,8 +20,8 @@
 
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/run.hpp>
-#include <terrane/algorithms/intersection/contacts.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
+#include <terrane/algorithms/intersection/tested_pairs.hpp>
 #include <terrane/algorithms/search/search.hpp>
 
 namespace terrane {
@@ -29,7 +29,7 @@ namespace terrane {
 /// The candidate pairs of a soup.
 struct Candidates {
     std::vector<CandidatePair> pairs; ///< sorted, unique
-    std::vector<KnownPair> known;     ///< per pair: what an earlier arrangement found; or empty
+    TestedPairs tested;               ///< what an earlier arrangement found
 };
 
 /// The triangles of an arrangement, and what it found about them.
@@ -59,6 +59,7 @@ public:
 
 private:
     [[nodiscard]] std::uint32_t old_surface(std::uint32_t first, std::uint32_t last) const;
+    [[nodiscard]] std::vector<std::uint32_t> point_names() const;
 
     const std::unique_ptr<const KeptTriangles> kept_;
     const Soup& soup_;
@@ -79,11 +80,10 @@ public:
     /// nothing is there.
     [[nodiscard]] std::unique_ptr<KnownInSoup> find_in(const Soup& soup);
 
-    /// Keeps the edges and patches of a soup, its candidates, all of them, and those that are near, sorted.
-    /// points: those of the soup. near, near_meet: see Contacts.
+    /// Keeps the edges and patches of a soup, and its candidates, all of which have been tested.
+    /// points: those of the soup.
     void keep(std::vector<Point3> points, const Soup& soup, const InjectivePatches& patches,
-              std::vector<CandidatePair> candidates, std::span<const CandidatePair> near,
-              std::span<const char> near_meet);
+              Candidates candidates);
 
 private:
     std::mutex mutex_;

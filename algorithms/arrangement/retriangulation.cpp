@@ -416,13 +416,13 @@ private:
 
 Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triangle> triangles,
                               std::span<const CandidatePair> candidates, const Pencils& pencils,
-                              const Run& run, std::span<const KnownPair> known) {
+                              const Run& run, TestedPairs* tested) {
     StageTimer step(run, "intersect");
     Retriangulation out;
     const TriangleSoup soup{points, triangles}; // moving the vector does not move the points
     constexpr std::string_view stage = "retriangulate";
     Contacts contacts = find_contacts(soup, std::move(points), candidates, pencils,
-                                      part_of_stage(run, stage, 0, 0.4), known);
+                                      part_of_stage(run, stage, 0, 0.4), tested);
     if (run.stop.stop_requested()) return out;
     merge_segments(soup, contacts, run);
     if (run.stop.stop_requested()) return out; // the pieces may be unfinished
@@ -442,7 +442,6 @@ Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triang
     out.points = std::move(contacts.points);
     out.ascending = std::move(order.ascending);
     out.near = std::move(contacts.near);
-    out.near_meet = std::move(contacts.near_meet);
     out.pools = std::move(contacts.pools.of);
     return out;
 }

@@ -40,19 +40,18 @@ struct Retriangulation {
     std::vector<CandidatePair> near;  ///< candidates whose parts may meet when their points are
                                       ///< rounded to nearest doubles; the others stay apart, but
                                       ///< for those within a pool or a pencil
-    std::vector<char> near_meet;      ///< per near pair: 1 if the two have an improper contact
     std::vector<std::uint32_t> pools; ///< per triangle of the soup: its pool, or no_group; empty
                                       ///< without pools
     RetriangulationStatistics statistics;
 };
 
 /// Retriangulates a soup; points and triangles are those of a TriangleSoup. `candidates` must
-/// contain all pairs that meet improperly but for those in different planes of a pencil. known:
+/// contain all pairs that meet improperly but for those in different planes of a pencil. tested:
 /// see find_contacts. Check run.stop afterwards: a stopped run leaves the
 /// result unfinished. Throws std::logic_error if an assertion fails. Times: intersect, triangulate
 /// and stitch.
 Retriangulation retriangulate(std::vector<Point3> points, std::span<const Triangle> triangles,
                               std::span<const CandidatePair> candidates, const Pencils& pencils,
-                              const Run& run, std::span<const KnownPair> known = {});
+                              const Run& run, TestedPairs* tested = nullptr);
 
 } // namespace terrane

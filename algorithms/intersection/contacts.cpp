@@ -14,6 +14,7 @@
 #include <terrane/algorithms/intersection/detail/construction_table.hpp>
 #include <terrane/algorithms/intersection/detail/equal_points.hpp>
 #include <terrane/algorithms/intersection/pencils.hpp>
+#include <terrane/kernel/assertion.hpp>
 #include <terrane/kernel/separation_filter.hpp>
 
 namespace terrane {
@@ -31,18 +32,16 @@ struct PairBlock {
                                            ///< are indices into points
     std::vector<std::uint32_t> overlapped; ///< faces with a coplanar overlap
     std::vector<CandidatePair> near;
-    std::vector<char> near_meet;
+    std::vector<std::uint32_t> outcomes; ///< of the tests, or fresh_contact; if they are wanted
+    ContactList contacts;                ///< the fresh ones, if they are wanted
     PredicateCounts predicates;
 
-    void add_near(const CandidatePair& pair, bool meet) {
-        near.push_back(pair);
-        near_meet.push_back(meet ? 1 : 0);
-    }
-
-    void add(const CandidatePair& pair, const Contact& c) {
+    /// c: a Contact or the shape of one.
+    template <class Shape>
+    void add(const CandidatePair& pair, const Shape& c, std::span<const ContactPoint> at) {
         ++improper;
         const auto first_point = static_cast<PointIndex>(points.size());
-        for (unsigned i = 0; i < c.point_count; ++i) points.push_back(c.points[i].how);
+        for (const ContactPoint& p : at) points.push_back(p.how);
         const std::array faces{pair.first, pair.second};
         if (c.overlap) overlapped.insert(overlapped.end(), faces.begin(), faces.end());
         for (unsigned k = 0; k < 2; ++k)
@@ -50,7 +49,7 @@ struct PairBlock {
                 const auto& [ends, support] = c.pieces[k][n];
                 pieces[k].push_back({faces[k],
                                      {faces[1 - k], support},
-                                     {c.points[ends[0]].place[k], c.points[ends[1]].place[k]},
+                                     {at[ends[0]].place[k], at[ends[1]].place[k]},
                                      {first_point + ends[0], first_point + ends[1]}});
             }
     }
@@ -61,8 +60,13 @@ bool have_common_vertex(const Triangle& t, const Triangle& u) {
                        [&](std::uint32_t v) { return v == u[0] || v == u[1] || v == u[2]; });
 }
 
+/// Stands for the next contact that is not known yet.
+constexpr std::uint32_t fresh_contact = UINT32_MAX;
+
+/// Tests the candidates [begin, end). tested: or null.
 PairBlock test_pairs(const TriangleSoup& soup, const PlanePools& pools,
-                     std::span<const CandidatePair> pairs, std::span<const KnownPair> known) {
+                     std::span<const CandidatePair> pairs, std::size_t begin, std::size_t end,
+                     const TestedPairs* tested) {
     PairBlock block;
     const PredicateCounts before = predicate_counts();
     const auto at = [&](std::uint32_t t, unsigned i) -> const Point3& {
@@ -70,16 +74,24 @@ PairBlock test_pairs(const TriangleSoup& soup, const PlanePools& pools,
     };
     std::uint32_t last = UINT32_MAX;
     std::optional<SeparationFilter> first; // reused, as pairs are sorted by their first triangle
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-        const KnownPair is_known = known.empty() ? KnownPair::nothing : known[k];
-        if (is_known == KnownPair::apart) continue;
+    if (tested != nullptr)
+        block.outcomes.assign(tested->outcomes.begin() + static_cast<std::ptrdiff_t>(begin),
+                              tested->outcomes.begin() + static_cast<std::ptrdiff_t>(end));
+    for (std::size_t k = begin; k < end; ++k) {
+        const std::uint32_t known =
+            tested != nullptr ? tested->outcomes[k] : TestedPairs::untested;
+        if (known == TestedPairs::apart) continue;
         const CandidatePair& p = pairs[k];
         const auto [f, g] = p;
         if (pools.are_one(f, g)) continue;
-        if (is_known == KnownPair::near) {
-            block.add_near(p, false);
+        if (known != TestedPairs::untested) {
+            block.near.push_back(p);
+            if (known < TestedPairs::first_contact) continue;
+            const std::uint32_t i = known - TestedPairs::first_contact;
+            block.add(p, tested->contacts.shape(i), tested->contacts.points(i));
             continue;
         }
+        if (tested != nullptr) block.outcomes[k - begin] = TestedPairs::apart;
         if (f != last) first.emplace(at(f, 0), at(f, 1), at(f, 2));
         last = f;
         const bool joined = have_common_vertex(soup.triangles[f], soup.triangles[g]);
@@ -93,11 +105,24 @@ PairBlock test_pairs(const TriangleSoup& soup, const PlanePools& pools,
         }
         const auto contact = improper_contact(soup.points, soup.triangles[f], soup.triangles[g],
                                               joined ? Filters::all : Filters::none);
-        block.add_near(p, contact.has_value());
-        if (contact) block.add(p, *contact);
+        block.near.push_back(p);
+        if (contact)
+            block.add(p, *contact, std::span(contact->points).first(contact->point_count));
+        if (tested == nullptr) continue;
+        block.outcomes[k - begin] = contact ? fresh_contact : TestedPairs::near;
+        if (contact) block.contacts.push_back(*contact);
     }
     block.predicates = predicate_counts() - before;
     return block;
+}
+
+/// Notes the outcomes of a block for the candidates from `first` on. Returns the end of these.
+std::size_t note_tests(const PairBlock& block, std::size_t first, TestedPairs& tested) {
+    auto next = static_cast<std::uint32_t>(TestedPairs::first_contact + tested.contacts.size());
+    for (const std::uint32_t outcome : block.outcomes)
+        tested.outcomes[first++] = outcome == fresh_contact ? next++ : outcome;
+    tested.contacts.append(block.contacts);
+    return first;
 }
 
 bool has_lower_face(const FaceConstraint& a, const FaceConstraint& b) {
@@ -133,8 +158,6 @@ public:
                 pieces_[k].push_back(piece);
             }
         contacts_.near.insert(contacts_.near.end(), block.near.begin(), block.near.end());
-        contacts_.near_meet.insert(contacts_.near_meet.end(), block.near_meet.begin(),
-                                   block.near_meet.end());
         contacts_.improper += block.improper;
         contacts_.predicates += block.predicates;
     }
@@ -255,8 +278,9 @@ bool FaceConstraint::is_inner_segment() const {
 
 Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
                        std::span<const CandidatePair> candidates, const Pencils& pencils,
-                       const Run& run, std::span<const KnownPair> known) {
+                       const Run& run, TestedPairs* tested) {
     Contacts contacts;
+    TERRANE_ASSERT(tested == nullptr || tested->outcomes.size() == candidates.size());
     contacts.candidates = candidates.size();
     contacts.overlapped.assign(soup.triangles.size(), false);
     contacts.pools = find_plane_pools(soup, candidates, run);
@@ -271,16 +295,18 @@ Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
     }
     constexpr std::size_t wave = 65536; // pairs whose contacts are in memory at a time
     for (std::size_t start = 0; start < candidates.size(); start += wave) {
-        const auto pairs = candidates.subspan(start, std::min(wave, candidates.size() - start));
+        const std::size_t end = std::min(start + wave, candidates.size());
         const auto blocks =
-            for_blocks<PairBlock>(pairs.size(), 1024, run, [&](std::size_t a, std::size_t b) {
-                return test_pairs(soup, contacts.pools, pairs.subspan(a, b - a),
-                                  known.empty() ? known : known.subspan(start + a, b - a));
+            for_blocks<PairBlock>(end - start, 1024, run, [&](std::size_t a, std::size_t b) {
+                return test_pairs(soup, contacts.pools, candidates, start + a, start + b, tested);
             });
-        for (const PairBlock& block : blocks) collector.add(block);
+        for (std::size_t k = start; const PairBlock& block : blocks) {
+            collector.add(block);
+            if (tested != nullptr) k = note_tests(block, k, *tested);
+        }
         if (run.stop.stop_requested()) return contacts;
         if (collector.is_full()) collector.settle();
-        report_part(run, "contacts", 0, 1, start + pairs.size(), candidates.size());
+        report_part(run, "contacts", 0, 1, end, candidates.size());
     }
     contacts.pieces = std::move(collector).pieces();
     return contacts;

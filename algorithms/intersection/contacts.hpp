@@ -11,6 +11,7 @@
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
+#include <terrane/algorithms/intersection/tested_pairs.hpp>
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/kernel/point_store.hpp>
 
@@ -76,7 +77,6 @@ struct Contacts {
                                          ///< overlaps it
     std::vector<CandidatePair> near;     ///< candidates that may meet when points are rounded to
                                          ///< nearest doubles
-    std::vector<char> near_meet;         ///< per near pair: 1 if the two have an improper contact
     std::size_t candidates = 0;          ///< number of candidate pairs
     std::size_t improper = 0;            ///< number of pairs with an improper contact, without
                                          ///< pairs within a pool or in different planes of a
@@ -85,13 +85,6 @@ struct Contacts {
 };
 
 struct Pencils;
-
-/// What an earlier test has shown about a pair.
-enum class KnownPair : std::uint8_t {
-    nothing,
-    apart, ///< the two do not meet, and will not when their points are rounded
-    near,  ///< they may meet when their points are rounded, but have no improper contact
-};
 
 /// Returns a function with which PointStore::append distributes its work over the run's threads.
 PointStore::Share sharing(const Run& run);
@@ -103,10 +96,11 @@ PlanePools find_plane_pools(const TriangleSoup& soup, std::span<const CandidateP
 /// Performs steps (b) and (c): tests all candidates and collects the points and segments that must
 /// appear in each triangle. `points` are the soup's points; the store of the result takes them
 /// over. Pairs of triangles in different planes of one pencil need not be candidates. Equal points and, in triangles with many, equal segments are merged as they come. So the
-/// memory follows the distinct ones. known: per candidate, or empty; what is known is not tested again.
+/// memory follows the distinct ones. tested: if not null, what is known per candidate, which is not tested
+/// again; afterwards, what is known of all but those within a pool.
 Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
                        std::span<const CandidatePair> candidates, const Pencils& pencils,
-                       const Run& run, std::span<const KnownPair> known = {});
+                       const Run& run, TestedPairs* tested = nullptr);
 
 /// Merges collinear segments that overlap: in pools, whose edges become segments, and in triangles
 /// with many segments on few lines. Fills `crossings` with the points that lie on merged segments.

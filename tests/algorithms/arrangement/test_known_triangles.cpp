@@ -150,6 +150,9 @@ void require_same(const Arrangement& a, const Arrangement& b) {
     REQUIRE(a.state->neighbours == b.state->neighbours);
     REQUIRE(a.state->crowded == b.state->crowded);
     REQUIRE(a.state->pools == b.state->pools);
+    REQUIRE(a.state->adjacency.edges == b.state->adjacency.edges);
+    REQUIRE(a.state->adjacency.triangles_at == b.state->adjacency.triangles_at);
+    REQUIRE(a.state->adjacency.inner == b.state->adjacency.inner);
     REQUIRE(a.state->patches.of == b.state->patches.of);
     REQUIRE(a.state->patches.axis == b.state->patches.axis);
     REQUIRE(a.state->patches.turn == b.state->patches.turn);
@@ -215,8 +218,9 @@ TEST_CASE("known triangles: what stays is not tested again", "[arrangement]") {
     const Arrangement first = arranged_with(known, model);
     CHECK(first.statistics.known == 0);
     const Arrangement same = arranged_with(known, model);
-    CHECK(same.statistics.known > 0);
+    CHECK(same.statistics.known == first.statistics.candidates); // those in contact, too
     CHECK(same.statistics.candidates == first.statistics.candidates);
+    CHECK(same.statistics.improper_contacts > 0);
     for (Point3& p : model[1].vertices) p = moved(p, 0.01);
     const Arrangement after = arranged_with(known, model);
     CHECK(after.statistics.known < same.statistics.known);
@@ -242,7 +246,7 @@ TEST_CASE("known triangles: patches of surfaces that stay are taken over", "[arr
         const auto first = std::ranges::find(soup.surface_of, s) - soup.surface_of.begin();
         return patches.axis.at(patches.of.at(static_cast<std::size_t>(first)));
     };
-    const auto keep = [&] { known.keep(before.points, before, marked, {}, {}, {}); };
+    const auto keep = [&] { known.keep(before.points, before, marked, {}); };
 
     SECTION("one moved") {
         for (Point3& p : model[0].vertices) p = moved(p, 0.01);
@@ -304,6 +308,49 @@ TEST_CASE("known triangles: patches of surfaces that stay are taken over", "[arr
         CHECK(axis_at(patches, after, 0) == axis_at(patches_in(after), after, 0));
         CHECK(axis_at(patches, after, 1) == axis_at(marked, before, 2));
     }
+}
+
+TEST_CASE("known triangles: edges of triangles that stay are taken over", "[arrangement]") {
+    Engine random(99);
+    std::vector<Surface> model{random_sheet(random, 9), random_sheet(random, 9)};
+    Soup before = merge_surfaces(model);
+    const EdgeSides right = before.edges;
+    before.edges.sides.clear(); // so that it shows where they are from
+    std::ranges::fill(before.edges.starts, 0U);
+    KnownTriangles known;
+    known.keep(before.points, before, {std::vector(before.triangles.size(), no_group), {}, {}}, {});
+    for (Point3& p : model[1].vertices) p = moved(p, 0.01);
+    const Soup after = merge_surfaces(model);
+    CHECK(std::ranges::equal(after.edges.sides, right.sides));
+    const EdgeSides found = known.find_in(after)->edges();
+    const std::uint32_t first = after.first_input_vertex[1];
+    CHECK(found.starts[first] == 0);
+    CHECK(found.sides.size() == right.sides.size() - right.starts[first]);
+}
+
+TEST_CASE("known triangles: a contact gets the vertices' new numbers", "[arrangement]") {
+    Engine random(100);
+    const auto taken_over = [&](const std::vector<Surface>& before,
+                                const std::vector<Surface>& after) {
+        KnownTriangles known;
+        const Arrangement first = arranged_with(known, before);
+        REQUIRE(first.statistics.improper_contacts > 0);
+        const Arrangement again = arranged_with(known, after);
+        require_same(again, arranged_anew(after));
+        return again.statistics.candidates - again.statistics.known;
+    };
+    const Surface one = random_sheet(random, 9), two = random_sheet(random, 9);
+    Surface far = random_sheet(random, 3);
+    for (Point3& p : far.vertices) p = moved(p, 9);
+    CHECK(taken_over({one, two}, {far, one, far, two}) == 0);
+    CHECK(taken_over({far, one, far, two}, {one, two}) == 0);
+    // In another order the pairs are tested again, as are those whose corners are in another order.
+    CHECK(taken_over({one, two}, {two, one}) > 0);
+    Surface reversed = one;
+    std::ranges::reverse(reversed.vertices);
+    for (Triangle& t : reversed.triangles)
+        for (std::uint32_t& v : t) v = static_cast<std::uint32_t>(one.vertices.size()) - 1 - v;
+    CHECK(taken_over({one, two}, {reversed, two}) > 0);
 }
 
 TEST_CASE("known triangles: where triangles meet densely, pairs are left out", "[arrangement]") {

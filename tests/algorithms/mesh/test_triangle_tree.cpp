@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -61,6 +62,28 @@ TEST_CASE("distance_to_triangle: above the face, beside an edge, beyond a corner
     CHECK(distance_to_triangle({-3, -4, 0}, a, b, c) == 5);
     CHECK(distance_to_triangle({1, 1, 0}, a, b, c) == 0);
     CHECK(distance_to_triangle({0, 1, 0}, a, a, a) == 1);
+}
+
+TEST_CASE("TriangleTree: several threads may search at a time", "[borders][threads]") {
+    Random random(12);
+    const auto points = points_of(random, Family::uniform, 9000);
+    std::vector<Triangle> triangles;
+    for (std::uint32_t t = 0; t < 3000; ++t) triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    const TriangleTree alone(points, triangles);
+    const auto places = points_of(random, Family::uniform, 50);
+    std::vector<double> right;
+    for (const Point3& p : places) right.push_back(alone.distance(p, HUGE_VAL));
+    for (int k = 0; k < 20; ++k) {
+        const TriangleTree tree(points, triangles);
+        std::vector<std::vector<double>> found(4);
+        std::vector<std::thread> threads;
+        for (auto& distances : found)
+            threads.emplace_back([&] {
+                for (const Point3& p : places) distances.push_back(tree.distance(p, HUGE_VAL));
+            });
+        for (std::thread& t : threads) t.join();
+        for (const auto& distances : found) REQUIRE(distances == right);
+    }
 }
 
 TEST_CASE("TriangleTree: the nearest triangle agrees with brute force", "[borders]") {
