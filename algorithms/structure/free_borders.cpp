@@ -12,6 +12,7 @@
 
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
 
 namespace terrane {
 namespace {
@@ -36,14 +37,14 @@ public:
     }
 
     /// Finds the nearest of all surfaces except those listed (ascending); the first among equals.
-    [[nodiscard]] std::optional<Nearest> nearest(const Point3& p,
-                                                 std::span<const std::uint32_t> but) const {
+    /// Looks no farther than `bound`.
+    [[nodiscard]] std::optional<Nearest>
+    nearest(const Point3& p, std::span<const std::uint32_t> but, double bound) const {
         std::optional<Nearest> best;
-        double bound = std::numeric_limits<double>::infinity();
         for (std::uint32_t s = 0; s < trees_.size(); ++s) {
             if (!filled_[s] || std::binary_search(but.begin(), but.end(), s)) continue;
             const double d = trees_[s].distance(p, bound);
-            if (best && d >= bound) continue;
+            if (d >= bound) continue;
             bound = d;
             best = {s, d};
         }
@@ -71,7 +72,14 @@ std::vector<Sample> samples_along(const Mesh& mesh, const ModelLine& line,
                                   const SurfaceTrees& trees) {
     std::vector<Sample> samples;
     const auto add = [&](const Point3& p) {
-        const auto found = trees.nearest(p, line.surfaces);
+        double bound = std::numeric_limits<double>::infinity();
+        if (!samples.empty()) { // the triangle inequality, but for rounding
+            const auto& [before, nearest] = samples.back();
+            bound = 1.001 * (nearest.distance + length(minus(p, before)));
+        }
+        auto found = trees.nearest(p, line.surfaces, bound);
+        if (!found && !samples.empty())
+            found = trees.nearest(p, line.surfaces, std::numeric_limits<double>::infinity());
         if (found) samples.push_back({p, *found});
     };
     for (std::size_t i = 0; i < line.vertices.size(); ++i) {
