@@ -362,10 +362,10 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     // (c) contacts, (d) equal points, (e) triangulation of the faces with contacts
     const auto untested = static_cast<std::size_t>(
         std::ranges::count(candidates.tested.outcomes, TestedPairs::untested));
-    Retriangulation division = retriangulate(
-        std::move(soup.points), soup.triangles, candidates.pairs, left_out.pencils,
-        part_of_stage(run, "arrange", 0.3, 0.85),
-        options.known != nullptr ? &candidates.tested : nullptr);
+    Retriangulation division =
+        retriangulate(std::move(soup.points), soup.triangles, candidates.pairs, left_out.pencils,
+                      part_of_stage(run, "arrange", 0.3, 0.85),
+                      options.known != nullptr ? &candidates.tested : nullptr);
     if (run.stop.stop_requested()) return interrupted();
     a.statistics = statistics_of(candidates, untested, division);
     a.statistics.search = search;

@@ -122,8 +122,8 @@ Candidates merged(std::span<const KnownCandidate> known, const ContactList& cont
     const auto add = [&](const CandidatePair& pair, std::uint32_t outcome) {
         if (outcome >= TestedPairs::first_contact) {
             const std::uint32_t contact = outcome - TestedPairs::first_contact;
-            outcome = TestedPairs::first_contact +
-                      static_cast<std::uint32_t>(all.tested.contacts.size());
+            outcome =
+                TestedPairs::first_contact + static_cast<std::uint32_t>(all.tested.contacts.size());
             all.tested.contacts.add_renamed(contacts, contact, names);
         }
         all.pairs.push_back(pair);
@@ -148,8 +148,8 @@ KnownInSoup::KnownInSoup(std::unique_ptr<const KeptTriangles> kept, const Soup& 
 KnownInSoup::~KnownInSoup() = default;
 
 void KnownInSoup::find_again() {
-    old_of_ = old_triangles(kept_->triangles, soup_.triangles,
-                            old_points(kept_->points, soup_.points));
+    old_of_ =
+        old_triangles(kept_->triangles, soup_.triangles, old_points(kept_->points, soup_.points));
 }
 
 EdgeSides KnownInSoup::edges(const Run& run) const {
@@ -214,10 +214,9 @@ std::optional<Candidates> KnownInSoup::candidates(std::span<const std::uint32_t>
         const std::uint32_t t = new_of[f], u = new_of[g];
         if (t == no_index || u == no_index) continue;
         if (patches[t] != no_group && patches[t] == patches[u]) continue;
-        const bool is_same =
-            tested.outcomes[k] < TestedPairs::first_contact ||
-            (t < u && have_same_order({kept_->triangles[f], kept_->triangles[g]},
-                                      {soup.triangles[t], soup.triangles[u]}));
+        const bool is_same = tested.outcomes[k] < TestedPairs::first_contact ||
+                             (t < u && have_same_order({kept_->triangles[f], kept_->triangles[g]},
+                                                       {soup.triangles[t], soup.triangles[u]}));
         known.push_back({{std::min(t, u), std::max(t, u)},
                          is_same ? tested.outcomes[k] : TestedPairs::untested});
     }

@@ -78,8 +78,7 @@ PairBlock test_pairs(const TriangleSoup& soup, const PlanePools& pools,
         block.outcomes.assign(tested->outcomes.begin() + static_cast<std::ptrdiff_t>(begin),
                               tested->outcomes.begin() + static_cast<std::ptrdiff_t>(end));
     for (std::size_t k = begin; k < end; ++k) {
-        const std::uint32_t known =
-            tested != nullptr ? tested->outcomes[k] : TestedPairs::untested;
+        const std::uint32_t known = tested != nullptr ? tested->outcomes[k] : TestedPairs::untested;
         if (known == TestedPairs::apart) continue;
         const CandidatePair& p = pairs[k];
         const auto [f, g] = p;
@@ -106,8 +105,7 @@ PairBlock test_pairs(const TriangleSoup& soup, const PlanePools& pools,
         const auto contact = improper_contact(soup.points, soup.triangles[f], soup.triangles[g],
                                               joined ? Filters::all : Filters::none);
         block.near.push_back(p);
-        if (contact)
-            block.add(p, *contact, std::span(contact->points).first(contact->point_count));
+        if (contact) block.add(p, *contact, std::span(contact->points).first(contact->point_count));
         if (tested == nullptr) continue;
         block.outcomes[k - begin] = contact ? fresh_contact : TestedPairs::near;
         if (contact) block.contacts.push_back(*contact);

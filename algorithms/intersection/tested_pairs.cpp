@@ -9,10 +9,14 @@ namespace {
 /// Returns the number of vertices that a construction names.
 std::size_t vertices_of(Construction::Kind kind) {
     switch (kind) {
-    case Construction::Kind::line_plane: return 5;
-    case Construction::Kind::three_planes: return 9;
-    case Construction::Kind::line_line: return 4;
-    case Construction::Kind::input: break;
+    case Construction::Kind::line_plane:
+        return 5;
+    case Construction::Kind::three_planes:
+        return 9;
+    case Construction::Kind::line_line:
+        return 4;
+    case Construction::Kind::input:
+        break;
     }
     return 1;
 }

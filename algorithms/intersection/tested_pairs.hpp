@@ -44,10 +44,9 @@ private:
 /// Per pair of triangles what is known of it.
 struct TestedPairs {
     // Outcomes of a test:
-    static constexpr std::uint32_t
-        untested = 0,      ///< nothing is known
-        apart = 1,         ///< the two do not meet, and will not when their points are rounded
-        near = 2,          ///< they may meet when their points are rounded, but have no improper contact
+    static constexpr std::uint32_t untested = 0, ///< nothing is known
+        apart = 1, ///< the two do not meet, and will not when their points are rounded
+        near = 2,  ///< they may meet when their points are rounded, but have no improper contact
         first_contact = 3; ///< first_contact + i: they have contact i
 
     std::vector<std::uint32_t> outcomes; ///< per pair

@@ -126,9 +126,8 @@ EdgeSides edges_after(const EdgeSides& old, const RenamedTriangles& renamed,
     EdgeSides e; // starts has the counts of the vertices first
     e.starts.assign(vertex_count + 1, 0);
     for_old_vertices([&](std::uint32_t v, std::span<const EdgeSides::Side> sides) {
-        e.starts[v] = static_cast<std::uint32_t>(std::ranges::count_if(sides, [&](const auto& s) {
-            return renamed.number[s.triangle] != no_index;
-        }));
+        e.starts[v] = static_cast<std::uint32_t>(std::ranges::count_if(
+            sides, [&](const auto& s) { return renamed.number[s.triangle] != no_index; }));
     });
     std::vector<char> is_mixed(vertex_count, 0); // whether another triangle has sides there
     for (const std::uint32_t t : renamed.others) {

@@ -58,7 +58,8 @@ EdgeSides group_edges(std::span<const Triangle> triangles, std::size_t vertex_co
 /// numbers. What else it has are the others; so are triangles whose corners are numbered in another
 /// order than before, as the vertices of their sides are then lower or higher than before.
 struct RenamedTriangles {
-    std::vector<std::uint32_t> number;     ///< per old triangle: its number now (the first), or no_index
+    std::vector<std::uint32_t>
+        number; ///< per old triangle: its number now (the first), or no_index
     std::vector<std::uint32_t> vertex_now; ///< per old vertex of these: its number, or no_index
     std::vector<std::uint32_t> others;     ///< ascending
 

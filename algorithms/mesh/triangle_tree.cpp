@@ -153,9 +153,7 @@ void TriangleTree::for_near(const Point3& p, const double& bound, const Visit& v
         Node* node;
         double distance; ///< from the point to the box of the node
     };
-    const auto opened = [&](Node* n) {
-        return Open{n, distance_to_box(p, n->low, n->high)};
-    };
+    const auto opened = [&](Node* n) { return Open{n, distance_to_box(p, n->low, n->high)}; };
     std::array<Open, 96> stack; // at most two per level of the balanced tree
     std::size_t top = 0;
     stack[top++] = opened(&nodes_->all.front());
