@@ -24,6 +24,12 @@ struct AscendingCorners {
         high(std::max({t[0], t[1], t[2]})) {}
 };
 
+/// Tells whether the corners of two triangles are numbered in the same order.
+bool have_same_order(const Triangle& t, const Triangle& u) {
+    return (t[0] < t[1]) == (u[0] < u[1]) && (t[1] < t[2]) == (u[1] < u[2]) &&
+           (t[2] < t[0]) == (u[2] < u[0]);
+}
+
 /// Sorts sides by their larger vertex; they are given in the order of the triangles.
 void sort_by_high(std::span<EdgeSides::Side> sides) {
     constexpr std::size_t few = 24;
@@ -97,17 +103,15 @@ RenamedTriangles::RenamedTriangles(std::span<const Triangle> old, std::size_t ol
     number(old.size(), no_index),
     vertex_now(old_vertices, no_index) {
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        const auto& [a, b, c] = triangles[t];
-        const bool is_known = old_of[t] != no_index && number[old_of[t]] == no_index && [&] {
-            const auto& [d, e, f] = old[old_of[t]];
-            return (a < b) == (d < e) && (b < c) == (e < f) && (c < a) == (f < d);
-        }();
+        const std::uint32_t before = old_of[t];
+        const bool is_known = before != no_index && number[before] == no_index &&
+                              have_same_order(old[before], triangles[t]);
         if (!is_known) {
             others.push_back(t);
             continue;
         }
-        number[old_of[t]] = t;
-        for (unsigned i = 0; i < 3; ++i) vertex_now[old[old_of[t]][i]] = triangles[t][i];
+        number[before] = t;
+        for (unsigned i = 0; i < 3; ++i) vertex_now[old[before][i]] = triangles[t][i];
     }
 }
 
