@@ -89,8 +89,14 @@ inline void check_consistent(const Arrangement& a) {
     std::size_t inner = 0;
     for (const auto& list : a.state->adjacency.inner) inner += list.size();
     std::size_t sides = 2 * inner;
-    for (std::size_t e = 0; e < a.state->adjacency.edges.size(); ++e)
+    bool have_ends = true;
+    for (std::size_t e = 0; e < a.state->adjacency.edges.size(); ++e) {
         sides += a.state->adjacency.triangles_at[e].size();
+        for (const std::uint32_t t : a.state->adjacency.triangles_at[e])
+            for (const std::uint32_t end : a.state->adjacency.edges[e])
+                have_ends = have_ends && std::ranges::count(a.triangles.at(t), end) == 1;
+    }
+    CHECK(have_ends);
     CHECK(sides == 3 * a.triangles.size());
 }
 
