@@ -330,8 +330,8 @@ TEST_CASE("known triangles: edges of triangles that stay are taken over", "[arra
 
 TEST_CASE("known triangles: a contact gets the vertices' new numbers", "[arrangement]") {
     Engine random(100);
-    const auto taken_over = [&](const std::vector<Surface>& before,
-                                const std::vector<Surface>& after) {
+    const auto tested_again = [&](const std::vector<Surface>& before,
+                                  const std::vector<Surface>& after) {
         KnownTriangles known;
         const Arrangement first = arranged_with(known, before);
         REQUIRE(first.statistics.improper_contacts > 0);
@@ -342,15 +342,23 @@ TEST_CASE("known triangles: a contact gets the vertices' new numbers", "[arrange
     const Surface one = random_sheet(random, 9), two = random_sheet(random, 9);
     Surface far = random_sheet(random, 3);
     for (Point3& p : far.vertices) p = moved(p, 9);
-    CHECK(taken_over({one, two}, {far, one, far, two}) == 0);
-    CHECK(taken_over({far, one, far, two}, {one, two}) == 0);
+    CHECK(tested_again({one, two}, {far, one, far, two}) == 0);
+    CHECK(tested_again({far, one, far, two}, {one, two}) == 0);
+    // Edges of coplanar triangles cross.
+    const auto level = [](double shift) {
+        return Surface{"level",
+                       Role::unknown,
+                       {{shift, shift, 0.5}, {shift + 1, shift, 0.5}, {shift, shift + 1, 0.5}},
+                       {{0, 1, 2}}};
+    };
+    CHECK(tested_again({level(0), level(0.3), far}, {far, level(0), level(0.3)}) == 0);
     // In another order the pairs are tested again, as are those whose corners are in another order.
-    CHECK(taken_over({one, two}, {two, one}) > 0);
+    CHECK(tested_again({one, two}, {two, one}) > 0);
     Surface reversed = one;
     std::ranges::reverse(reversed.vertices);
     for (Triangle& t : reversed.triangles)
         for (std::uint32_t& v : t) v = static_cast<std::uint32_t>(one.vertices.size()) - 1 - v;
-    CHECK(taken_over({one, two}, {reversed, two}) > 0);
+    CHECK(tested_again({one, two}, {reversed, two}) > 0);
 }
 
 TEST_CASE("known triangles: where triangles meet densely, pairs are left out", "[arrangement]") {
