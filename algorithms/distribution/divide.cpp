@@ -12,6 +12,7 @@
 #include <terrane/algorithms/distribution/detail/soup_of_faces.hpp>
 #include <terrane/algorithms/distribution/detail/steps.hpp>
 #include <terrane/algorithms/intersection/pencils.hpp>
+#include <terrane/algorithms/intersection/renamed_construction.hpp>
 #include <terrane/kernel/fraction.hpp>
 
 namespace terrane::distribution::detail {

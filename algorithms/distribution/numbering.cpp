@@ -10,6 +10,7 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/distribution/detail/soup_of_faces.hpp>
 #include <terrane/algorithms/distribution/detail/steps.hpp>
+#include <terrane/algorithms/intersection/renamed_construction.hpp>
 #include <terrane/kernel/point_store.hpp>
 
 namespace terrane::distribution::detail {

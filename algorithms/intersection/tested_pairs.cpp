@@ -1,27 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/intersection/tested_pairs.hpp>
 
-#include <algorithm>
+#include <terrane/algorithms/intersection/renamed_construction.hpp>
 
 namespace terrane {
-namespace {
-
-/// Returns the number of vertices that a construction names.
-std::size_t vertices_of(Construction::Kind kind) {
-    switch (kind) {
-    case Construction::Kind::line_plane:
-        return 5;
-    case Construction::Kind::three_planes:
-        return 9;
-    case Construction::Kind::line_line:
-        return 4;
-    case Construction::Kind::input:
-        break;
-    }
-    return 1;
-}
-
-} // namespace
 
 void ContactList::push_back(const Contact& contact) {
     shapes_.push_back({contact.overlap, contact.piece_count, contact.pieces});
@@ -36,11 +18,8 @@ void ContactList::append(const ContactList& other) {
 void ContactList::add_renamed(const ContactList& other, std::size_t i,
                               std::span<const std::uint32_t> name) {
     shapes_.push_back(other.shapes_[i]);
-    for (ContactPoint point : other.points_[i]) {
-        for (std::uint32_t& v : std::span(point.how.v).first(vertices_of(point.how.kind)))
-            v = name[v];
-        points_.values.push_back(point);
-    }
+    for (const ContactPoint& point : other.points_[i])
+        points_.values.push_back({renamed(point.how, name), point.place});
     points_.close();
 }
 

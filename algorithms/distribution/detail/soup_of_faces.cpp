@@ -37,22 +37,4 @@ SoupOfFaces soup_of(std::span<const Face> faces) {
     return soup;
 }
 
-unsigned vertices_of(const Construction& how) {
-    switch (how.kind) {
-    case Construction::Kind::input:
-        return 1;
-    case Construction::Kind::line_plane:
-        return 5;
-    case Construction::Kind::line_line:
-        return 4;
-    default:
-        return 9;
-    }
-}
-
-Construction renamed(Construction how, std::span<const std::uint32_t> names) {
-    for (unsigned k = 0; k < vertices_of(how); ++k) how.v[k] = names[how.v[k]];
-    return how;
-}
-
 } // namespace terrane::distribution::detail

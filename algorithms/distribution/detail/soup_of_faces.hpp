@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <terrane/algorithms/distribution/block.hpp>
-#include <terrane/kernel/construction.hpp>
 
 namespace terrane::distribution::detail {
 
@@ -24,11 +23,5 @@ struct SoupOfFaces {
 
 /// Makes a soup of faces that ascend by number.
 SoupOfFaces soup_of(std::span<const Face> faces);
-
-/// Returns a construction with other names of points, of which it has `points_of(how)`.
-Construction renamed(Construction how, std::span<const std::uint32_t> names);
-
-/// Returns the number of entries of v that a construction uses.
-unsigned vertices_of(const Construction& how);
 
 } // namespace terrane::distribution::detail
