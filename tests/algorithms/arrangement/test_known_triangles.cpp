@@ -340,7 +340,7 @@ TEST_CASE("known triangles: a contact gets the vertices' new numbers", "[arrange
         return again.statistics.candidates - again.statistics.known;
     };
     const Surface one = random_sheet(random, 9), two = random_sheet(random, 9);
-    Surface far = random_sheet(random, 3);
+    Surface far = random_sheet(random, 12);
     for (Point3& p : far.vertices) p = moved(p, 9);
     CHECK(tested_again({one, two}, {far, one, far, two}) == 0);
     CHECK(tested_again({far, one, far, two}, {one, two}) == 0);
@@ -352,6 +352,15 @@ TEST_CASE("known triangles: a contact gets the vertices' new numbers", "[arrange
                        {{0, 1, 2}}};
     };
     CHECK(tested_again({level(0), level(0.3), far}, {far, level(0), level(0.3)}) == 0);
+    // The first triangle of a pair becomes the second one, over the same vertices.
+    Surface crossed{
+        "crossed",
+        Role::unknown,
+        {{0, 0, 0.5}, {1, 0, 0.5}, {0, 1, 0.5}, {0.2, 0.2, 0}, {0.2, 0.2, 1}, {1, 1, 1}},
+        {{0, 1, 2}, {3, 4, 5}}};
+    Surface exchanged = crossed;
+    std::swap(exchanged.triangles[0], exchanged.triangles[1]);
+    CHECK(tested_again({crossed, far}, {exchanged, far}) == 1);
     // In another order the pairs are tested again, as are those whose corners are in another order.
     CHECK(tested_again({one, two}, {two, one}) > 0);
     Surface reversed = one;
