@@ -246,9 +246,7 @@ Candidates find_candidates(const Soup& soup, std::span<const std::uint32_t> patc
                            const KnownInSoup* known, LeftOut& left_out, const Run& run) {
     if (known != nullptr)
         if (auto candidates = known->candidates(patches, run)) return *std::move(candidates);
-    Candidates all{find_all_candidates(soup, patches, used, left_out, run), {}};
-    all.tested.outcomes.assign(all.pairs.size(), TestedPairs::untested);
-    return all;
+    return {find_all_candidates(soup, patches, used, left_out, run), {}};
 }
 
 Error interrupted() {
@@ -268,16 +266,13 @@ void assert_invariants([[maybe_unused]] const Arrangement& a) {
     TERRANE_ASSERT_PARANOID(is_sorted_unique(a.degenerate));
 }
 
-ArrangeStatistics statistics_of(const Candidates& candidates, std::size_t untested,
-                                const Retriangulation& division) {
-    ArrangeStatistics all;
+void count_statistics(ArrangeStatistics& all, const Candidates& candidates,
+                      const Retriangulation& division) {
     all.candidates = candidates.pairs.size();
-    all.known = candidates.pairs.size() - untested;
     all.improper_contacts = division.statistics.improper_contacts;
     all.divided = division.statistics.divided;
     all.constructed_points = division.ascending.size();
     all.predicates = division.statistics.predicates;
-    return all;
 }
 
 /// Keeps patches and candidates for the next arrangement. Keeps nothing if the search or the test left
@@ -360,14 +355,17 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     if (run.stop.stop_requested()) return interrupted();
 
     // (c) contacts, (d) equal points, (e) triangulation of the faces with contacts
-    const auto untested = static_cast<std::size_t>(
-        std::ranges::count(candidates.tested.outcomes, TestedPairs::untested));
+    auto& outcomes = candidates.tested.outcomes;
+    if (options.known != nullptr && outcomes.empty())
+        outcomes.assign(candidates.pairs.size(), TestedPairs::untested);
+    a.statistics.known = outcomes.size() - static_cast<std::size_t>(
+                                               std::ranges::count(outcomes, TestedPairs::untested));
     Retriangulation division =
         retriangulate(std::move(soup.points), soup.triangles, candidates.pairs, left_out.pencils,
                       part_of_stage(run, "arrange", 0.3, 0.85),
                       options.known != nullptr ? &candidates.tested : nullptr);
     if (run.stop.stop_requested()) return interrupted();
-    a.statistics = statistics_of(candidates, untested, division);
+    count_statistics(a.statistics, candidates, division);
     a.statistics.search = search;
     keep_known(options, soup, patches, division, left_out, std::move(candidates));
 

@@ -5,9 +5,9 @@
 // surfaces.
 //
 // If a surface has kept its triangles, its patches are taken over. Where all triangles at a vertex have
-// kept their corners, so are its edges. If both triangles of a pair have kept
-// their corners, the pair is neither searched for nor tested again: its contact is taken over, with the
-// vertices by their new numbers. The next arrangement is the mesh that arrange() makes without this object. Nothing is kept
+// kept their corners, so are its edges. If both triangles of a pair have kept their corners, the pair is
+// neither searched for nor tested again: its contact is taken over, with the vertices by their new
+// numbers. The next arrangement is the mesh that arrange() makes without this object. Nothing is kept
 // where the search or the test left pairs out: at crowded vertices, in pencils, and in pools.
 #pragma once
 
@@ -29,7 +29,7 @@ namespace terrane {
 /// The candidate pairs of a soup.
 struct Candidates {
     std::vector<CandidatePair> pairs; ///< sorted, unique
-    TestedPairs tested;               ///< what an earlier arrangement found
+    TestedPairs tested;               ///< what earlier arrangements found; or empty
 };
 
 /// The triangles of an arrangement, and what it found about them.
