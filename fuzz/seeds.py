@@ -494,6 +494,7 @@ def main():
                "forge_layered": lambda: forge_kind(5), "forge_cut": lambda: forge_kind(4, 1),
                "forge_sealed": forge_sealed,
                "arrange": soups, "rounding": soups, "crowded": crowded, "regions": soups,
+               "blocks": soups, "known": soups,
                "volumes": soups, "tetrahedra": soups, "pieces": pieces}
     seeds = {t: dict(make()) for t, make in targets.items()}
     for fmt, files in (FILES | other_programs()).items():

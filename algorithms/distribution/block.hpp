@@ -132,6 +132,18 @@ struct Block {
     std::vector<std::uint32_t> home_owner;      ///< per triangle: the block that owns it
     std::vector<std::uint32_t> home_count;      ///< per triangle: triangles of the result under it
 
+    // The input before it was moved (moving.cpp); empty if it was not.
+    std::vector<Point3> home_given;              ///< home_points
+    std::vector<std::uint32_t> home_given_first; ///< home_first
+    std::vector<std::uint32_t> home_flat;        ///< home_degenerate
+    std::vector<std::array<std::uint32_t, 2>> home_repeated; ///< of home triangles: {repeated,
+                                                             ///< first}, sorted
+    std::vector<std::array<std::uint32_t, 2>> given_repeated; ///< of faces that this block owns
+    bool is_in_frame = false; ///< faces are in a frame, and the doubles in none (frames.cpp)
+    BlockGrid given_grid;     ///< `grid`, for the doubles of a frame
+    std::vector<std::uint64_t> given_splitters;      ///< likewise
+    std::vector<std::array<double, 3>> point_errors; ///< per constructed point of a frame, per axis
+
     // Space (grid.hpp).
     BlockGrid grid;
     std::vector<std::uint64_t> splitters; ///< per block but the last: the first cell beyond it
@@ -205,6 +217,8 @@ struct Block {
         use(read_vertices), use(read_triangles), use(read_files);
         use(home_points), use(home_first), use(home_triangles), use(home_faces);
         use(home_degenerate), use(degenerate_records), use(home_owner), use(home_count);
+        use(home_given), use(home_given_first), use(home_flat), use(home_repeated);
+        use(given_repeated), use(given_splitters), use(point_errors);
         use(splitters), use(faces), use(duplicates), use(touched), use(overlapped), use(parts);
         use(own_faces_of.offsets), use(own_faces_of.values), use(points), use(constructions);
         use(geometry), use(point_splitters), use(used), use(requests), use(used_here);

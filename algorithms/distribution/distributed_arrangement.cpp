@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <span>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/sha256.hpp>
@@ -16,68 +18,57 @@ using namespace detail;
 
 namespace {
 
-/// Performs all steps, in order.
-class Sequence {
-public:
-    Sequence(Supersteps& blocks, const FileReader& read, const DistributedOptions& options,
-             const Run& run) :
-        blocks_(blocks),
-        read_(read), options_(options), run_(run) {}
+using Exchange = Status (*)(Block&, Inbox&, Outbox&);
+using Computation = Status (*)(Block&, Inbox&, Outbox&, const Run&);
 
-    Status operator()() {
-        using Exchange = Status (*)(Block&, Inbox&, Outbox&);
-        using Computation = Status (*)(Block&, Inbox&, Outbox&, const Run&);
-        struct Named {
-            std::string_view name;
-            Exchange exchange;
-            Computation computation;
-        };
-        const Named steps[] = {
-            {"share", share_out, nullptr},
-            {"name", receive_share, nullptr},
-            {"name", find_first_vertices, nullptr},
-            {"name", ask_for_corners, nullptr},
-            {"name", tell_corners, nullptr},
-            {"decompose", weigh_cells, nullptr},
-            {"decompose", divide_space, nullptr},
-            {"distribute", distribute_faces, nullptr},
-            {"pairs", nullptr, decide_pairs},
-            {"divide", nullptr, divide_own_faces},
-            {"number", split_points, nullptr},
-            {"number", send_points, nullptr},
-            {"number", order_constructed, nullptr},
-            {"number", number_points, nullptr},
-            {"unite", receive_numbers, nullptr},
-            {"unite", unite_parts, nullptr},
-            {"unite", settle, nullptr},
-            {"check", nullptr, check_doubles},
-            {"edges", send_shared_edges, nullptr},
-            {"edges", decide_shared_edges, nullptr},
-            {"regions", join_within, nullptr},
-            {"regions", join_across, nullptr},
-            {"regions", number_regions, nullptr},
-            {"regions", receive_regions, nullptr},
-        };
-        auto done = blocks_.step("read", [&](Block& b, Inbox&, Outbox& out) {
-            b.wants_digest = options_.digest;
-            return announce(b, options_.files, read_, out);
-        });
-        for (const Named& s : steps) {
-            if (!done) return done;
-            done = blocks_.step(s.name, [&](Block& b, Inbox& in, Outbox& out) {
-                return s.exchange != nullptr ? s.exchange(b, in, out)
-                                             : s.computation(b, in, out, run_);
-            });
-        }
-        return done;
-    }
-
-private:
-    Supersteps& blocks_;
-    const FileReader& read_;
-    const DistributedOptions& options_;
-    const Run& run_;
+/// A step, with its name and the work beside it.
+struct NamedStep {
+    std::string_view name;
+    Exchange exchange;
+    Computation computation = nullptr;
+    std::function<void(Block&, Inbox&, Outbox&)> StepsBeside::*beside = nullptr;
 };
+
+constexpr NamedStep sharing_steps[] = {{"share", share_out}, {"name", receive_share}};
+
+constexpr NamedStep arranging_steps[] = {
+    {"name", find_first_vertices},
+    {"name", ask_for_corners},
+    {"name", tell_corners},
+    {"decompose", weigh_cells},
+    {"decompose", divide_space},
+    {"distribute", distribute_faces},
+    {"pairs", nullptr, decide_pairs},
+    {"divide", nullptr, divide_own_faces},
+    {"number", split_points},
+    {"number", send_points, nullptr, &StepsBeside::send_points},
+    {"number", order_constructed, nullptr, &StepsBeside::order_constructed},
+    {"number", number_points, nullptr, &StepsBeside::number_points},
+    {"unite", receive_numbers},
+    {"unite", unite_parts},
+    {"unite", settle},
+    {"check", nullptr, check_doubles},
+    {"edges", send_shared_edges},
+    {"edges", decide_shared_edges},
+    {"regions", join_within},
+    {"regions", join_across},
+    {"regions", number_regions},
+    {"regions", receive_regions},
+};
+
+Status perform(Supersteps& blocks, std::span<const NamedStep> steps, const StepsBeside& beside,
+               const Run& run) {
+    for (const NamedStep& s : steps) {
+        const auto work = [&](Block& b, Inbox& in, Outbox& out) -> Status {
+            auto done = s.exchange != nullptr ? s.exchange(b, in, out)
+                                              : s.computation(b, in, out, run);
+            if (done && s.beside != nullptr && beside.*s.beside) (beside.*s.beside)(b, in, out);
+            return done;
+        };
+        if (auto done = blocks.step(s.name, work); !done) return done;
+    }
+    return Done{};
+}
 
 /// Returns the digest: the hash of the sorted records of all blocks, whose ranges ascend.
 Result<std::string> digest_of(Supersteps& blocks) {
@@ -168,9 +159,19 @@ Status count_work(Supersteps& blocks, DistributedReport& report) {
     return Done{};
 }
 
+Status detail::arrange_moved(Supersteps& blocks, const StepsBeside& beside, const Run& run) {
+    return perform(blocks, arranging_steps, beside, run);
+}
+
 Result<DistributedReport> arrange_in_blocks(Supersteps& blocks, const FileReader& read,
                                             const DistributedOptions& options, const Run& run) {
-    if (auto done = Sequence(blocks, read, options, run)(); !done) return done.error();
+    const auto reading = [&](Block& b, Inbox&, Outbox& out) {
+        b.wants_digest = options.digest;
+        return announce(b, options.files, read, out);
+    };
+    if (auto done = blocks.step("read", reading); !done) return done.error();
+    if (auto done = perform(blocks, sharing_steps, {}, run); !done) return done.error();
+    if (auto done = perform(blocks, arranging_steps, {}, run); !done) return done.error();
     auto report = summary_of(blocks);
     if (!report) return report;
     report->clean = report->contacts == 0 && report->deviation <= report->limit;
@@ -179,7 +180,12 @@ Result<DistributedReport> arrange_in_blocks(Supersteps& blocks, const FileReader
         if (!digest) return digest.error();
         report->digest = std::move(*digest);
     }
-    if (auto repaired = repair_few(blocks, *report, run); !repaired) return repaired.error();
+    if (report->clean || report->deviation > report->limit) return report;
+    auto repaired = repair_few(blocks, *report, {}, run);
+    if (!repaired) return repaired.error();
+    if (report->clean || !repaired->is_done) return report;
+    if (auto done = move_input(blocks, *report, std::move(*repaired), run); !done)
+        return done.error();
     return report;
 }
 

@@ -45,6 +45,7 @@ struct RepairInBlocks {
     unsigned rounds = 0;          ///< of moving vertices, and of snapping
     double surface_deviation = 0; ///< see RoundingReport
     double lost_length = 0;       ///< likewise
+    bool is_moved = false;        ///< whether the input was moved and arranged again
 };
 
 /// What all processes know of the result.

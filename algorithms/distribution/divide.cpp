@@ -34,10 +34,9 @@ std::vector<Face> faces_of_pairs(const std::vector<MeetingFaces>& pairs) {
     return faces;
 }
 
-/// Returns an upper bound of the distance between a point and its nearest doubles.
-double distance_from_doubles(const PointStore& store, PointIndex p) {
-    const auto [x, y, z] = store.rounding_errors(p);
-    return std::hypot(x, y, z) * (1 + 0x1p-50);
+/// Returns an upper bound of a distance with these coordinates.
+double length_of(const std::array<double, 3>& errors) {
+    return std::hypot(errors[0], errors[1], errors[2]) * (1 + 0x1p-50);
 }
 
 /// Takes the parts of own faces over, and the points that they have.
@@ -74,7 +73,9 @@ private:
             number_of_[p] = static_cast<std::uint32_t>(b_.points.size());
             OwnPoint point;
             point.nearest = store.nearest(p);
-            point.bound = distance_from_doubles(store, p);
+            const auto errors = store.rounding_errors(p);
+            point.bound = length_of(errors);
+            if (b_.is_in_frame) b_.point_errors.push_back(errors);
             if (b_.wants_digest) point.hash = hash_of_coordinates(fractions(store, p, 16));
             b_.points.push_back(point);
             b_.constructions.push_back(renamed(store.construction(p), soup_.names));

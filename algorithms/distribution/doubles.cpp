@@ -4,6 +4,7 @@
 // moved do, as the exact ones did. Each pair is tested in the block with the lowest corner of the
 // common part of their boxes.
 #include <algorithm>
+#include <span>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
@@ -54,7 +55,8 @@ DoubleSoup double_soup(const Block& b, const std::vector<DoubleFace>& parts,
         if (p.is_dirty != 0) soup.dirty.push_back(static_cast<std::uint32_t>(corners.size()));
         add(p.corners, p.at);
     }
-    for (const Face& f : b.faces)
+    const auto undivided = b.is_in_frame ? std::span<const Face>() : std::span(b.faces);
+    for (const Face& f : undivided)
         if (!std::binary_search(divided.begin(), divided.end(), f.id)) add(f.corners, f.at);
     std::sort(points.begin(), points.end(),
               [](const auto& p, const auto& q) { return p.first < q.first; });
@@ -154,6 +156,10 @@ Status check_doubles(Block& b, Inbox& in, Outbox& out, const Run& run) {
     const std::uint32_t first = home_start(b, b.triangle_total());
     in.take<CountOfFace>(
         0, [&](std::uint32_t, const CountOfFace& c) { b.home_count[c.face - first] = c.count; });
+    if (b.is_in_frame) { // from here on there are the doubles alone
+        b.grid = b.given_grid;
+        b.splitters = b.given_splitters;
+    }
     const auto parts = in.all<DoubleFace>(1);
     auto divided = in.all<std::uint32_t>(2);
     sort_unique(divided);

@@ -66,11 +66,16 @@ bool agree(const Block& b, std::uint32_t s, std::uint32_t t) {
     return signature_of(b, s) == signature_of(b, t);
 }
 
-std::uint32_t first_same(const Block& b, std::uint32_t triangle) {
+std::uint32_t first_in(std::span<const std::array<std::uint32_t, 2>> repeated,
+                       std::uint32_t triangle) {
     const auto found =
-        std::lower_bound(b.repeated.begin(), b.repeated.end(), triangle,
+        std::lower_bound(repeated.begin(), repeated.end(), triangle,
                          [](const auto& pair, std::uint32_t t) { return pair[0] < t; });
-    return found != b.repeated.end() && (*found)[0] == triangle ? (*found)[1] : triangle;
+    return found != repeated.end() && (*found)[0] == triangle ? (*found)[1] : triangle;
+}
+
+std::uint32_t first_same(const Block& b, std::uint32_t triangle) {
+    return first_in(b.repeated, triangle);
 }
 
 /// Channel 1: EdgeTriangle and channel 2: its surfaces, to where a hash of the ends points.

@@ -48,6 +48,22 @@ std::uint32_t owner_of_face(const Block& b, const Face& face) {
 }
 
 /// Channel 0: HomeVertex to where its hash points; channel 1: box of these vertices, to all.
+void send_home_vertices(const Block& b, Outbox& out) {
+    constexpr double far = HUGE_VAL;
+    Box box{{far, far, far}, {-far, -far, -far}};
+    std::uint32_t id = home_start(b, b.vertex_total());
+    for (const Point3& p : b.home_points) {
+        const std::array<double, 3> x{p.x, p.y, p.z};
+        for (unsigned k = 0; k < 3; ++k) {
+            box.low[k] = std::min(box.low[k], x[k]);
+            box.high[k] = std::max(box.high[k], x[k]);
+        }
+        out.put(hash_of(p) % b.count, 0, HomeVertex{p, id++});
+    }
+    if (!b.home_points.empty()) out.put_to_all(1, box);
+}
+
+/// See send_home_vertices.
 Status receive_share(Block& b, Inbox& in, Outbox& out) {
     const std::uint32_t vertices = home_size(b, b.vertex_total()),
                         triangles = home_size(b, b.triangle_total()),
@@ -56,21 +72,13 @@ Status receive_share(Block& b, Inbox& in, Outbox& out) {
     b.home_points.resize(vertices);
     b.home_triangles.resize(triangles);
     b.work.homes = triangles;
-    constexpr double far = HUGE_VAL;
-    Box box{{far, far, far}, {-far, -far, -far}};
     in.take<HomeVertex>(0, [&](std::uint32_t, const HomeVertex& v) {
         b.home_points[v.id - first_vertex] = v.at;
-        const std::array<double, 3> x{v.at.x, v.at.y, v.at.z};
-        for (unsigned k = 0; k < 3; ++k) {
-            box.low[k] = std::min(box.low[k], x[k]);
-            box.high[k] = std::max(box.high[k], x[k]);
-        }
-        out.put(hash_of(v.at) % b.count, 0, v);
     });
     in.take<HomeTriangle>(1, [&](std::uint32_t, const HomeTriangle& t) {
         b.home_triangles[t.id - first_triangle] = t.corners;
     });
-    if (vertices > 0) out.put_to_all(1, box);
+    send_home_vertices(b, out);
     return Done{};
 }
 
@@ -152,7 +160,8 @@ Status weigh_cells(Block& b, Inbox& in, Outbox& out) {
             face.at[i] = v.at;
             largest = std::max({largest, std::fabs(v.at.x), std::fabs(v.at.y), std::fabs(v.at.z)});
         }
-        if (has_area(face)) {
+        const bool was_flat = std::binary_search(b.home_flat.begin(), b.home_flat.end(), face.id);
+        if (has_area(face) && !was_flat) {
             ++count_of[{b.grid.place_of(box_of(face.at).low), surface_of(b, face.id)}];
             b.home_faces.push_back(face);
             continue;
@@ -180,13 +189,17 @@ Status divide_space(Block& b, Inbox& in, Outbox& out) {
     return Done{};
 }
 
-/// Channel 0: Face, to the blocks that its box overlaps.
+/// Channel 0: Face, to the blocks that its box overlaps; channel 1: home_repeated, to the owners.
 Status distribute_faces(Block& b, Inbox& in, Outbox& out) {
     b.splitters = in.all<std::uint64_t>(0);
     const std::uint32_t first = home_start(b, b.triangle_total());
     b.home_owner.assign(b.home_triangles.size(), b.index);
+    auto repeated = b.home_repeated.begin();
     for (const Face& face : b.home_faces) {
-        b.home_owner[face.id - first] = owner_of_face(b, face);
+        const std::uint32_t owner = b.home_owner[face.id - first] = owner_of_face(b, face);
+        while (repeated != b.home_repeated.end() && (*repeated)[0] < face.id) ++repeated;
+        if (repeated != b.home_repeated.end() && (*repeated)[0] == face.id)
+            out.put(owner, 1, *repeated);
         for (const std::uint32_t to : blocks_of(b.grid, b.splitters, box_of(face.at)))
             out.put(to, 0, face);
     }

@@ -182,6 +182,8 @@ std::vector<Found> improper_pairs(Block& b, const SoupOfFaces& soup,
 /// Channel 0: MeetingFaces, to the owners of both; channel 1: repeated faces, to their homes.
 Status decide_pairs(Block& b, Inbox& in, Outbox& out, const Run& run) {
     b.faces = in.all<Face>(0);
+    b.given_repeated = in.all<std::array<std::uint32_t, 2>>(1);
+    sort_unique(b.given_repeated);
     std::sort(b.faces.begin(), b.faces.end(),
               [](const Face& f, const Face& g) { return f.id < g.id; });
     b.work.faces = b.faces.size();

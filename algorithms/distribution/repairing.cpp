@@ -21,6 +21,7 @@
 namespace terrane::distribution {
 
 using namespace detail;
+using rounding::detail::ParentsInContact;
 
 namespace {
 
@@ -106,8 +107,8 @@ Status send_near(Block& b, Inbox& in, Outbox& out, const Run& run) {
 /// What the first block has gathered, and what it does with it.
 class Gathering {
 public:
-    Gathering(const DistributedReport& report, std::size_t blocks) :
-        report_(report),
+    Gathering(const DistributedReport& report, const MovedInBlocks& moved, std::size_t blocks) :
+        report_(report), moved_(moved),
         // One block must hold it beside its own triangles.
         most_triangles_(std::max<std::uint64_t>(65'536, 2 * report.triangles / blocks)) {}
 
@@ -128,7 +129,8 @@ public:
     void advance(const Block& b, Inbox& in, Outbox& out, const Run& run) {
         take(in);
         is_waiting_ = false;
-        if (triangles_.size() > most_triangles_) return;
+        has_all_ = triangles_.size() <= most_triangles_;
+        if (!has_all_) return;
         repaired_ = repair_part(part(b), run);
         is_waiting_ = !repaired_.missing.empty();
         covered_.insert(covered_.end(), repaired_.missing.begin(), repaired_.missing.end());
@@ -139,7 +141,8 @@ public:
     }
 
     [[nodiscard]] bool is_waiting() const { return is_waiting_; }
-    [[nodiscard]] const RepairedPart& repaired() const { return repaired_; }
+    [[nodiscard]] bool has_all() const { return has_all_; }
+    [[nodiscard]] RepairedPart& repaired() { return repaired_; }
     [[nodiscard]] std::size_t triangles() const { return triangles_.size(); }
 
 private:
@@ -161,10 +164,11 @@ private:
     void tell(const Block& b, Outbox& out) const;
 
     const DistributedReport& report_;
+    const MovedInBlocks& moved_;
     const std::uint64_t most_triangles_;
     std::vector<std::uint32_t> unclean_; ///< names, ascending
     std::vector<Box> covered_;
-    bool is_waiting_ = true;
+    bool is_waiting_ = true, has_all_ = false;
     std::vector<Gathered> triangles_; ///< by id
     std::vector<ParentOfTriangle> parents_;
     std::vector<GatheredPoint> points_; ///< by name
@@ -223,6 +227,8 @@ PartOfDoubles Gathering::part(const Block& b) const {
     part.largest_elsewhere = rest_.largest;
     part.largest_move = report_.deviation;
     part.limit = report_.limit;
+    part.is_moved = moved_.is_moved;
+    part.used = moved_.used;
     return part;
 }
 
@@ -403,16 +409,17 @@ Status take_changes(Block& b, Inbox& in, Outbox& out, double max_move) {
 
 /// What all processes learn of the first block.
 struct Outcome {
-    bool is_waiting = false, is_clean = false;
+    bool is_waiting = false, has_all = false, is_clean = false;
     double max_move = 0;
     RepairInBlocks summary;
 };
 
-Result<Outcome> outcome_of(Supersteps& blocks, const Gathering& gathering) {
+Result<Outcome> outcome_of(Supersteps& blocks, Gathering& gathering) {
     const auto bytes = blocks.relay([&](Block& b, Bytes before) {
         if (b.index != 0) return before;
         const RepairedPart& r = gathering.repaired();
         const Outcome outcome{gathering.is_waiting(),
+                              gathering.has_all(),
                               r.clean,
                               r.max_move,
                               {r.naive_contacts, gathering.triangles(), r.rounds,
@@ -427,10 +434,12 @@ Result<Outcome> outcome_of(Supersteps& blocks, const Gathering& gathering) {
     return outcome;
 }
 
-/// Lets the first block gather triangles until it knows what changes, or that it takes the whole.
+/// Lets the first block gather triangles until it knows what changes, or that it can't repair them.
+/// in_contact: gets their parents then, in the process of the first block.
 Result<Outcome> gather_and_repair(Supersteps& blocks, const DistributedReport& report,
+                                  const MovedInBlocks& moved, ParentsInContact& in_contact,
                                   const Run& run) {
-    Gathering gathering(report, blocks.blocks()); // used in the process of the first block
+    Gathering gathering(report, moved, blocks.blocks()); // used in the process of the first block
     const auto in_first = [&](const auto& work) {
         return blocks.step("repair", [&](Block& b, Inbox& in, Outbox& out) -> Status {
             if (b.index == 0) work(b, in, out);
@@ -448,18 +457,23 @@ Result<Outcome> gather_and_repair(Supersteps& blocks, const DistributedReport& r
         if (auto sent = blocks.step("repair", send); !sent) return sent.error();
         if (auto advanced = in_first(advance); !advanced) return advanced.error();
         auto outcome = outcome_of(blocks, gathering);
-        if (!outcome || !outcome->is_waiting) return outcome;
+        if (outcome && outcome->is_waiting) continue;
+        in_contact = std::move(gathering.repaired().in_contact);
+        return outcome;
     }
 }
 
 } // namespace
 
-Status detail::repair_few(Supersteps& blocks, DistributedReport& report, const Run& run) {
-    if (report.clean || report.contacts > most_repaired || report.deviation > report.limit)
-        return Done{};
-    const auto outcome = gather_and_repair(blocks, report, run);
+Result<RepairOfFew> detail::repair_few(Supersteps& blocks, DistributedReport& report,
+                                       const MovedInBlocks& moved, const Run& run) {
+    RepairOfFew done;
+    if (report.clean || report.contacts > most_repaired) return done;
+    const auto outcome = gather_and_repair(blocks, report, moved, done.in_contact, run);
     if (!outcome) return outcome.error();
-    if (!outcome->is_clean) return Done{};
+    done.is_done = outcome->has_all;
+    done.summary = outcome->summary;
+    if (!outcome->is_clean) return done;
     const Step steps[] = {[&](Block& b, Inbox& in, Outbox& out) {
                               return take_changes(b, in, out, outcome->max_move);
                           },
@@ -472,14 +486,15 @@ Status detail::repair_few(Supersteps& blocks, DistributedReport& report, const R
                           number_regions,
                           receive_regions};
     for (const Step& s : steps)
-        if (auto done = blocks.step("repair", s); !done) return done;
+        if (auto passed = blocks.step("repair", s); !passed) return passed.error();
     auto after = summary_of(blocks);
     if (!after) return after.error();
     after->clean = true;
+    after->limit = report.limit;
     after->digest = std::move(report.digest);
     after->repair = outcome->summary;
     report = std::move(*after);
-    return Done{};
+    return done;
 }
 
 } // namespace terrane::distribution

@@ -8,6 +8,7 @@
 #include <set>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/distribution/detail/edges.hpp>
 #include <terrane/algorithms/distribution/detail/hashes.hpp>
 #include <terrane/algorithms/distribution/detail/steps.hpp>
 #include <terrane/algorithms/mesh/triangle_table.hpp>
@@ -45,6 +46,13 @@ void append_repeated(const Block& b, std::uint32_t face, std::vector<std::uint32
 const Face& face_with(const Block& b, std::uint32_t id) {
     return *std::lower_bound(b.faces.begin(), b.faces.end(), id,
                              [](const Face& f, std::uint32_t i) { return f.id < i; });
+}
+
+/// Returns the first input triangle that had the same corners as one of an own face, which now has those
+/// of `face`.
+std::uint32_t first_given(const Block& b, std::uint32_t triangle, std::uint32_t face) {
+    if (b.home_given.empty()) return face;
+    return first_in(b.given_repeated, triangle);
 }
 
 /// Lists the hashes of own input triangles.
@@ -170,7 +178,7 @@ void send_overlapping_parts(Block& b, Outbox& out) {
             parents.assign(1, f);
             append_repeated(b, f, parents);
             for (const std::uint32_t parent : parents) {
-                ContainedPart record{corners, parent, f, {}};
+                ContainedPart record{corners, parent, first_given(b, parent, f), {}};
                 if (b.wants_digest) record.hash = hash_of_parent(b, parent);
                 out.put(to, 0, record);
             }
@@ -202,7 +210,8 @@ Status unite_parts(Block&, Inbox& in, Outbox& out) {
 }
 
 /// Channel 0: FaceCount, home; channel 1: DoubleFace and channel 2: numbers of divided faces, to the
-/// blocks that they overlap; channel 3: records of the digest.
+/// blocks that they overlap; channel 3: records of the digest. In a frame, where nothing is known of the
+/// doubles, all triangles are sent.
 Status settle(Block& b, Inbox& in, Outbox& out) {
     Settler::United united;
     in.take<ContainedPart>(0, [&](std::uint32_t, const ContainedPart& part) {
@@ -212,7 +221,8 @@ Status settle(Block& b, Inbox& in, Outbox& out) {
     });
     std::sort(b.parent_hashes.begin(), b.parent_hashes.end(),
               [](const ParentHash& p, const ParentHash& q) { return p.id < q.id; });
-    b.repeated.insert(b.repeated.end(), b.duplicates.begin(), b.duplicates.end());
+    const auto& repeated = b.home_given.empty() ? b.duplicates : b.given_repeated;
+    b.repeated.insert(b.repeated.end(), repeated.begin(), repeated.end());
     sort_unique(b.repeated);
     Settler(b, united)();
     b.work.triangles = b.triangles.size();
@@ -220,19 +230,26 @@ Status settle(Block& b, Inbox& in, Outbox& out) {
     for (const std::uint32_t f : b.touched) count[f] = 0;
     for (std::size_t t = 0; t < b.triangles.size(); ++t) {
         const auto of_face = count.find(b.face_of[t]);
-        if (of_face == count.end()) continue;
-        ++of_face->second;
+        if (of_face != count.end())
+            ++of_face->second;
+        else if (!b.is_in_frame)
+            continue;
         DoubleFace face;
+        face.is_dirty = b.is_in_frame ? 1 : 0;
         for (unsigned i = 0; i < 3; ++i) {
             face.corners[i] = b.triangles[t][i];
             face.at[i] = doubles_of(b, face.corners[i]);
             face.is_dirty |= bound_of(b, face.corners[i]) > 0 ? 1U : 0U;
         }
-        for (const std::uint32_t to : blocks_of(b.grid, b.splitters, box_of(face.at)))
+        const Box box = box_of(face.at);
+        for (const std::uint32_t to :
+             b.is_in_frame ? blocks_of(b.given_grid, b.given_splitters, box)
+                           : blocks_of(b.grid, b.splitters, box))
             out.put(to, 1, face);
     }
     for (const auto& [face, n] : count) {
         out.put(home_of(face, b.triangle_total(), b.count), 0, FaceCount{face, n});
+        if (b.is_in_frame) continue; // all triangles have been sent
         for (const std::uint32_t to : blocks_of(b.grid, b.splitters, box_of(face_with(b, face).at)))
             out.put(to, 2, face);
     }

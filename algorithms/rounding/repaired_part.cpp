@@ -58,19 +58,23 @@ RepairedPart repair_part(PartOfDoubles part, const Run& run) {
     const KeptPlanes no_planes;
     RepairTask task{no_planes};
     task.limit = part.limit;
+    task.used = part.used;
     task.max_rounds = RoundingOptions{}.max_rounds;
     task.hopeless = hopeless_from(all);
     task.elsewhere = &elsewhere;
+    const std::size_t left_from = part.is_moved ? hopeless_from(all) : crowded_from(all);
 
     RepairedPart out;
     Repair repair(state, task, run);
-    if (repair.tidy() && !state.is_torn) {
+    if (repair.tidy() && !(state.is_torn && part.is_moved)) {
         auto pairs = repair.contacts();
         out.naive_contacts = pairs.size();
-        if (repair.missing().empty() && pairs.size() < crowded_from(all)) {
+        if (repair.missing().empty() && !state.is_torn && pairs.size() < left_from) {
             if (!pairs.empty()) repair(pairs);
             out.clean = pairs.empty() && repair.missing().empty();
         }
+        if (!out.clean && repair.missing().empty())
+            out.in_contact = parents_in_contact(pairs, state.parents_of);
     }
     out.missing = repair.missing();
     if (!out.missing.empty()) {
@@ -80,9 +84,9 @@ RepairedPart repair_part(PartOfDoubles part, const Run& run) {
                        std::max(largest[2], std::fabs(p.z))};
         widen(out.missing, largest);
     }
-    if (!out.clean) return out;
     out.rounds = repair.rounds();
-    out.surface_deviation = state.deviation;
+    if (!out.clean) return out;
+    out.surface_deviation = deviation_of(state, part.used);
     out.lost_length = state.total_gaps();
     out.max_move = largest_move;
     for (const double m : state.move) out.max_move = std::max(out.max_move, m);

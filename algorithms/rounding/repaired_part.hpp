@@ -16,6 +16,7 @@
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
 #include <terrane/algorithms/search/search.hpp>
 
 namespace terrane {
@@ -37,12 +38,15 @@ struct PartOfDoubles {
     std::array<double, 3> largest_elsewhere{}; ///< absolute coordinate of their points, per axis
     double largest_move = 0;                   ///< of all points of the whole
     double limit = 0;                          ///< see RoundingReport::max_allowed
+    bool is_moved = false; ///< whether the input was moved: also crowded contacts are repaired then
+    double used = 0;       ///< of the limit, by that
 };
 
 /// A part after its repair.
 struct RepairedPart {
     std::vector<Box> missing; ///< if not empty: what has to be covered, too; nothing is repaired
-    bool clean = false; ///< whether nothing meets improperly any more. If not, it takes the whole
+    bool clean = false; ///< whether nothing meets improperly any more. If not, the input has to be moved
+    rounding::detail::ParentsInContact in_contact; ///< if it is not clean
     std::size_t naive_contacts = 0; ///< see RoundingReport
     unsigned rounds = 0;
     double surface_deviation = 0, lost_length = 0, max_move = 0;

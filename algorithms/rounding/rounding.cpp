@@ -14,8 +14,8 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/rounding/detail/attempt.hpp>
-#include <terrane/algorithms/rounding/detail/cluster_frame.hpp>
 #include <terrane/algorithms/rounding/detail/contact_clusters.hpp>
+#include <terrane/algorithms/rounding/detail/moved_attempts.hpp>
 #include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
 #include <terrane/algorithms/rounding/detail/reports.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
@@ -53,12 +53,6 @@ double largest_coordinate(const Arrangement& a) {
     return largest;
 }
 
-/// Returns 2^digits times the spacing of doubles at the largest coordinate.
-double spacing_at(double largest, int digits = 0) {
-    if (!(largest > 0)) return std::numeric_limits<double>::min();
-    return std::ldexp(1.0, std::max(std::ilogb(largest) - 52, -1074) + digits);
-}
-
 /// Makes the arrangement of the snapped input one of the original input: triangles that have the
 /// same points only because they were snapped do not count as duplicates.
 void name_input(const Arrangement& a, Arrangement& snapped) {
@@ -92,12 +86,12 @@ Result<Attempt> arrange_again(const Arrangement& a, const std::vector<Surface>& 
     return {Attempt{std::move(rounded).value(), std::move(in_contact)}};
 }
 
-/// Attempts to round an arrangement by moving its input.
-class MovedAttempts {
+/// An arrangement whose input is moved.
+class MovedWhole final : public MovableInput {
 public:
     /// Takes the first rounding, with the parents that are in contact after it.
-    MovedAttempts(const Arrangement& a, RoundedMesh first, ParentsInContact in_contact,
-                  const Task& task) :
+    MovedWhole(const Arrangement& a, RoundedMesh first, ParentsInContact in_contact,
+               const Task& task) :
         arrangement_(a),
         task_(task), first_(std::move(first)), in_contact_(std::move(in_contact)), input_(a) {
         input_.choose(in_contact_.all);
@@ -107,30 +101,32 @@ public:
 
     /// Returns the first rounding that is conforming, or the one before any was attempted.
     Result<RoundedMesh> operator()() {
-        if (auto done = as_decimals(); !done) return done.error();
-        if (auto done = as_clusters(); !done) return done.error();
-        const auto points = arrangement_.state->points.inputs();
-        double last = 0;
-        for (const int digits : rounding_tuning.coarse_digits) {
-            if (found_) break;
-            const auto grid =
-                grid_of_digits(points, digits, task_.limit - room(points), task_.kept);
-            if (!grid || grid->reach() == last) break; // coarser ones are as fine
-            last = grid->reach();
-            if (auto done = on_grid(*grid); !done) return done.error();
-            if (is_over_) break;
-        }
+        const unsigned most = task_.options.max_rounds;
+        const auto done = attempt_moves(*this, task_.limit, most > rounds_ ? most - rounds_ : 0);
+        if (!done) return done.error();
         return found_ ? std::move(*found_) : std::move(first_);
     }
 
 private:
-    Status as_decimals();
-    Status as_clusters();
-    Status on_grid(const SnapGrid& grid);
-    Status attempt(const std::vector<Surface>& surfaces);
-    [[nodiscard]] double room(std::span<const Point3> points) const;
-    [[nodiscard]] bool may_go_on() const {
-        return !found_ && !is_over_ && rounds_ < task_.options.max_rounds;
+    Result<std::optional<DecimalFrame>> decimal_frame() override;
+    Result<std::optional<ClusterFrame>> cluster_frame() override;
+    [[nodiscard]] std::optional<SnapGrid> grid(int digits, double limit) const override {
+        return grid_of_digits(inputs(), digits, limit, task_.kept);
+    }
+    Result<Attempted> attempt(const DecimalFrame& frame) override {
+        return attempt(input_.surfaces(frame));
+    }
+    Result<Attempted> attempt(const ClusterFrame& frame) override {
+        return attempt(input_.surfaces(frame));
+    }
+    Result<Attempted> attempt(const SnapGrid& grid) override {
+        return attempt(input_.surfaces(grid));
+    }
+    Result<bool> choose_more() override { return input_.choose(last_.all); }
+
+    Result<Attempted> attempt(const std::vector<Surface>& surfaces);
+    [[nodiscard]] std::span<const Point3> inputs() const {
+        return arrangement_.state->points.inputs();
     }
 
     const Arrangement& arrangement_;
@@ -139,69 +135,40 @@ private:
     const ParentsInContact in_contact_; ///< after the first rounding
     SnappedInput input_;
     unsigned rounds_ = 0;
-    bool is_over_ = false;             ///< a grid was so coarse that a boundary was not closed
     std::optional<RoundedMesh> found_; ///< conforming
     ParentsInContact last_;            ///< after the last attempt
 };
 
-/// Returns what is left for the repair of the doubles after the input was moved.
-double MovedAttempts::room(std::span<const Point3> points) const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    double sum = 0;
-    for (const int digits : {rounding_tuning.fine_digits[0], rounding_tuning.fine_digits[1]})
-        if (const auto grid = grid_of_digits(points, digits, infinity, task_.kept))
-            sum += grid->reach();
-    return std::min(sum, task_.limit / 4);
-}
-
 /// Arranges and rounds the moved input.
-Status MovedAttempts::attempt(const std::vector<Surface>& surfaces) {
+Result<Attempted> MovedWhole::attempt(const std::vector<Surface>& surfaces) {
     auto done = arrange_again(arrangement_, surfaces, input_.how(), task_);
     if (!done) return done.error();
     ++rounds_;
     auto& [rounded, in_contact] = done.value();
     last_ = std::move(in_contact);
-    is_over_ = !rounded;
-    if (!rounded || !rounded->report.clean || rounded->report.surface_deviation > task_.limit)
-        return Done{};
+    if (!rounded) return Attempted::torn;
+    if (!rounded->report.clean || rounded->report.surface_deviation > task_.limit)
+        return Attempted::in_contact;
     add_to_report(input_.how(), arrangement_, first_.report, *rounded);
     rounded->report.rounds += rounds_;
     found_ = std::move(rounded);
-    return Done{};
+    return Attempted::conforming;
 }
 
-/// Arranges the input as the decimals that it stands for. What compares lengths can't be repeated
-/// in a frame.
-Status MovedAttempts::as_decimals() {
+/// What compares lengths can't be repeated in a frame.
+Result<std::optional<DecimalFrame>> MovedWhole::decimal_frame() {
     const ExactState& state = *arrangement_.state;
-    if (!may_go_on() || (state.restrict_again && state.measures)) return Done{};
-    const auto frame = DecimalFrame::of(state.points.inputs(), input_.chosen(), task_.kept);
-    if (!frame || 2 * frame->largest_error() > task_.limit) return Done{};
-    if (auto done = attempt(input_.surfaces(*frame)); !done) return done;
-    is_over_ = false; // a grid may do
-    return Done{};
+    if (state.restrict_again && state.measures) return std::optional<DecimalFrame>();
+    return DecimalFrame::of(inputs(), input_.chosen(), task_.kept);
 }
 
-/// Arranges the input in a frame in which nearly coplanar clusters are coplanar. Its axes are
-/// inclined, so that they can't keep the planes of a volume of interest.
-Status MovedAttempts::as_clusters() {
-    if (!may_go_on() || !arrangement_.state->whole) return Done{};
-    const double tolerance =
-        rounding_tuning.cluster_spacings * spacing_at(largest_coordinate(arrangement_));
-    const auto normals = cluster_directions(arrangement_, in_contact_, tolerance);
-    const auto frame =
-        ClusterFrame::of(arrangement_.state->points.inputs(), input_.chosen(), normals, tolerance);
-    if (!frame || 2 * frame->largest_error() > task_.limit) return Done{};
-    return attempt(input_.surfaces(*frame));
-}
-
-/// Snaps the vertices of triangles in contact to a grid, then those of what is in contact then.
-Status MovedAttempts::on_grid(const SnapGrid& grid) {
-    for (unsigned w = 0; w < rounding_tuning.widenings && may_go_on(); ++w) {
-        if (auto done = attempt(input_.surfaces(grid)); !done) return done;
-        if (!is_over_ && !input_.choose(last_.all)) break;
-    }
-    return Done{};
+/// The axes of such a frame are inclined, so that they can't keep the planes of a volume of interest.
+Result<std::optional<ClusterFrame>> MovedWhole::cluster_frame() {
+    if (!arrangement_.state->whole) return std::optional<ClusterFrame>();
+    const double tolerance = cluster_tolerance(largest_coordinate(arrangement_));
+    const auto normals =
+        cluster_directions(arrangement_.state->corners, inputs(), in_contact_, tolerance);
+    return ClusterFrame::of(inputs(), input_.chosen(), normals, tolerance);
 }
 
 Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& options,
@@ -219,7 +186,7 @@ Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& optio
     if (is_unclean() && may_move_input) {
         auto in_contact =
             where_it_lies.left() ? *where_it_lies.left() : parents_in_contact(rounded.value());
-        rounded = MovedAttempts(a, std::move(rounded).value(), std::move(in_contact), task)();
+        rounded = MovedWhole(a, std::move(rounded).value(), std::move(in_contact), task)();
     }
     if (is_unclean() && where_it_lies.left()) rounded = Rounding(a, unmoved, Repairs::all, task)();
     if (rounded && (rounded.value().report.collapsed_triangles > 0 ||

@@ -9,22 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include <terrane/algorithms/distribution/distributed_arrangement.hpp>
-#include <terrane/algorithms/distribution/pieces.hpp>
-#include <terrane/algorithms/distribution/supersteps.hpp>
+#include "support/pieces_joined.hpp"
 
 #include <catch2/catch.hpp>
 
 namespace test_support {
 
 using namespace terrane;
-
-/// Reads file i of surfaces in memory: each surface is a file.
-inline distribution::FileReader reader_of(const std::vector<Surface>& surfaces) {
-    return [&surfaces](std::size_t file) -> Result<std::vector<Surface>> {
-        return std::vector<Surface>{surfaces[file]};
-    };
-}
 
 inline distribution::DistributedReport arranged(distribution::Supersteps& blocks,
                                                 const std::vector<Surface>& surfaces) {
@@ -36,10 +27,7 @@ inline distribution::DistributedReport arranged(distribution::Supersteps& blocks
 
 inline Mesh joined(distribution::Supersteps& blocks,
                    const distribution::DistributedReport& report) {
-    distribution::PieceJoiner joiner(report.vertices, report.triangles);
-    REQUIRE(blocks.visit(
-        [&](distribution::Block& b) -> Status { return joiner.add(distribution::piece_of(b)); }));
-    auto mesh = std::move(joiner).finish();
+    auto mesh = pieces_joined(blocks, report);
     REQUIRE(mesh);
     return std::move(*mesh);
 }

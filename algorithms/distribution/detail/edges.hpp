@@ -4,6 +4,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <terrane/algorithms/distribution/block.hpp>
@@ -40,6 +41,10 @@ struct Neighbour {
 std::vector<EdgeSide> sides_of(const Block& b);
 /// Tells whether two triangles have as many distinct parents in each surface.
 bool agree(const Block& b, std::uint32_t s, std::uint32_t t);
+/// Returns the first of a triangle that is repeated, in a sorted list of {repeated, first}; otherwise the
+/// triangle.
+std::uint32_t first_in(std::span<const std::array<std::uint32_t, 2>> repeated,
+                       std::uint32_t triangle);
 /// Returns the first input triangle with the same corners.
 std::uint32_t first_same(const Block& b, std::uint32_t triangle);
 

@@ -15,6 +15,8 @@
 #include <terrane/algorithms/distribution/block.hpp>
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
 #include <terrane/algorithms/distribution/messages.hpp>
+#include <terrane/algorithms/distribution/supersteps.hpp>
+#include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
 #include <terrane/algorithms/search/search.hpp>
 
 namespace terrane::distribution::detail {
@@ -57,6 +59,7 @@ Status announce(Block& b, std::size_t files, const ReadFile& read, Outbox& out);
 Status share_out(Block& b, Inbox& in, Outbox& out);
 
 // Naming of input vertices (naming.cpp): equal points are found where a hash of them points to.
+void send_home_vertices(const Block& b, Outbox& out);
 Status receive_share(Block& b, Inbox& in, Outbox& out);
 Status find_first_vertices(Block& b, Inbox& in, Outbox& out);
 Status ask_for_corners(Block& b, Inbox& in, Outbox& out);
@@ -94,10 +97,38 @@ Status join_across(Block& b, Inbox& in, Outbox& out);
 Status number_regions(Block& b, Inbox& in, Outbox& out);
 Status receive_regions(Block& b, Inbox& in, Outbox& out);
 
+/// How far the input was moved before it was arranged in blocks.
+struct MovedInBlocks {
+    bool is_moved = false;
+    double used = 0; ///< no surface was moved farther
+};
+
+/// What came of the repair of few pairs.
+struct RepairOfFew {
+    bool is_done = false; ///< whether the first block could gather all that it takes
+    RepairInBlocks summary;
+    /// Where it is done and the report is not clean: the input triangles in contact, in the process of the
+    /// first block.
+    rounding::detail::ParentsInContact in_contact{};
+};
+
 /// Repairs doubles that are not conforming, where few pairs are in the way (repairing.cpp). Then
 /// report.clean, or nothing has changed. Cost: some steps, in each of which a block looks at the boxes of
 /// its triangles; the process of the first block holds those near the pairs.
-Status repair_few(Supersteps& blocks, DistributedReport& report, const Run& run);
+Result<RepairOfFew> repair_few(Supersteps& blocks, DistributedReport& report,
+                               const MovedInBlocks& moved, const Run& run);
+
+/// Moves the input as round_to_doubles() does and arranges it again, where a repair of few pairs found no
+/// conforming mesh (moving.cpp). Then report.clean, or the blocks have the input as it was, and nothing
+/// else. first: of the input where it lies.
+Status move_input(Supersteps& blocks, DistributedReport& report, RepairOfFew first, const Run& run);
+
+/// Work for all blocks beside some steps of arrange_moved().
+struct StepsBeside {
+    std::function<void(Block&, Inbox&, Outbox&)> send_points, order_constructed, number_points;
+};
+/// Arranges what home_points say, after send_home_vertices() (distributed_arrangement.cpp).
+Status arrange_moved(Supersteps& blocks, const StepsBeside& beside, const Run& run);
 
 /// Sums up what the blocks report, without the digest (distributed_arrangement.cpp).
 Result<DistributedReport> summary_of(Supersteps& blocks);

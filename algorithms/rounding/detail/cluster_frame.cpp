@@ -88,13 +88,12 @@ double ClusterFrame::Axis::coordinate_of(double value) const {
     return (is_of_lattice ? number : coordinate) + 0.0; // never -0
 }
 
-std::optional<ClusterFrame> ClusterFrame::of(std::span<const Point3> points,
-                                             const std::vector<bool>& chosen,
-                                             std::span<const Point3> normals, double tolerance) {
-    const auto first = std::find(chosen.begin(), chosen.end(), true);
-    if (first == chosen.end() || normals.empty()) return std::nullopt;
+std::optional<ClusterFrame> ClusterFrame::of_chosen(std::span<const Point3> points,
+                                                    std::span<const Point3> normals,
+                                                    double tolerance) {
+    if (points.empty() || normals.empty()) return std::nullopt;
     ClusterFrame frame;
-    frame.origin_ = points[static_cast<std::size_t>(first - chosen.begin())];
+    frame.origin_ = points.front();
     std::vector<Point3> all(normals.begin(), normals.end());
     if (all.size() == 1) all.push_back(any_across(all[0]));
     if (all.size() == 2) all.push_back(unit_vector(cross(all[0], all[1])));
@@ -103,14 +102,21 @@ std::optional<ClusterFrame> ClusterFrame::of(std::span<const Point3> points,
         axis.normal = all[k];
         axis.tolerance = tolerance;
         std::vector<double> values;
-        for (std::size_t v = 0; v < points.size(); ++v)
-            if (chosen[v]) values.push_back(dot(axis.normal, minus(points[v], frame.origin_)));
+        for (const Point3& p : points) values.push_back(dot(axis.normal, minus(p, frame.origin_)));
         axis.find_groups(std::move(values));
         axis.number_lattice();
     }
     frame.set_steps();
-    frame.keep_places(points);
-    if (!std::isfinite(frame.largest_error_)) return std::nullopt;
+    return frame;
+}
+
+std::optional<ClusterFrame> ClusterFrame::of(std::span<const Point3> points,
+                                             const std::vector<bool>& chosen,
+                                             std::span<const Point3> normals, double tolerance) {
+    auto frame = of_chosen(chosen_of(points, chosen), normals, tolerance);
+    if (!frame) return std::nullopt;
+    frame->keep_places(points);
+    if (!std::isfinite(frame->largest_error_)) return std::nullopt;
     return frame;
 }
 

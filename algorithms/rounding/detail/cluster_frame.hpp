@@ -30,6 +30,17 @@ public:
     static std::optional<ClusterFrame> of(std::span<const Point3> points,
                                           const std::vector<bool>& chosen,
                                           std::span<const Point3> normals, double tolerance);
+    /// Does the same for the chosen points alone: keep_place() and state_largest_error() have to follow.
+    static std::optional<ClusterFrame> of_chosen(std::span<const Point3> points,
+                                                 std::span<const Point3> normals,
+                                                 double tolerance);
+
+    /// Notes where back() takes a place of input points: to the first of them.
+    void keep_place(const Point3& place, const Point3& given) { given_.try_emplace(place, given); }
+    /// Bounds the distance between given and its place, or another input point and this place.
+    [[nodiscard]] double error_of_place(const Point3& place, const Point3& given) const {
+        return error_between(place, given, {});
+    }
 
     [[nodiscard]] Point3 into(const Point3& p) const override;
     [[nodiscard]] Point3 back(const Point3& q) const override;

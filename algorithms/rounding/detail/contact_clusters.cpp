@@ -5,13 +5,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
 
-#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/rounding/detail/tuning.hpp>
 
 namespace terrane::rounding::detail {
 namespace {
@@ -43,9 +44,8 @@ Point3 scaled(const Point3& v, double factor) {
 /// Joins input triangles to clusters, and finds the plane of each.
 class Clusters {
 public:
-    Clusters(const Arrangement& a, double tolerance) :
-        corners_(a.state->corners), points_(a.state->points.inputs()), tolerance_(tolerance),
-        sets_(a.state->corners.size()) {}
+    Clusters(std::span<const Triangle> corners, std::span<const Point3> points, double tolerance) :
+        corners_(corners), points_(points), tolerance_(tolerance), sets_(corners.size()) {}
 
     void join(std::span<const TrianglePair> pairs) {
         for (const auto& [p, q] : pairs) {
@@ -217,9 +217,10 @@ void choose(std::vector<Point3>& chosen, std::vector<Direction> from) {
 
 } // namespace
 
-std::vector<Point3> cluster_directions(const Arrangement& a, const ParentsInContact& in_contact,
-                                       double tolerance) {
-    Clusters clusters(a, tolerance);
+std::vector<Point3> cluster_directions(std::span<const Triangle> corners,
+                                       std::span<const Point3> points,
+                                       const ParentsInContact& in_contact, double tolerance) {
+    Clusters clusters(corners, points, tolerance);
     clusters.join(in_contact.pairs);
     std::vector<Point3> chosen;
     choose(chosen, clusters.of_planes());
@@ -228,6 +229,15 @@ std::vector<Point3> cluster_directions(const Arrangement& a, const ParentsInCont
     choose(chosen, clusters.of_triangles(clusters.in_contact()));
     choose(chosen, clusters.across_edges(chosen[0]));
     return chosen;
+}
+
+double spacing_at(double largest, int digits) {
+    if (!(largest > 0)) return std::numeric_limits<double>::min();
+    return std::ldexp(1.0, std::max(std::ilogb(largest) - 52, -1074) + digits);
+}
+
+double cluster_tolerance(double largest) {
+    return rounding_tuning.cluster_spacings * spacing_at(largest);
 }
 
 } // namespace terrane::rounding::detail

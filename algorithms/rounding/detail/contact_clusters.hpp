@@ -4,10 +4,11 @@
 // of doubles.
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane::rounding::detail {
@@ -20,8 +21,15 @@ namespace terrane::rounding::detail {
 /// (2) those of triangles that corners of others in contact touch, by the same measure;
 /// (3) if there is any so far, those of other triangles in contact, and then of planes upright on
 ///     the first that contain edges in it: a lattice in the clusters is one along these, too.
-/// Cost: linear in the contacts and in the input triangles.
-std::vector<Point3> cluster_directions(const Arrangement& arrangement,
+/// corners: of the input triangles; points: that these name. Cost: linear in the contacts and in the input
+/// triangles.
+std::vector<Point3> cluster_directions(std::span<const Triangle> corners,
+                                       std::span<const Point3> points,
                                        const ParentsInContact& in_contact, double tolerance);
+
+/// Returns 2^digits times the spacing of doubles at a coordinate.
+double spacing_at(double largest, int digits = 0);
+/// Returns the tolerance for an input whose triangles have this largest absolute coordinate.
+double cluster_tolerance(double largest);
 
 } // namespace terrane::rounding::detail

@@ -73,45 +73,64 @@ double DecimalFrame::Axis::error(double x, double given) const {
            least_double;
 }
 
-std::optional<DecimalFrame> DecimalFrame::of(std::span<const Point3> points,
-                                             const std::vector<bool>& chosen,
-                                             const KeptPlanes& kept) {
+std::optional<DecimalFrame> DecimalFrame::of_chosen(std::span<const Point3> points) {
     DecimalFrame frame;
     bool is_other = false;
     for (unsigned axis = 0; axis < 3; ++axis) {
         std::vector<double> values;
-        for (std::size_t v = 0; v < points.size(); ++v)
-            if (chosen[v]) values.push_back(coordinate(points[v], axis));
+        for (const Point3& p : points) values.push_back(coordinate(p, axis));
         frame.axes_[axis].factor = factor_for(values).value_or(1);
         is_other = is_other || frame.axes_[axis].factor != 1;
     }
     if (!is_other) return std::nullopt;
-    frame.keep_places(points, kept);
     return frame;
 }
 
-void DecimalFrame::keep_places(std::span<const Point3> points, const KeptPlanes& kept) {
+std::optional<DecimalFrame> DecimalFrame::of(std::span<const Point3> points,
+                                             const std::vector<bool>& chosen,
+                                             const KeptPlanes& kept) {
+    auto frame = of_chosen(chosen_of(points, chosen));
+    if (!frame) return std::nullopt;
     std::array<double, 3> largest{};
+    for (const Point3& p : points) {
+        const auto errors = frame->errors_of(p);
+        for (unsigned axis = 0; axis < 3; ++axis)
+            largest[axis] = std::max(largest[axis], errors[axis]);
+    }
+    frame->largest_error_ = length_bound(largest[0], largest[1], largest[2]);
     for (unsigned axis = 0; axis < 3; ++axis) {
-        Axis& a = axes_[axis];
-        if (a.factor == 1) continue;
+        if (frame->is_as_given(axis)) continue;
+        std::vector<Place> places;
         for (const Point3& p : points) {
             const double x = coordinate(p, axis);
-            a.places.push_back({a.into(x), x, std::ranges::binary_search(kept[axis], x)});
+            places.push_back(
+                {frame->axes_[axis].into(x), x, std::ranges::binary_search(kept[axis], x)});
         }
-        // Of the coordinates that become the same, a kept one or the lowest is where they go back.
-        std::ranges::sort(a.places, [](const Place& p, const Place& q) {
-            return std::tuple(p.in_frame, !p.is_kept, p.given) <
-                   std::tuple(q.in_frame, !q.is_kept, q.given);
-        });
-        for (const Place& p : a.places)
-            largest[axis] = std::max(largest[axis], a.error(p.in_frame, p.given));
-        a.places.erase(
-            std::unique(a.places.begin(), a.places.end(),
-                        [](const Place& p, const Place& q) { return p.in_frame == q.in_frame; }),
-            a.places.end());
+        frame->keep_places(axis, std::move(places));
     }
-    largest_error_ = length_bound(largest[0], largest[1], largest[2]);
+    return frame;
+}
+
+// Of the coordinates that become the same, a kept one or the lowest is where they go back.
+void DecimalFrame::keep_places(unsigned axis, std::vector<Place> places) {
+    std::ranges::sort(places, [](const Place& p, const Place& q) {
+        return std::tuple(p.in_frame, !p.is_kept, p.given) <
+               std::tuple(q.in_frame, !q.is_kept, q.given);
+    });
+    places.erase(
+        std::unique(places.begin(), places.end(),
+                    [](const Place& p, const Place& q) { return p.in_frame == q.in_frame; }),
+        places.end());
+    axes_[axis].places = std::move(places);
+}
+
+std::array<double, 3> DecimalFrame::errors_of(const Point3& p) const {
+    std::array<double, 3> errors{};
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        const double x = coordinate(p, axis);
+        if (!is_as_given(axis)) errors[axis] = axes_[axis].error(axes_[axis].into(x), x);
+    }
+    return errors;
 }
 
 Point3 DecimalFrame::into(const Point3& p) const {

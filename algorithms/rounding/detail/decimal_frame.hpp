@@ -35,6 +35,20 @@ public:
     /// `kept`: coordinates that go back to themselves even if others became the same.
     static std::optional<DecimalFrame> of(std::span<const Point3> points,
                                           const std::vector<bool>& chosen, const KeptPlanes& kept);
+    /// Does the same for the chosen points alone: keep_places() and state_largest_error() have to follow.
+    static std::optional<DecimalFrame> of_chosen(std::span<const Point3> points);
+
+    /// What an input coordinate becomes.
+    struct Place {
+        double in_frame = 0, given = 0;
+        bool is_kept = false;
+    };
+    /// Keeps the places of input coordinates on an axis for the way back.
+    void keep_places(unsigned axis, std::vector<Place> places);
+    /// Whether coordinates on an axis stay as they are.
+    [[nodiscard]] bool is_as_given(unsigned axis) const { return axes_[axis].factor == 1; }
+    /// Bounds, per axis, the distances between an input point and what its coordinates became.
+    [[nodiscard]] std::array<double, 3> errors_of(const Point3& p) const;
 
     [[nodiscard]] Point3 into(const Point3& p) const override;
     [[nodiscard]] Point3 back(const Point3& q) const override;
@@ -42,11 +56,6 @@ public:
                                   const std::array<double, 3>& errors) const override;
 
 private:
-    /// What an input coordinate becomes.
-    struct Place {
-        double in_frame = 0, given = 0;
-        bool is_kept = false;
-    };
     struct Axis {
         double factor = 1;         ///< a power of ten, exactly
         std::vector<Place> places; ///< ascending in the frame, each once; empty if factor is 1
@@ -56,8 +65,6 @@ private:
         /// Bounds |x / factor - given|, for the exact quotient.
         [[nodiscard]] double error(double x, double given) const;
     };
-
-    void keep_places(std::span<const Point3> points, const KeptPlanes& kept);
 
     std::array<Axis, 3> axes_;
 };

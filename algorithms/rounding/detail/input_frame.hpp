@@ -5,6 +5,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
 
 #include <terrane/kernel/point.hpp>
 
@@ -34,9 +37,20 @@ public:
     /// Bounds the distance between one of the input points and its exact place in the frame, and
     /// that between this exact place and where back() takes it.
     [[nodiscard]] double largest_error() const { return largest_error_; }
+    /// States it where the input points are in several processes.
+    void state_largest_error(double error) { largest_error_ = error; }
 
 protected:
     double largest_error_ = 0;
 };
+
+/// Returns the chosen points.
+inline std::vector<Point3> chosen_of(std::span<const Point3> points,
+                                     const std::vector<bool>& chosen) {
+    std::vector<Point3> all;
+    for (std::size_t v = 0; v < points.size(); ++v)
+        if (chosen[v]) all.push_back(points[v]);
+    return all;
+}
 
 } // namespace terrane::rounding::detail

@@ -2,6 +2,7 @@
 //
 // Arrangements of surfaces of which most are those of the arrangement before.
 #include "support/effort.hpp"
+#include "support/differences.hpp"
 #include "support/shapes.hpp"
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
@@ -140,26 +141,7 @@ void change(Engine& random, std::vector<Surface>& model) {
 }
 
 void require_same(const Arrangement& a, const Arrangement& b) {
-    REQUIRE(a.vertices == b.vertices);
-    REQUIRE(a.triangles == b.triangles);
-    REQUIRE(a.parents_of == b.parents_of);
-    REQUIRE(a.surfaces_of == b.surfaces_of);
-    REQUIRE(a.intersection_edges == b.intersection_edges);
-    REQUIRE(a.statistics.candidates == b.statistics.candidates);
-    REQUIRE(a.statistics.improper_contacts == b.statistics.improper_contacts);
-    REQUIRE(a.state->neighbours == b.state->neighbours);
-    REQUIRE(a.state->crowded == b.state->crowded);
-    REQUIRE(a.state->pools == b.state->pools);
-    REQUIRE(a.state->adjacency.edges == b.state->adjacency.edges);
-    REQUIRE(a.state->adjacency.triangles_at == b.state->adjacency.triangles_at);
-    REQUIRE(a.state->adjacency.inner == b.state->adjacency.inner);
-    REQUIRE(a.state->patches.of == b.state->patches.of);
-    REQUIRE(a.state->patches.axis == b.state->patches.axis);
-    REQUIRE(a.state->patches.turn == b.state->patches.turn);
-    for (std::uint32_t v = 0; v < a.vertices.size(); ++v) {
-        REQUIRE(a.construction(VertexId(v)) == b.construction(VertexId(v)));
-        REQUIRE(a.nearest(VertexId(v)) == b.nearest(VertexId(v)));
-    }
+    REQUIRE(difference(a, b) == "");
 }
 
 Arrangement arranged_with(KnownTriangles& known, const std::vector<Surface>& model,

@@ -2,6 +2,7 @@
 //
 // An arrangement in blocks is that of one process: its triangles, numbers, regions and digest.
 #include "support/certified_inputs.hpp"
+#include "support/differences.hpp"
 #include "support/files.hpp"
 #include "support/in_blocks.hpp"
 
@@ -29,12 +30,7 @@ using test_support::joined;
 using test_support::waves;
 
 void require_same(const Mesh& found, const Mesh& expected) {
-    CHECK(found.surfaces == expected.surfaces);
-    CHECK(found.vertices == expected.vertices);
-    CHECK(found.triangles == expected.triangles);
-    CHECK(found.surfaces_of == expected.surfaces_of);
-    CHECK(found.regions_of == expected.regions_of);
-    CHECK(found.parents_of == expected.parents_of);
+    CHECK(test_support::difference(found, expected) == "");
 }
 
 /// Triangles on a small lattice: they overlap, repeat each other, and some have no area.

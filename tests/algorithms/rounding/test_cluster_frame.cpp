@@ -4,6 +4,7 @@
 #include "support/rounded.hpp"
 #include "support/shapes.hpp"
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/rounding/detail/cluster_frame.hpp>
 #include <terrane/algorithms/rounding/detail/contact_clusters.hpp>
@@ -123,8 +124,12 @@ TEST_CASE("contact clusters: the plane of two sheets that cross all over is foun
     const auto naive = round_to_doubles(a, {.max_rounds = 0});
     REQUIRE(naive);
     REQUIRE(naive->report.contacts.size() > 10);
-    const auto normals = cluster_directions(a, parents_in_contact(*naive), tolerance);
+    const auto directions = [&](const ParentsInContact& in_contact) {
+        return cluster_directions(a.state->corners, a.state->points.inputs(), in_contact,
+                                  tolerance);
+    };
+    const auto normals = directions(parents_in_contact(*naive));
     REQUIRE(normals.size() == 3);
     CHECK(std::fabs(dot(normals[0], d.u)) == Approx(1).epsilon(1e-9));
-    CHECK(cluster_directions(a, parents_in_contact(rounded(a)), tolerance).empty());
+    CHECK(directions(parents_in_contact(rounded(a))).empty());
 }
