@@ -186,8 +186,7 @@ struct Block {
                                              ///< is in the same region
     std::vector<Hash> records;               ///< of the digest, in the range of this block
     std::uint64_t unclean = 0;               ///< pairs and triangles of doubles that are not proper
-    std::vector<UncleanPoint>
-        unclean_points;                 ///< by name; those of the first pairs, if they are many
+    std::vector<UncleanPoint> unclean_points; ///< by name
     std::uint64_t result_triangles = 0; ///< of all blocks
     double deviation = 0;               ///< largest move of a point, in all blocks
     std::uint64_t edges = 0;            ///< intersection edges that this block counts

@@ -181,10 +181,12 @@ Result<DistributedReport> arrange_in_blocks(Supersteps& blocks, const FileReader
         report->digest = std::move(*digest);
     }
     if (report->clean || report->deviation > report->limit) return report;
-    auto repaired = repair_few(blocks, *report, {}, run);
+    const RepairInput input{
+        std::max<std::uint64_t>(options.most_gathered, 2 * report->triangles / blocks.blocks())};
+    auto repaired = repair_few(blocks, *report, input, run);
     if (!repaired) return repaired.error();
     if (report->clean || !repaired->is_done) return report;
-    if (auto done = move_input(blocks, *report, std::move(*repaired), run); !done)
+    if (auto done = move_input(blocks, *report, std::move(*repaired), input, run); !done)
         return done.error();
     return report;
 }

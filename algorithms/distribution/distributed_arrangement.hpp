@@ -5,8 +5,9 @@
 // Guarantees: the triangles of all blocks together are those of arrange() rounded by
 // round_to_doubles(), with the same numbers, parents and regions, for any number of blocks; the digest
 // is the same. Where the nearest doubles are not a conforming mesh, few pairs in the way are repaired as
-// round_to_doubles() repairs them, with the triangles near them. Many are reported: their repair needs
-// the whole model (docs/explanation/scale.md).
+// round_to_doubles() repairs them, with the triangles near them; or all blocks move the input as it does,
+// and arrange it again. Many pairs are reported: their repair needs the whole model
+// (docs/explanation/scale.md).
 // Cost: that of arrange(), divided by the number of blocks as far as they balance, and of the faces
 // that overlap several blocks.
 // Source: the paper, section 2 (structured grid); Valiant (1990) for the steps.
@@ -36,6 +37,9 @@ using FileReader = std::function<Result<std::vector<Surface>>(std::size_t file)>
 struct DistributedOptions {
     std::size_t files = 0; ///< number of input files
     bool digest = false;   ///< whether the digest is computed, which costs more than all else
+    /// So many triangles near what is in the way of a mesh of doubles the first block gathers at most, or
+    /// twice the average of a block.
+    std::uint64_t most_gathered = 65'536;
 };
 
 /// How doubles in the way were repaired.
@@ -52,7 +56,8 @@ struct RepairInBlocks {
 struct DistributedReport {
     bool clean = false;         ///< the doubles are a conforming mesh, by exact check of all pairs
     std::uint64_t contacts = 0; ///< pairs, points and triangles that are in the way
-    double deviation = 0;       ///< no vertex is farther from its exact point
+    double deviation = 0;       ///< no vertex is farther from its exact point; of a moved input no
+                                ///< surface is farther from where it was
     double limit = 0;           ///< farthest that is allowed unless the user says otherwise
     std::uint64_t input_vertices = 0, input_triangles = 0;
     std::uint64_t vertices = 0, triangles = 0, intersection_edges = 0, regions = 0;
@@ -89,8 +94,8 @@ BlockPiece piece_of(const Block& block);
 /// Tells, for each vertex of the piece of a block, whether several blocks use it.
 std::vector<bool> shared_vertices(const Block& block, const BlockPiece& piece);
 
-/// Arranges and rounds all surfaces in the process of the first block, for a mesh that is not clean:
-/// moving the input may change any part of it. That process then needs the memory and the
+/// Arranges and rounds all surfaces in the process of the first block, for a mesh that is not clean. That
+/// process then needs the memory and the
 /// time of arrange() and round_to_doubles(). Call it after arrange_in_blocks(), in all processes; in
 /// others the piece is empty. Errors: those of arrange() and round_to_doubles().
 struct RepairedWhole {

@@ -76,10 +76,12 @@ DoubleSoup double_soup(const Block& b, const std::vector<DoubleFace>& parts,
 
 /// What is in the way of a mesh of doubles.
 struct Unclean {
-    std::vector<std::uint32_t> points; ///< of the soup
+    std::vector<bool> is_in_way; ///< per point of the soup
     std::uint64_t count = 0;
 
-    void add(const Triangle& t) { points.insert(points.end(), t.begin(), t.end()); }
+    void add(const Triangle& t) {
+        for (const std::uint32_t p : t) is_in_way[p] = true;
+    }
 };
 
 /// Finds points at the same place, which become one, and triangles without area.
@@ -92,7 +94,7 @@ void find_collapsed(DoubleSoup& soup, Unclean& unclean) {
         if (first[p] == p) continue;
         any = true;
         ++unclean.count;
-        unclean.points.insert(unclean.points.end(), {first[p], p});
+        unclean.is_in_way[first[p]] = unclean.is_in_way[p] = true;
     }
     for (const std::uint32_t t : soup.dirty) {
         const Triangle& c = soup.triangles[t];
@@ -143,9 +145,9 @@ void find_improper(Block& b, const DoubleSoup& soup, Unclean& unclean, const Run
             return improper;
         }));
     unclean.count += found.size();
-    for (std::size_t k = 0; k < std::min(found.size(), most_repaired); ++k) {
-        unclean.add(triangles[found[k].first]);
-        unclean.add(triangles[found[k].second]);
+    for (const CandidatePair& p : found) {
+        unclean.add(triangles[p.first]);
+        unclean.add(triangles[p.second]);
     }
 }
 
@@ -166,13 +168,12 @@ Status check_doubles(Block& b, Inbox& in, Outbox& out, const Run& run) {
     keep_records(b, in, 3);
     BlockVerdict verdict;
     DoubleSoup soup = double_soup(b, parts, divided);
-    Unclean unclean;
+    Unclean unclean{std::vector<bool>(soup.points.size(), false)};
     find_collapsed(soup, unclean);
     if (!soup.dirty.empty()) find_improper(b, soup, unclean, run);
     verdict.unclean = unclean.count;
-    sort_unique(unclean.points);
-    for (const std::uint32_t p : unclean.points)
-        b.unclean_points.push_back({soup.names[p], 0, soup.points[p]});
+    for (std::size_t p = 0; p < soup.points.size(); ++p)
+        if (unclean.is_in_way[p]) b.unclean_points.push_back({soup.names[p], 0, soup.points[p]});
     for (const OwnPoint& p : b.points) verdict.deviation = std::max(verdict.deviation, p.bound);
     for (const std::uint32_t c : b.home_count) verdict.triangles += c;
     out.put_to_all(0, verdict);

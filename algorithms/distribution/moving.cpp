@@ -123,8 +123,10 @@ void begin_anew(Block& b) {
 /// The input of all blocks.
 class MovedBlocks final : public rounding::detail::MovableInput {
 public:
-    MovedBlocks(Supersteps& blocks, DistributedReport& report, RepairOfFew first, const Run& run) :
-        blocks_(blocks), report_(report), first_(std::move(first)), run_(run) {}
+    MovedBlocks(Supersteps& blocks, DistributedReport& report, RepairOfFew first,
+                const RepairInput& input, const Run& run) :
+        blocks_(blocks),
+        report_(report), first_(std::move(first)), input_(input), run_(run) {}
 
     Status operator()() {
         for (const auto& step : {note_input, note_repeated})
@@ -171,6 +173,7 @@ private:
     Supersteps& blocks_;
     DistributedReport& report_;
     const RepairOfFew first_;
+    const RepairInput& input_;
     const Run& run_;
     const KeptPlanes no_planes_;
     std::array<double, 3> largest_{}; ///< absolute coordinate of all input vertices, per axis
@@ -393,7 +396,7 @@ Result<Attempted> MovedBlocks::arranged(double farthest) {
     unsigned rounds = 0;
     last_ = {};
     if (!after->clean) {
-        auto repaired = repair_few(blocks_, *after, {true, farthest}, run_);
+        auto repaired = repair_few(blocks_, *after, {input_.most_gathered, true, farthest}, run_);
         if (!repaired) return repaired.error();
         is_left_ = !repaired->is_done;
         if (is_left_) return Error{ErrorCode::unsupported, "", ""};
@@ -406,6 +409,7 @@ Result<Attempted> MovedBlocks::arranged(double farthest) {
     how.rounds += attempts_ + rounds;
     how.is_moved = true;
     after->repair = how;
+    after->deviation = how.surface_deviation;
     report_ = std::move(*after);
     return Attempted::conforming;
 }
@@ -413,8 +417,8 @@ Result<Attempted> MovedBlocks::arranged(double farthest) {
 } // namespace
 
 Status detail::move_input(Supersteps& blocks, DistributedReport& report, RepairOfFew first,
-                          const Run& run) {
-    return MovedBlocks(blocks, report, std::move(first), run)();
+                          const RepairInput& input, const Run& run) {
+    return MovedBlocks(blocks, report, std::move(first), input, run)();
 }
 
 } // namespace terrane::distribution

@@ -107,10 +107,8 @@ Status send_near(Block& b, Inbox& in, Outbox& out, const Run& run) {
 /// What the first block has gathered, and what it does with it.
 class Gathering {
 public:
-    Gathering(const DistributedReport& report, const MovedInBlocks& moved, std::size_t blocks) :
-        report_(report), moved_(moved),
-        // One block must hold it beside its own triangles.
-        most_triangles_(std::max<std::uint64_t>(65'536, 2 * report.triangles / blocks)) {}
+    Gathering(const DistributedReport& report, const RepairInput& input) :
+        report_(report), input_(input) {}
 
     /// Takes the unclean points. Channel 0: Box, to all.
     void begin(Inbox& in, Outbox& out) {
@@ -129,7 +127,7 @@ public:
     void advance(const Block& b, Inbox& in, Outbox& out, const Run& run) {
         take(in);
         is_waiting_ = false;
-        has_all_ = triangles_.size() <= most_triangles_;
+        has_all_ = triangles_.size() <= input_.most_gathered;
         if (!has_all_) return;
         repaired_ = repair_part(part(b), run);
         is_waiting_ = !repaired_.missing.empty();
@@ -164,8 +162,7 @@ private:
     void tell(const Block& b, Outbox& out) const;
 
     const DistributedReport& report_;
-    const MovedInBlocks& moved_;
-    const std::uint64_t most_triangles_;
+    const RepairInput& input_;
     std::vector<std::uint32_t> unclean_; ///< names, ascending
     std::vector<Box> covered_;
     bool is_waiting_ = true, has_all_ = false;
@@ -227,8 +224,8 @@ PartOfDoubles Gathering::part(const Block& b) const {
     part.largest_elsewhere = rest_.largest;
     part.largest_move = report_.deviation;
     part.limit = report_.limit;
-    part.is_moved = moved_.is_moved;
-    part.used = moved_.used;
+    part.is_moved = input_.is_moved;
+    part.used = input_.used;
     return part;
 }
 
@@ -437,9 +434,9 @@ Result<Outcome> outcome_of(Supersteps& blocks, Gathering& gathering) {
 /// Lets the first block gather triangles until it knows what changes, or that it can't repair them.
 /// in_contact: gets their parents then, in the process of the first block.
 Result<Outcome> gather_and_repair(Supersteps& blocks, const DistributedReport& report,
-                                  const MovedInBlocks& moved, ParentsInContact& in_contact,
+                                  const RepairInput& input, ParentsInContact& in_contact,
                                   const Run& run) {
-    Gathering gathering(report, moved, blocks.blocks()); // used in the process of the first block
+    Gathering gathering(report, input); // used in the process of the first block
     const auto in_first = [&](const auto& work) {
         return blocks.step("repair", [&](Block& b, Inbox& in, Outbox& out) -> Status {
             if (b.index == 0) work(b, in, out);
@@ -466,10 +463,10 @@ Result<Outcome> gather_and_repair(Supersteps& blocks, const DistributedReport& r
 } // namespace
 
 Result<RepairOfFew> detail::repair_few(Supersteps& blocks, DistributedReport& report,
-                                       const MovedInBlocks& moved, const Run& run) {
+                                       const RepairInput& input, const Run& run) {
     RepairOfFew done;
-    if (report.clean || report.contacts > most_repaired) return done;
-    const auto outcome = gather_and_repair(blocks, report, moved, done.in_contact, run);
+    if (report.clean || report.contacts > input.most_gathered) return done;
+    const auto outcome = gather_and_repair(blocks, report, input, done.in_contact, run);
     if (!outcome) return outcome.error();
     done.is_done = outcome->has_all;
     done.summary = outcome->summary;

@@ -17,10 +17,12 @@ namespace test_support {
 
 using namespace terrane;
 
-inline distribution::DistributedReport arranged(distribution::Supersteps& blocks,
-                                                const std::vector<Surface>& surfaces) {
-    auto report =
-        distribution::arrange_in_blocks(blocks, reader_of(surfaces), {surfaces.size(), true});
+/// most_gathered: see DistributedOptions.
+inline distribution::DistributedReport
+arranged(distribution::Supersteps& blocks, const std::vector<Surface>& surfaces,
+         std::uint64_t most_gathered = distribution::DistributedOptions{}.most_gathered) {
+    auto report = distribution::arrange_in_blocks(blocks, reader_of(surfaces),
+                                                  {surfaces.size(), true, most_gathered});
     REQUIRE(report);
     return *report;
 }

@@ -85,8 +85,6 @@ Status unite_parts(Block& b, Inbox& in, Outbox& out);
 Status settle(Block& b, Inbox& in, Outbox& out);
 
 // The check of the doubles (doubles.cpp).
-/// If more pairs are in the way, they are not repaired in blocks.
-constexpr std::size_t most_repaired = 65'536;
 Status check_doubles(Block& b, Inbox& in, Outbox& out, const Run& run);
 
 // Edges, regions and numbers of triangles (edges.cpp, regions.cpp).
@@ -97,10 +95,11 @@ Status join_across(Block& b, Inbox& in, Outbox& out);
 Status number_regions(Block& b, Inbox& in, Outbox& out);
 Status receive_regions(Block& b, Inbox& in, Outbox& out);
 
-/// How far the input was moved before it was arranged in blocks.
-struct MovedInBlocks {
-    bool is_moved = false;
-    double used = 0; ///< no surface was moved farther
+/// What the repair of few pairs has to know.
+struct RepairInput {
+    std::uint64_t most_gathered = 0; ///< so many triangles, and pairs, are few
+    bool is_moved = false;           ///< whether the input was moved
+    double used = 0;                 ///< no surface was moved farther
 };
 
 /// What came of the repair of few pairs.
@@ -116,12 +115,13 @@ struct RepairOfFew {
 /// report.clean, or nothing has changed. Cost: some steps, in each of which a block looks at the boxes of
 /// its triangles; the process of the first block holds those near the pairs.
 Result<RepairOfFew> repair_few(Supersteps& blocks, DistributedReport& report,
-                               const MovedInBlocks& moved, const Run& run);
+                               const RepairInput& input, const Run& run);
 
 /// Moves the input as round_to_doubles() does and arranges it again, where a repair of few pairs found no
 /// conforming mesh (moving.cpp). Then report.clean, or the blocks have the input as it was, and nothing
-/// else. first: of the input where it lies.
-Status move_input(Supersteps& blocks, DistributedReport& report, RepairOfFew first, const Run& run);
+/// else. first: of the input where it lies, by `input`.
+Status move_input(Supersteps& blocks, DistributedReport& report, RepairOfFew first,
+                  const RepairInput& input, const Run& run);
 
 /// Work for all blocks beside some steps of arrange_moved().
 struct StepsBeside {

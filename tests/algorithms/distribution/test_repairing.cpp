@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Where blocks repair doubles, the mesh is that of round_to_doubles(), bit by bit. Where they do not,
-// rounding had to move the input.
+// Where blocks repair doubles, or move the input, the mesh is that of round_to_doubles(), bit by bit.
 #include "support/files.hpp"
 #include "support/in_blocks.hpp"
 
@@ -122,17 +121,29 @@ struct Seen {
     std::size_t repaired = 0; ///< in blocks
     std::size_t changed = 0;  ///< with other triangles than the exact ones
     std::size_t few = 0;      ///< with less than half of the triangles
-    std::size_t left = 0;
+    std::size_t moved = 0;    ///< after the input was moved
+    std::size_t left = 0;     ///< to one process
 };
 
-void check(const Expected& expected, Supersteps& blocks, Seen& seen) {
+/// Lets one process repair what the blocks have left to it.
+void check_left(const Expected& expected, Supersteps& blocks) {
+    const auto whole = repair_in_one_process(blocks);
+    REQUIRE(whole);
+    CHECK(whole->report.clean == expected.rounded.report.clean);
+    CHECK(whole->piece.mesh.vertices == expected.rounded.mesh->vertices);
+    CHECK(whole->piece.mesh.triangles == expected.rounded.mesh->triangles);
+    CHECK(whole->piece.mesh.parents_of == expected.rounded.mesh->parents_of);
+}
+
+void check(const Expected& expected, Supersteps& blocks, Seen& seen,
+           std::uint64_t most_gathered = DistributedOptions{}.most_gathered) {
     const auto& rounding = expected.rounded.report;
     const Mesh& mesh = *expected.rounded.mesh;
-    const auto report = arranged(blocks, expected.surfaces);
+    const auto report = arranged(blocks, expected.surfaces, most_gathered);
     CHECK(report.digest == canonical_digest(expected.surfaces, expected.exact));
     if (!report.clean) {
-        CHECK((rounding.arranged_again || !rounding.clean));
         CHECK_FALSE(report.repair);
+        check_left(expected, blocks);
         ++seen.left;
         return;
     }
@@ -141,7 +152,8 @@ void check(const Expected& expected, Supersteps& blocks, Seen& seen) {
     CHECK(report.triangles == mesh.triangles.size());
     CHECK(report.intersection_edges == mesh.intersection_edges.size());
     CHECK(report.regions == expected.rounded.regions.size());
-    CHECK(report.deviation == Approx(rounding.max_move));
+    if (!report.repair || !report.repair->is_moved)
+        CHECK(report.deviation == Approx(rounding.max_move));
     const Mesh found = joined(blocks, report);
     CHECK(found.vertices == mesh.vertices);
     CHECK(found.triangles == mesh.triangles);
@@ -160,6 +172,7 @@ void check(const Expected& expected, Supersteps& blocks, Seen& seen) {
     CHECK(report.repair->lost_length == Approx(rounding.lost_length));
     if (mesh.triangles.size() != expected.exact.triangles.size()) ++seen.changed;
     if (2 * report.repair->triangles < report.triangles) ++seen.few;
+    if (report.repair->is_moved) ++seen.moved;
     const auto measures = find_volumes_in_blocks(blocks);
     REQUIRE(measures);
     const auto volumes = find_volumes(mesh);
@@ -167,10 +180,46 @@ void check(const Expected& expected, Supersteps& blocks, Seen& seen) {
     CHECK(*measures == volumes->measures);
 }
 
-void check(const Expected& expected, std::size_t count, Seen& seen) {
+void check(const Expected& expected, std::size_t count, Seen& seen,
+           std::uint64_t most_gathered = DistributedOptions{}.most_gathered) {
     const Run run;
     LocalSupersteps blocks({count, {}}, run);
-    check(expected, blocks, seen);
+    check(expected, blocks, seen, most_gathered);
+}
+
+/// Two sheets in one plane, and triangles across them; some are there twice. Coordinates are tenths, far
+/// from the origin, or the plane is turned: then all is coplanar but for the error of doubles.
+std::vector<Surface> sheets_in_a_plane(unsigned seed, bool is_turned) {
+    RandomPoints random(seed);
+    const auto at = [&](int x, int y, int z) -> Point3 {
+        const double u = x / 10.0, v = y / 10.0, w = z / 10.0;
+        if (!is_turned) return {far_away.x + u, far_away.y + v, far_away.x + w};
+        return {0.8 * u - 0.36 * v + 0.48 * w, 0.8 * v + 0.6 * w, -0.6 * u - 0.48 * v + 0.64 * w};
+    };
+    const int slope = is_turned ? 0 : 2;
+    const auto in_plane = [&](int x, int y) { return at(x, y, slope * x - y * (slope / 2)); };
+    std::vector<Surface> surfaces{{"a", Role::unknown, {}, {}}, {"b", Role::unknown, {}, {}}};
+    for (const int step : {7, 8}) {
+        const int cells = 56 / step, shift = static_cast<int>(random.below(5));
+        Surface& s = surfaces[step == 7 ? 0 : 1];
+        for (int i = 0; i < cells; ++i)
+            for (int k = 0; k < cells; ++k) {
+                const int x = step * i + shift, y = step * k;
+                add_triangle(s, {in_plane(x, y), in_plane(x + step, y), in_plane(x, y + step)});
+                add_triangle(s, {in_plane(x + step, y), in_plane(x + step, y + step),
+                                 in_plane(x, y + step)});
+                if (random.below(8) == 0) s.triangles.push_back(s.triangles.back());
+            }
+    }
+    for (unsigned t = 0; t < 6; ++t) {
+        const auto any = [&](int low, int high) {
+            return low + static_cast<int>(random.below(static_cast<std::size_t>(high - low)));
+        };
+        add_triangle(surfaces[t % 2], {at(any(0, 56), any(0, 56), any(-60, 0)),
+                                       at(any(0, 56), any(0, 56), any(0, 60)),
+                                       at(any(0, 56), any(0, 56), any(60, 120))});
+    }
+    return surfaces;
 }
 
 } // namespace
@@ -185,7 +234,35 @@ TEST_CASE("repair in blocks: random soups, in any number of blocks", "[distribut
         }
     CHECK(seen.repaired >= 36);
     CHECK(seen.changed >= 9);
-    CHECK(seen.left >= 3); // so the test below the limits of the repair is one, too
+    CHECK(seen.moved >= 3);
+    CHECK(seen.left == 0);
+}
+
+TEST_CASE("repair in blocks: the input is moved", "[distribution]") {
+    for (const bool is_turned : {false, true}) {
+        Seen seen;
+        for (unsigned seed = 0; seed < 5; ++seed) {
+            CAPTURE(is_turned, seed);
+            const Expected expected(sheets_in_a_plane(seed, is_turned));
+            for (const std::size_t count : {1, 2, 5}) check(expected, count, seen);
+        }
+        CHECK(seen.moved >= 12);
+        CHECK(seen.left == 0);
+    }
+}
+
+TEST_CASE("repair in blocks: what can't be gathered is left to one process as it was read",
+          "[distribution]") {
+    Seen seen;
+    for (unsigned seed = 0; seed < 4; ++seed) {
+        const Expected expected(sheets_in_a_plane(seed, seed % 2 == 0));
+        for (const std::uint64_t most : {400, 600, 800, 1000, 1200, 1400, 1600, 2000}) {
+            CAPTURE(seed, most);
+            check(expected, 30, seen, most);
+        }
+    }
+    CHECK(seen.left > 4);
+    CHECK(seen.moved > 4);
 }
 
 TEST_CASE("repair in blocks: few triangles are gathered where few are in the way",
@@ -225,4 +302,13 @@ TEST_CASE("repair in blocks: in files and in threads", "[distribution]") {
     check(expected, in_files, seen);
     check(expected, in_threads, seen);
     CHECK(seen.repaired == 2);
+    for (unsigned seed = 0; seed < 4; ++seed) {
+        CAPTURE(seed);
+        const Expected moved(sheets_in_a_plane(seed, seed % 2 == 0));
+        const test_support::TemporaryFolder other;
+        LocalSupersteps files({3, other.path()}, alone), threads({3, {}}, several);
+        check(moved, files, seen);
+        check(moved, threads, seen);
+    }
+    CHECK(seen.moved >= 4);
 }
