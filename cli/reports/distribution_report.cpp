@@ -30,9 +30,12 @@ Json counts_of_work(const Work& w) {
             {"memory", w.memory}};
 }
 
-/// Tells how the doubles were repaired: near what was in the way, in one process, or not at all.
+/// Tells how the doubles were repaired: near what was in the way, by moving the input, in one process, or
+/// not at all.
 Json rounding_json(const DistributedReport& r, const RoundingReport* whole) {
     Json all{{"in_blocks", whole == nullptr},
+             {"arranged_again",
+              whole != nullptr ? whole->arranged_again : r.repair && r.repair->is_moved},
              {"contacts", 0},
              {"gathered_triangles", 0},
              {"rounds", 0},
@@ -56,6 +59,11 @@ std::string rounding_text(const DistributedReport& r, const RoundingReport* whol
         return fmt::format("doubles: repaired in one process, in {}; no surface moved farther than "
                            "{:.3g}\n",
                            counted(whole->rounds, "round"), whole->surface_deviation);
+    if (r.repair && r.repair->is_moved)
+        return fmt::format("doubles: {} in the way; the input was moved and arranged again, in {}; "
+                           "no surface moved farther than {:.3g}\n",
+                           counted(r.repair->contacts, "pair"), counted(r.repair->rounds, "round"),
+                           r.repair->surface_deviation);
     if (r.repair && r.repair->contacts == 0)
         return fmt::format("doubles: triangles without area dropped; no surface moved farther than "
                            "{:.3g}\n",

@@ -20,9 +20,12 @@ ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROO
 RANKS = (1, 2, 3, 4, 7)
 # Crossing surfaces, coplanar overlaps, repeated and degenerate triangles, and doubles that need repair.
 CASES = ("horizons_and_fault", "coplanar_grids", "duplicates", "degenerate", "fractures_20",
-         "utm_millimetres", "negative_zero", "triple_point_inexact", "needle_tip", "turned_ridges")
+         "utm_millimetres", "negative_zero", "triple_point_inexact", "needle_tip", "turned_ridges", "turned_half",
+         "close_angle_turned")
 # Doubles that are repaired with few triangles near them, in the first process.
-REPAIRED = ("needle_tip", "turned_ridges")
+REPAIRED = ("needle_tip", "turned_ridges", "turned_half", "close_angle_turned")
+# The input is moved, into a frame or to a grid, and arranged again.
+MOVED = ("turned_half", "close_angle_turned", "turned_grids")
 
 
 def run(command, **more):
@@ -66,7 +69,9 @@ def check_case(arguments, folder: Path, work: Path):
         assert found["digest"] == expected["digest"], (where, found["digest"])
         assert found["blocks"] == ranks, where
         if folder.name in REPAIRED:
-            assert found["rounding"]["in_blocks"] and found["rounding"]["gathered_triangles"] > 0, (where, found)
+            assert found["rounding"]["gathered_triangles"] > 0, (where, found)
+        assert found["rounding"]["in_blocks"], (where, found)
+        assert found["rounding"]["arranged_again"] == (folder.name in MOVED), (where, found)
         assert found["volumes"] == volumes, (where, found["volumes"], volumes)
         converted = run([arguments.terrane, "convert", pieces, joined])
         assert converted.returncode == 0, (where, converted.stderr)
