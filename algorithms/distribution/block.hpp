@@ -132,7 +132,8 @@ struct Block {
     std::vector<std::uint32_t> home_owner;      ///< per triangle: the block that owns it
     std::vector<std::uint32_t> home_count;      ///< per triangle: triangles of the result under it
 
-    // The input before it was moved (moving.cpp); empty if it was not.
+    // The input before it was moved (moving.cpp).
+    bool is_moved = false;
     std::vector<Point3> home_given;              ///< home_points
     std::vector<std::uint32_t> home_given_first; ///< home_first
     std::vector<std::uint32_t> home_flat;        ///< home_degenerate

@@ -373,6 +373,7 @@ Result<Attempted> MovedBlocks::attempt(const std::function<void(Block&)>& move, 
     ++attempts_;
     const Step begin = [&](Block& b, Inbox&, Outbox& out) -> Status {
         begin_anew(b);
+        b.is_moved = true;
         move(b);
         send_home_vertices(b, out);
         return Done{};

@@ -51,8 +51,7 @@ const Face& face_with(const Block& b, std::uint32_t id) {
 /// Returns the first input triangle that had the same corners as one of an own face, which now has those
 /// of `face`.
 std::uint32_t first_given(const Block& b, std::uint32_t triangle, std::uint32_t face) {
-    if (b.home_given.empty()) return face;
-    return first_in(b.given_repeated, triangle);
+    return b.is_moved ? first_in(b.given_repeated, triangle) : face;
 }
 
 /// Lists the hashes of own input triangles.
@@ -221,7 +220,7 @@ Status settle(Block& b, Inbox& in, Outbox& out) {
     });
     std::sort(b.parent_hashes.begin(), b.parent_hashes.end(),
               [](const ParentHash& p, const ParentHash& q) { return p.id < q.id; });
-    const auto& repeated = b.home_given.empty() ? b.duplicates : b.given_repeated;
+    const auto& repeated = b.is_moved ? b.given_repeated : b.duplicates;
     b.repeated.insert(b.repeated.end(), repeated.begin(), repeated.end());
     sort_unique(b.repeated);
     Settler(b, united)();
