@@ -3,6 +3,7 @@
 // Where blocks repair doubles, or move the input, the mesh is that of round_to_doubles(), bit by bit.
 #include "support/files.hpp"
 #include "support/in_blocks.hpp"
+#include "support/paths.hpp"
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/arrangement/digest.hpp>
@@ -11,10 +12,12 @@
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/algorithms/volumes/volumes_in_blocks.hpp>
+#include <terrane/io/files.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <cstdint>
+#include <filesystem>
 #include <random>
 
 namespace {
@@ -166,7 +169,9 @@ void check(const Expected& expected, Supersteps& blocks, Seen& seen,
         return;
     }
     ++seen.repaired;
-    CHECK(report.repair->contacts == rounding.naive_contacts);
+    const bool are_counted = rounding.naive_contacts <= RoundingReport::most_counted;
+    if (are_counted) CHECK(report.repair->contacts == rounding.naive_contacts);
+    CHECK(report.repair->contacts >= rounding.naive_contacts);
     CHECK(report.repair->rounds == rounding.rounds);
     CHECK(report.repair->surface_deviation == Approx(rounding.surface_deviation));
     CHECK(report.repair->lost_length == Approx(rounding.lost_length));
@@ -249,6 +254,22 @@ TEST_CASE("repair in blocks: the input is moved", "[distribution]") {
         CHECK(seen.moved >= 12);
         CHECK(seen.left == 0);
     }
+}
+
+TEST_CASE("repair in blocks: files on which rounding failed before", "[distribution][once]") {
+    Seen seen;
+    const std::filesystem::path folder(test_support::test_data() + "/regression");
+    for (const auto& file : std::filesystem::directory_iterator(folder)) {
+        if (file.path().extension() != ".obj") continue;
+        CAPTURE(file.path().filename().string());
+        const auto surfaces = read_surfaces(file.path());
+        REQUIRE(surfaces);
+        const Expected expected(*surfaces);
+        for (const std::size_t count : {2, 40}) check(expected, count, seen);
+    }
+    CHECK(seen.repaired > 0);
+    CHECK(seen.moved > 0);
+    CHECK(seen.left == 0);
 }
 
 TEST_CASE("repair in blocks: what can't be gathered is left to one process as it was read",
