@@ -64,7 +64,8 @@ std::string flaw_of_blocks(std::span<const Surface> surfaces, const Whole& whole
     if (!report) return report.error().message();
     if (report->digest != whole.digest) return "another digest";
     if (report->clean != whole.is_clean())
-        return report->clean ? "one process finds no conforming mesh" : "blocks find no conforming mesh";
+        return report->clean ? "one process finds no conforming mesh"
+                             : "blocks find no conforming mesh";
     if (!report->clean) return "";
     const RoundedMesh& rounded = *whole.rounded;
     const auto mesh = test_support::pieces_joined(blocks, *report);

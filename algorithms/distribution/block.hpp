@@ -134,11 +134,11 @@ struct Block {
 
     // The input before it was moved (moving.cpp).
     bool is_moved = false;
-    std::vector<Point3> home_given;              ///< home_points
-    std::vector<std::uint32_t> home_given_first; ///< home_first
-    std::vector<std::uint32_t> home_flat;        ///< home_degenerate
-    std::vector<std::array<std::uint32_t, 2>> home_repeated; ///< of home triangles: {repeated,
-                                                             ///< first}, sorted
+    std::vector<Point3> home_given;                           ///< home_points
+    std::vector<std::uint32_t> home_given_first;              ///< home_first
+    std::vector<std::uint32_t> home_flat;                     ///< home_degenerate
+    std::vector<std::array<std::uint32_t, 2>> home_repeated;  ///< of home triangles: {repeated,
+                                                              ///< first}, sorted
     std::vector<std::array<std::uint32_t, 2>> given_repeated; ///< of faces that this block owns
     bool is_in_frame = false; ///< faces are in a frame, and the doubles in none (frames.cpp)
     BlockGrid given_grid;     ///< `grid`, for the doubles of a frame
@@ -188,10 +188,10 @@ struct Block {
     std::vector<Hash> records;               ///< of the digest, in the range of this block
     std::uint64_t unclean = 0;               ///< pairs and triangles of doubles that are not proper
     std::vector<UncleanPoint> unclean_points; ///< by name
-    std::uint64_t result_triangles = 0; ///< of all blocks
-    double deviation = 0;               ///< largest move of a point, in all blocks
-    std::uint64_t edges = 0;            ///< intersection edges that this block counts
-    std::uint64_t regions = 0;          ///< number of regions of the whole
+    std::uint64_t result_triangles = 0;       ///< of all blocks
+    double deviation = 0;                     ///< largest move of a point, in all blocks
+    std::uint64_t edges = 0;                  ///< intersection edges that this block counts
+    std::uint64_t regions = 0;                ///< number of regions of the whole
 
     // Repair of the doubles (repairing.cpp).
     std::vector<std::uint32_t> removed; ///< points that no triangle has any more, by name, of all

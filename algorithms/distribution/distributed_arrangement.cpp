@@ -60,8 +60,8 @@ Status perform(Supersteps& blocks, std::span<const NamedStep> steps, const Steps
                const Run& run) {
     for (const NamedStep& s : steps) {
         const auto work = [&](Block& b, Inbox& in, Outbox& out) -> Status {
-            auto done = s.exchange != nullptr ? s.exchange(b, in, out)
-                                              : s.computation(b, in, out, run);
+            auto done =
+                s.exchange != nullptr ? s.exchange(b, in, out) : s.computation(b, in, out, run);
             if (done && s.beside != nullptr && beside.*s.beside) (beside.*s.beside)(b, in, out);
             return done;
         };

@@ -137,9 +137,8 @@ void tell_coordinates(Inbox& in, Outbox& out) {
         return before(c, d) || (!before(d, c) && c.given < d.given);
     });
     in.take<AskedCoordinate>(3, [&](std::uint32_t from, const AskedCoordinate& asked) {
-        const auto not_below =
-            std::lower_bound(known.begin(), known.end(), HomeCoordinate{asked.in_frame, 0, asked.axis},
-                             before);
+        const auto not_below = std::lower_bound(
+            known.begin(), known.end(), HomeCoordinate{asked.in_frame, 0, asked.axis}, before);
         if (not_below != known.end()) out.put(from, 2, *not_below);
         if (not_below == known.begin()) return;
         const auto below = std::lower_bound(known.begin(), not_below, not_below[-1], before);

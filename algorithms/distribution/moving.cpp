@@ -135,8 +135,8 @@ public:
         last_ = first_.in_contact;
         if (const auto any = choose_more(); !any) return any.error();
         const unsigned most = RoundingOptions{}.max_rounds, before = first_.summary.rounds;
-        const auto found =
-            rounding::detail::attempt_moves(*this, report_.limit, most > before ? most - before : 0);
+        const auto found = rounding::detail::attempt_moves(*this, report_.limit,
+                                                           most > before ? most - before : 0);
         if (!found && !is_left_) return found.error();
         if (found && *found) return Done{};
         return blocks_.step("move", [](Block& b, Inbox&, Outbox&) -> Status {
@@ -228,8 +228,7 @@ Status MovedBlocks::find_corners(const std::vector<std::uint32_t>& triangles) {
         for (const AskedTriangle& t : found)
             vertices.insert(vertices.end(), t.corners.begin(), t.corners.end());
         sort_unique(vertices);
-        for (const std::uint32_t v : vertices)
-            out.put(home_of(v, b.vertex_total(), b.count), 0, v);
+        for (const std::uint32_t v : vertices) out.put(home_of(v, b.vertex_total(), b.count), 0, v);
         return Done{};
     };
     const Step tell_vertices = [](Block& b, Inbox& in, Outbox& out) -> Status {
@@ -348,8 +347,8 @@ Result<Attempted> MovedBlocks::attempt(const SnapGrid& grid) {
     const auto farthest = over_blocks<double>(blocks_, [&](Block& b, double& sum) {
         for (const Point3& p : b.home_given)
             if (const Point3 q = moved(p); q != p)
-                sum = std::max(sum, rounding::detail::distance_bound(
-                                        {{p.x, p.y, p.z}, {p.x, p.y, p.z}}, q));
+                sum = std::max(
+                    sum, rounding::detail::distance_bound({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, q));
     });
     if (!farthest) return farthest.error();
     const auto move = [&](Block& b) {

@@ -72,9 +72,8 @@ Status receive_share(Block& b, Inbox& in, Outbox& out) {
     b.home_points.resize(vertices);
     b.home_triangles.resize(triangles);
     b.work.homes = triangles;
-    in.take<HomeVertex>(0, [&](std::uint32_t, const HomeVertex& v) {
-        b.home_points[v.id - first_vertex] = v.at;
-    });
+    in.take<HomeVertex>(
+        0, [&](std::uint32_t, const HomeVertex& v) { b.home_points[v.id - first_vertex] = v.at; });
     in.take<HomeTriangle>(1, [&](std::uint32_t, const HomeTriangle& t) {
         b.home_triangles[t.id - first_triangle] = t.corners;
     });

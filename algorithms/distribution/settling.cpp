@@ -241,9 +241,9 @@ Status settle(Block& b, Inbox& in, Outbox& out) {
             face.is_dirty |= bound_of(b, face.corners[i]) > 0 ? 1U : 0U;
         }
         const Box box = box_of(face.at);
-        for (const std::uint32_t to :
-             b.is_in_frame ? blocks_of(b.given_grid, b.given_splitters, box)
-                           : blocks_of(b.grid, b.splitters, box))
+        for (const std::uint32_t to : b.is_in_frame
+                                          ? blocks_of(b.given_grid, b.given_splitters, box)
+                                          : blocks_of(b.grid, b.splitters, box))
             out.put(to, 1, face);
     }
     for (const auto& [face, n] : count) {

@@ -45,9 +45,10 @@ struct PartOfDoubles {
 /// A part after its repair.
 struct RepairedPart {
     std::vector<Box> missing; ///< if not empty: what has to be covered, too; nothing is repaired
-    bool clean = false; ///< whether nothing meets improperly any more. If not, the input has to be moved
+    bool clean =
+        false; ///< whether nothing meets improperly any more. If not, the input has to be moved
     rounding::detail::ParentsInContact in_contact; ///< if it is not clean
-    std::size_t naive_contacts = 0; ///< see RoundingReport
+    std::size_t naive_contacts = 0;                ///< see RoundingReport
     unsigned rounds = 0;
     double surface_deviation = 0, lost_length = 0, max_move = 0;
 

@@ -32,8 +32,7 @@ public:
                                           std::span<const Point3> normals, double tolerance);
     /// Does the same for the chosen points alone: keep_place() and state_largest_error() have to follow.
     static std::optional<ClusterFrame> of_chosen(std::span<const Point3> points,
-                                                 std::span<const Point3> normals,
-                                                 double tolerance);
+                                                 std::span<const Point3> normals, double tolerance);
 
     /// Notes where back() takes a place of input points: to the first of them.
     void keep_place(const Point3& place, const Point3& given) { given_.try_emplace(place, given); }

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane::rounding::detail {

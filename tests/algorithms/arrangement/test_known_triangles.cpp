@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Arrangements of surfaces of which most are those of the arrangement before.
-#include "support/effort.hpp"
 #include "support/differences.hpp"
+#include "support/effort.hpp"
 #include "support/shapes.hpp"
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
