@@ -85,7 +85,7 @@ std::vector<Surface> input(Bytes& bytes) {
 }
 
 std::string flaw(std::span<const Surface> surfaces) {
-    constexpr std::size_t most_triangles = 600; // what is larger takes seconds to round
+    constexpr std::size_t most_triangles = 300; // what is larger takes seconds to round
     const auto exact = arrange(surfaces);
     if (!exact) return exact.error().message();
     if (exact->triangles.size() > most_triangles) return "";
