@@ -16,6 +16,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <random>
@@ -192,8 +193,9 @@ void check(const Expected& expected, std::size_t count, Seen& seen,
     check(expected, blocks, seen, most_gathered);
 }
 
-/// Two sheets in one plane, and triangles across them; some are there twice. Coordinates are tenths, far
-/// from the origin, or the plane is turned: then all is coplanar but for the error of doubles.
+/// Two sheets in one plane, and triangles across them; some are there twice, some nearly, and some have no
+/// area. Coordinates are tenths, far from the origin, or the plane is turned: then all is coplanar but for
+/// the error of doubles.
 std::vector<Surface> sheets_in_a_plane(unsigned seed, bool is_turned) {
     RandomPoints random(seed);
     const auto at = [&](int x, int y, int z) -> Point3 {
@@ -214,6 +216,11 @@ std::vector<Surface> sheets_in_a_plane(unsigned seed, bool is_turned) {
                 add_triangle(s, {in_plane(x + step, y), in_plane(x + step, y + step),
                                  in_plane(x, y + step)});
                 if (random.below(8) == 0) s.triangles.push_back(s.triangles.back());
+                if (random.below(8) == 0) { // another one until the input is moved
+                    Point3 near = in_plane(x, y);
+                    near.z = std::nextafter(near.z, HUGE_VAL);
+                    add_triangle(s, {near, in_plane(x + step, y), in_plane(x, y + step)});
+                }
             }
     }
     for (unsigned t = 0; t < 6; ++t) {
@@ -223,6 +230,12 @@ std::vector<Surface> sheets_in_a_plane(unsigned seed, bool is_turned) {
         add_triangle(surfaces[t % 2], {at(any(0, 56), any(0, 56), any(-60, 0)),
                                        at(any(0, 56), any(0, 56), any(0, 60)),
                                        at(any(0, 56), any(0, 56), any(60, 120))});
+        // On a diagonal of space, through the turned plane: in a frame it is no line.
+        const auto on_diagonal = [&] {
+            const double d = 9 * random.share() - 4.5;
+            return Point3{d, d, d};
+        };
+        add_triangle(surfaces[t % 2], {on_diagonal(), on_diagonal(), on_diagonal()});
     }
     return surfaces;
 }
