@@ -15,9 +15,6 @@
 
 namespace terrane::distribution::detail {
 
-using rounding::detail::ClusterFrame;
-using rounding::detail::DecimalFrame;
-
 namespace {
 
 /// A place of an input vertex in a frame.
@@ -72,7 +69,7 @@ std::vector<HomePlace> take_places(std::size_t channel, Inbox& in) {
 
 /// Takes the doubles of a block back from a frame that keeps the places near them, in the rounding mode in
 /// which round_to_doubles() does it.
-void take_back(Block& b, const rounding::detail::InputFrame& frame) {
+void take_back(Block& b, const InputFrame& frame) {
     for (UsedVertex& v : b.used) v.at = frame.back(v.at);
     const UpwardRounding guard;
     for (std::size_t p = 0; p < b.points.size(); ++p) {

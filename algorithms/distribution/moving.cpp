@@ -15,19 +15,11 @@
 #include <terrane/algorithms/distribution/detail/frames.hpp>
 #include <terrane/algorithms/distribution/detail/steps.hpp>
 #include <terrane/algorithms/mesh/point_table.hpp>
-#include <terrane/algorithms/rounding/detail/contact_clusters.hpp>
-#include <terrane/algorithms/rounding/detail/moved_attempts.hpp>
-#include <terrane/algorithms/rounding/detail/state.hpp>
+#include <terrane/algorithms/rounding/moved_input.hpp>
 
 namespace terrane::distribution {
 
 using namespace detail;
-using rounding::detail::Attempted;
-using rounding::detail::ClusterFrame;
-using rounding::detail::DecimalFrame;
-using rounding::detail::KeptPlanes;
-using rounding::detail::ParentsInContact;
-using rounding::detail::SnapGrid;
 
 namespace {
 
@@ -121,7 +113,7 @@ void begin_anew(Block& b) {
 }
 
 /// The input of all blocks.
-class MovedBlocks final : public rounding::detail::MovableInput {
+class MovedBlocks final : public MovableInput {
 public:
     MovedBlocks(Supersteps& blocks, DistributedReport& report, RepairOfFew first,
                 const RepairInput& input, const Run& run) :
@@ -135,8 +127,7 @@ public:
         last_ = first_.in_contact;
         if (const auto any = choose_more(); !any) return any.error();
         const unsigned most = RoundingOptions{}.max_rounds, before = first_.summary.rounds;
-        const auto found = rounding::detail::attempt_moves(*this, report_.limit,
-                                                           most > before ? most - before : 0);
+        const auto found = attempt_moves(*this, report_.limit, most > before ? most - before : 0);
         if (!found && !is_left_) return found.error();
         if (found && *found) return Done{};
         return blocks_.step("move", [](Block& b, Inbox&, Outbox&) -> Status {
@@ -149,7 +140,7 @@ private:
     Result<std::optional<DecimalFrame>> decimal_frame() override;
     Result<std::optional<ClusterFrame>> cluster_frame() override;
     [[nodiscard]] std::optional<SnapGrid> grid(int digits, double limit) const override {
-        return rounding::detail::grid_of_digits({}, digits, limit, no_planes_, largest_);
+        return grid_of_digits({}, digits, limit, no_planes_, largest_);
     }
     Result<Attempted> attempt(const DecimalFrame& frame) override { return in_frame(frame); }
     Result<Attempted> attempt(const ClusterFrame& frame) override { return in_frame(frame); }
@@ -278,8 +269,7 @@ Result<std::optional<DecimalFrame>> MovedBlocks::decimal_frame() {
         }
     });
     if (!largest) return largest.error();
-    frame->state_largest_error(
-        rounding::detail::length_bound((*largest)[0], (*largest)[1], (*largest)[2]));
+    frame->state_largest_errors(*largest);
     return frame;
 }
 
@@ -309,11 +299,11 @@ std::vector<Point3> MovedBlocks::directions(double tolerance) const {
         p = place_in(triangles, p);
         q = place_in(triangles, q);
     }
-    return rounding::detail::cluster_directions(of_triangles, points, in_contact, tolerance);
+    return cluster_directions(of_triangles, points, in_contact, tolerance);
 }
 
 Result<std::optional<ClusterFrame>> MovedBlocks::cluster_frame() {
-    const double tolerance = rounding::detail::cluster_tolerance(largest_of_triangles_);
+    const double tolerance = cluster_tolerance(largest_of_triangles_);
     std::vector<Point3> normals = directions(tolerance);
     if (auto told = tell_all(blocks_, normals); !told) return told.error();
     auto frame = ClusterFrame::of_chosen(chosen_points(), normals, tolerance);
@@ -346,9 +336,7 @@ Result<Attempted> MovedBlocks::attempt(const SnapGrid& grid) {
     };
     const auto farthest = over_blocks<double>(blocks_, [&](Block& b, double& sum) {
         for (const Point3& p : b.home_given)
-            if (const Point3 q = moved(p); q != p)
-                sum = std::max(
-                    sum, rounding::detail::distance_bound({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, q));
+            if (const Point3 q = moved(p); q != p) sum = std::max(sum, move_bound(p, q));
     });
     if (!farthest) return farthest.error();
     const auto move = [&](Block& b) {

@@ -21,7 +21,6 @@
 namespace terrane::distribution {
 
 using namespace detail;
-using rounding::detail::ParentsInContact;
 
 namespace {
 

@@ -16,7 +16,7 @@
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
 #include <terrane/algorithms/distribution/messages.hpp>
 #include <terrane/algorithms/distribution/supersteps.hpp>
-#include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
+#include <terrane/algorithms/rounding/moved_input.hpp>
 #include <terrane/algorithms/search/search.hpp>
 
 namespace terrane::distribution::detail {
@@ -108,7 +108,7 @@ struct RepairOfFew {
     RepairInBlocks summary;
     /// Where it is done and the report is not clean: the input triangles in contact, in the process of the
     /// first block.
-    rounding::detail::ParentsInContact in_contact{};
+    ParentsInContact in_contact{};
 };
 
 /// Repairs doubles that are not conforming, where few pairs are in the way (repairing.cpp). Then

@@ -97,7 +97,7 @@ std::optional<DecimalFrame> DecimalFrame::of(std::span<const Point3> points,
         for (unsigned axis = 0; axis < 3; ++axis)
             largest[axis] = std::max(largest[axis], errors[axis]);
     }
-    frame->largest_error_ = length_bound(largest[0], largest[1], largest[2]);
+    frame->state_largest_errors(largest);
     for (unsigned axis = 0; axis < 3; ++axis) {
         if (frame->is_as_given(axis)) continue;
         std::vector<Place> places;
@@ -122,6 +122,10 @@ void DecimalFrame::keep_places(unsigned axis, std::vector<Place> places) {
                     [](const Place& p, const Place& q) { return p.in_frame == q.in_frame; }),
         places.end());
     axes_[axis].places = std::move(places);
+}
+
+void DecimalFrame::state_largest_errors(const std::array<double, 3>& errors) {
+    largest_error_ = length_bound(errors[0], errors[1], errors[2]);
 }
 
 std::array<double, 3> DecimalFrame::errors_of(const Point3& p) const {

@@ -35,7 +35,7 @@ public:
     /// `kept`: coordinates that go back to themselves even if others became the same.
     static std::optional<DecimalFrame> of(std::span<const Point3> points,
                                           const std::vector<bool>& chosen, const KeptPlanes& kept);
-    /// Does the same for the chosen points alone: keep_places() and state_largest_error() have to follow.
+    /// Does the same for the chosen points alone: keep_places() and state_largest_errors() have to follow.
     static std::optional<DecimalFrame> of_chosen(std::span<const Point3> points);
 
     /// What an input coordinate becomes.
@@ -49,6 +49,8 @@ public:
     [[nodiscard]] bool is_as_given(unsigned axis) const { return axes_[axis].factor == 1; }
     /// Bounds, per axis, the distances between an input point and what its coordinates became.
     [[nodiscard]] std::array<double, 3> errors_of(const Point3& p) const;
+    /// States the largest of these of all input points.
+    void state_largest_errors(const std::array<double, 3>& errors);
 
     [[nodiscard]] Point3 into(const Point3& p) const override;
     [[nodiscard]] Point3 back(const Point3& q) const override;

@@ -48,6 +48,10 @@ std::optional<SnapGrid> grid_of_digits(std::span<const Point3> points, int digit
     return std::nullopt;
 }
 
+double move_bound(const Point3& from, const Point3& to) {
+    return distance_bound({{from.x, from.y, from.z}, {from.x, from.y, from.z}}, to);
+}
+
 SnappedInput::SnappedInput(const Arrangement& a) :
     arrangement_(a), chosen_(a.state->points.input_count(), false) {}
 
@@ -72,7 +76,7 @@ std::vector<Surface> SnappedInput::surfaces(const SnapGrid& grid) {
         const Point3 cell = grid.snap(p);
         if (cell == p || !cells.contains(cell)) continue;
         ++how_.moved;
-        const double d = distance_bound({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, cell);
+        const double d = move_bound(p, cell);
         how_.largest = std::max(how_.largest, d);
         double& most = how_.moves[cell];
         most = std::max(most, d);
@@ -94,7 +98,7 @@ std::vector<Surface> SnappedInput::surfaces(const InputFrame& frame) {
         if (given != p) {
             ++how_.moved;
             double& most = how_.moves[there];
-            most = std::max(most, distance_bound({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, given));
+            most = std::max(most, move_bound(p, given));
         }
         p = there;
     }

@@ -45,6 +45,9 @@ std::optional<SnapGrid> grid_of_digits(std::span<const Point3> points, int digit
                                        const KeptPlanes& kept,
                                        const std::array<double, 3>& elsewhere = {});
 
+/// Returns an upper bound of the distance between two points.
+double move_bound(const Point3& from, const Point3& to);
+
 /// How the input of an arrangement differs from the surfaces that are rounded.
 struct MovedInput {
     double largest = 0;                ///< no point of a surface is farther from where it was
