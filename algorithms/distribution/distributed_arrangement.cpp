@@ -10,6 +10,7 @@
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/sha256.hpp>
+#include <terrane/algorithms/distribution/detail/over_blocks.hpp>
 #include <terrane/algorithms/distribution/detail/steps.hpp>
 
 namespace terrane::distribution {
@@ -103,9 +104,7 @@ Result<DistributedReport> detail::summary_of(Supersteps& blocks) {
         std::uint64_t input_vertices = 0, input_triangles = 0;
         double deviation = 0, largest_coordinate = 0;
     };
-    const auto bytes = blocks.relay([](Block& b, Bytes before) {
-        Passed sum;
-        if (!before.empty()) std::memcpy(&sum, before.data(), sizeof sum);
+    const auto all = over_blocks<Passed>(blocks, [](Block& b, Passed& sum) {
         sum.edges += b.edges;
         sum.contacts = b.unclean;
         sum.triangles = b.result_triangles;
@@ -116,45 +115,33 @@ Result<DistributedReport> detail::summary_of(Supersteps& blocks) {
         sum.input_triangles = b.triangle_total();
         sum.deviation = b.deviation;
         sum.largest_coordinate = b.largest;
-        Bytes next;
-        append_record(next, sum);
-        return next;
     });
-    if (!bytes) return bytes.error();
-    Passed sum;
-    std::memcpy(&sum, bytes->data(), sizeof sum);
+    if (!all) return all.error();
     DistributedReport report;
-    report.contacts = sum.contacts;
-    report.deviation = sum.deviation;
-    report.limit = default_max_move(sum.largest_coordinate);
-    report.input_vertices = sum.input_vertices;
-    report.input_triangles = sum.input_triangles;
-    report.vertices = sum.vertices;
-    report.triangles = sum.triangles;
-    report.intersection_edges = sum.edges;
-    report.regions = sum.regions;
+    report.contacts = all->contacts;
+    report.deviation = all->deviation;
+    report.limit = default_max_move(all->largest_coordinate);
+    report.input_vertices = all->input_vertices;
+    report.input_triangles = all->input_triangles;
+    report.vertices = all->vertices;
+    report.triangles = all->triangles;
+    report.intersection_edges = all->edges;
+    report.regions = all->regions;
     if (auto counted = count_work(blocks, report); !counted) return counted.error();
     return report;
 }
 
 Status count_work(Supersteps& blocks, DistributedReport& report) {
     using LargestAndTotal = std::array<Work, 2>;
-    const auto bytes = blocks.relay([](Block& b, Bytes before) {
-        LargestAndTotal sum{};
-        if (!before.empty()) std::memcpy(&sum, before.data(), sizeof sum);
+    const auto all = over_blocks<LargestAndTotal>(blocks, [](Block& b, LargestAndTotal& sum) {
         for (const auto count : counts) {
             sum[0].*count = std::max(sum[0].*count, b.work.*count);
             sum[1].*count += b.work.*count;
         }
-        Bytes next;
-        append_record(next, sum);
-        return next;
     });
-    if (!bytes) return bytes.error();
-    LargestAndTotal sum{};
-    std::memcpy(&sum, bytes->data(), sizeof sum);
-    report.largest = sum[0];
-    report.total = sum[1];
+    if (!all) return all.error();
+    report.largest = (*all)[0];
+    report.total = (*all)[1];
     report.total.memory = report.largest.memory;
     return Done{};
 }

@@ -13,6 +13,7 @@
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/distribution/detail/frames.hpp>
+#include <terrane/algorithms/distribution/detail/over_blocks.hpp>
 #include <terrane/algorithms/distribution/detail/steps.hpp>
 #include <terrane/algorithms/mesh/point_table.hpp>
 #include <terrane/algorithms/rounding/moved_input.hpp>
@@ -41,23 +42,6 @@ struct ChosenPoint {
     friend auto operator<=>(const ChosenPoint& p, const ChosenPoint& q) { return p.id <=> q.id; }
     friend bool operator==(const ChosenPoint& p, const ChosenPoint& q) { return p.id == q.id; }
 };
-
-/// Returns what all blocks together have of a number that add(block, sum) adds to.
-template <class Sum, class Add>
-Result<Sum> over_blocks(Supersteps& blocks, const Add& add) {
-    const auto bytes = blocks.relay([&](Block& b, Bytes before) {
-        Sum sum{};
-        if (!before.empty()) std::memcpy(&sum, before.data(), sizeof sum);
-        add(b, sum);
-        Bytes next;
-        append_record(next, sum);
-        return next;
-    });
-    if (!bytes) return bytes.error();
-    Sum sum{};
-    std::memcpy(&sum, bytes->data(), sizeof sum);
-    return sum;
-}
 
 /// Tells all processes an array that the process of the first block has.
 template <class T>
