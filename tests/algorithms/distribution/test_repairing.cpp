@@ -285,6 +285,18 @@ TEST_CASE("repair in blocks: files on which rounding failed before", "[distribut
     CHECK(seen.left == 0);
 }
 
+TEST_CASE("repair in blocks: attempts that fail leave the input as it was",
+          "[distribution][once]") {
+    const auto surfaces = read_surfaces(test_support::test_data() +
+                                        "/regression_slow/018-attempts-beyond-repair.obj");
+    REQUIRE(surfaces);
+    const Expected expected(*surfaces);
+    REQUIRE_FALSE(expected.rounded.report.clean);
+    Seen seen;
+    check(expected, 3, seen, 1'000'000);
+    CHECK(seen.left == 1);
+}
+
 TEST_CASE("repair in blocks: what can't be gathered is left to one process as it was read",
           "[distribution]") {
     Seen seen;
