@@ -6,16 +6,15 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <map>
-#include <span>
-#include <unordered_set>
+#include <optional>
 #include <utility>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/distribution/detail/frames.hpp>
 #include <terrane/algorithms/distribution/detail/over_blocks.hpp>
 #include <terrane/algorithms/distribution/detail/steps.hpp>
-#include <terrane/algorithms/mesh/point_table.hpp>
 #include <terrane/algorithms/rounding/moved_input.hpp>
 
 namespace terrane::distribution {
@@ -312,19 +311,14 @@ Result<std::optional<ClusterFrame>> MovedBlocks::cluster_frame() {
 
 /// Moves all vertices in the cells of chosen ones.
 Result<Attempted> MovedBlocks::attempt(const SnapGrid& grid) {
-    std::unordered_set<Point3, PointHash> cells;
-    for (const ChosenPoint& p : chosen_) cells.insert(grid.snap(p.at));
-    const auto moved = [&](const Point3& p) {
-        const Point3 cell = grid.snap(p);
-        return cell != p && cells.contains(cell) ? cell : p;
-    };
+    const SnapCells cells(grid, chosen_points());
     const auto farthest = over_blocks<double>(blocks_, [&](Block& b, double& sum) {
         for (const Point3& p : b.home_given)
-            if (const Point3 q = moved(p); q != p) sum = std::max(sum, move_bound(p, q));
+            if (const Point3 q = cells.moved(p); q != p) sum = std::max(sum, move_bound(p, q));
     });
     if (!farthest) return farthest.error();
     const auto move = [&](Block& b) {
-        for (Point3& p : b.home_points) p = moved(p);
+        for (Point3& p : b.home_points) p = cells.moved(p);
     };
     return attempt(move, *farthest, {});
 }

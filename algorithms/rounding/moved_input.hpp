@@ -22,6 +22,7 @@ using rounding::detail::KeptPlanes;
 using rounding::detail::MovableInput;
 using rounding::detail::move_bound;
 using rounding::detail::ParentsInContact;
+using rounding::detail::SnapCells;
 using rounding::detail::SnapGrid;
 
 } // namespace terrane

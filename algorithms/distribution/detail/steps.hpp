@@ -106,8 +106,8 @@ struct RepairInput {
 struct RepairOfFew {
     bool is_done = false; ///< whether the first block could gather all that it takes
     RepairInBlocks summary;
-    /// Where it is done and the report is not clean: the input triangles in contact, in the process of the
-    /// first block.
+    /// The input triangles in contact, if it is done and the report is not clean. Only the process of the
+    /// first block has them.
     ParentsInContact in_contact{};
 };
 

@@ -29,7 +29,7 @@ std::vector<Point3> cluster_directions(std::span<const Triangle> corners,
 
 /// Returns 2^digits times the spacing of doubles at a coordinate.
 double spacing_at(double largest, int digits = 0);
-/// Returns the tolerance for an input whose triangles have this largest absolute coordinate.
+/// Returns the tolerance of clusters. largest: the largest absolute coordinate of the input triangles.
 double cluster_tolerance(double largest);
 
 } // namespace terrane::rounding::detail

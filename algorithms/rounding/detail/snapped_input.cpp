@@ -48,6 +48,15 @@ std::optional<SnapGrid> grid_of_digits(std::span<const Point3> points, int digit
     return std::nullopt;
 }
 
+SnapCells::SnapCells(const SnapGrid& grid, std::span<const Point3> chosen) : grid_(grid) {
+    for (const Point3& p : chosen) nodes_.insert(grid_.snap(p));
+}
+
+Point3 SnapCells::moved(const Point3& p) const {
+    const Point3 node = grid_.snap(p);
+    return node != p && nodes_.contains(node) ? node : p;
+}
+
 double move_bound(const Point3& from, const Point3& to) {
     return distance_bound({{from.x, from.y, from.z}, {from.x, from.y, from.z}}, to);
 }
@@ -67,20 +76,18 @@ bool SnappedInput::choose(std::span<const std::uint32_t> triangles) {
 
 std::vector<Surface> SnappedInput::surfaces(const SnapGrid& grid) {
     const auto inputs = arrangement_.state->points.inputs();
-    std::unordered_set<Point3, PointHash> cells;
-    for (std::size_t v = 0; v < inputs.size(); ++v)
-        if (chosen_[v]) cells.insert(grid.snap(inputs[v]));
+    const SnapCells cells(grid, chosen_of(inputs, chosen_));
     how_ = {};
     std::vector<Point3> places(inputs.begin(), inputs.end());
     for (Point3& p : places) {
-        const Point3 cell = grid.snap(p);
-        if (cell == p || !cells.contains(cell)) continue;
+        const Point3 node = cells.moved(p);
+        if (node == p) continue;
         ++how_.moved;
-        const double d = move_bound(p, cell);
+        const double d = move_bound(p, node);
         how_.largest = std::max(how_.largest, d);
-        double& most = how_.moves[cell];
+        double& most = how_.moves[node];
         most = std::max(most, d);
-        p = cell;
+        p = node;
     }
     return surfaces_at(places);
 }

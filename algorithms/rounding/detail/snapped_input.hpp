@@ -45,6 +45,18 @@ std::optional<SnapGrid> grid_of_digits(std::span<const Point3> points, int digit
                                        const KeptPlanes& kept,
                                        const std::array<double, 3>& elsewhere = {});
 
+/// The cells of chosen points in a grid, which is copied.
+class SnapCells {
+public:
+    SnapCells(const SnapGrid& grid, std::span<const Point3> chosen);
+    /// Returns the node of a point in one of the cells, and any other point as it is.
+    [[nodiscard]] Point3 moved(const Point3& p) const;
+
+private:
+    SnapGrid grid_;
+    std::unordered_set<Point3, PointHash> nodes_;
+};
+
 /// Returns an upper bound of the distance between two points.
 double move_bound(const Point3& from, const Point3& to);
 
