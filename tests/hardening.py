@@ -65,7 +65,7 @@ def flaws_of_running(helper):
     process = subprocess.Popen([helper], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     try:
         status = limits = ""
-        for _ in range(500):
+        while process.poll() is None:
             with open(f"/proc/{process.pid}/limits", encoding="ascii") as file:
                 limits = file.read()
             with open(f"/proc/{process.pid}/status", encoding="utf-8") as file:

@@ -60,10 +60,12 @@ public:
         names.erase("io");
         return names;
     }
-    /// Runs a line of the shell, in which $T is the program and $D is tests/data.
+    /// Runs a line of the shell, in which $T is the program, $D is tests/data, and
+    /// $K SIGNAL MOMENT COMMAND interrupts a command (tests/support/interrupted.py).
     [[nodiscard]] Outcome shell(const std::string& line) const {
         const auto command = "cd '" + path_.string() + "' && T='" + test_support::program() +
-                             "' && D='" + test_support::test_data() + "' && { " + line +
+                             "' && D='" + test_support::test_data() +
+                             "' && K=\"$D/../support/interrupted.py\" && { " + line +
                              " ; } >io/out 2>io/err </dev/null";
         const int code = std::system(command.c_str());
         Outcome outcome;

@@ -91,18 +91,24 @@ class Seen:
         return screen + (["".join(line)] if line else [])
 
 
-def on_terminal(*words, width=100, env=None, interrupt_at=None, interrupt_after=60, folder=None):
-    """Runs the program with all streams on a terminal. Ctrl-C is typed when a text is seen, or after seconds."""
+def seconds_of(process):
+    """The processor seconds that a process has used."""
+    fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def on_terminal(*words, width=100, env=None, interrupt_at=None, interrupt_after=math.inf, folder=None):
+    """Runs the program with all streams on a terminal. Ctrl-C is typed when a text is seen, or after processor seconds."""
     child, master = pty.fork()
     if child == 0:
         os.chdir(folder)
         os.execve(PROGRAM, [PROGRAM, *words], env or environment())
     fcntl.ioctl(master, termios.TIOCSWINSZ, struct.pack("HHHH", 24, width, 0, 0))
-    seen, start = Seen(), time.monotonic()
-    while time.monotonic() < start + 60:
-        if time.monotonic() > start + interrupt_after:
+    seen = Seen()
+    while True:
+        if seconds_of(child) > interrupt_after:
             os.write(master, b"\x03")
-            interrupt_after = 60
+            interrupt_after = math.inf
         if not select.select([master], [], [], 0.1)[0]:
             continue
         try:
@@ -115,8 +121,6 @@ def on_terminal(*words, width=100, env=None, interrupt_at=None, interrupt_after=
         if interrupt_at and interrupt_at in seen.text:
             os.write(master, b"\x03")
             interrupt_at = None
-    else:
-        os.kill(child, signal.SIGKILL)
     seen.status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
     os.close(master)
     return seen
@@ -151,7 +155,8 @@ def check_progress(folder):
     expect(quiet.lines() == ["^Cterrane: interrupted, nothing written"], "there is no progress with --quiet", quiet.lines())
     with subprocess.Popen([PROGRAM, *command], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                           env=environment()) as piped:
-        time.sleep(1.25)
+        while seconds_of(piped.pid) < 1.25:
+            time.sleep(0.05)
         piped.send_signal(signal.SIGINT)
         out, err = piped.communicate()
     expect(err == b"terrane: interrupted, nothing written\n", "there is no progress without a terminal", err)

@@ -70,9 +70,8 @@ TEST_CASE("cli: a limit on the size of files ends with status 2 and no file", "[
 TEST_CASE("cli: an interrupt is heard while nobody reads a pipe", "[cli][outputs]") {
     const Folder folder;
     const auto in = folder.input(model, crossing);
-    const auto r = folder.shell("mkfifo in/p.obj; timeout --preserve-status -k 20 -s INT 1 "
-                                "$T arrange " +
-                                in + " -o a.vtp -o in/p.obj");
+    const auto r =
+        folder.shell("mkfifo in/p.obj; $K INT waits $T arrange " + in + " -o a.vtp -o in/p.obj");
     CHECK(r.status == 2);
     CHECK(contains(r.err, "terrane: interrupted, nothing written"));
     CHECK(folder.left().empty());
@@ -83,8 +82,7 @@ TEST_CASE("cli: an interrupt ends a command that waits for its input", "[cli][ou
     REQUIRE(folder.shell("mkfifo in/p").status == 0);
     // The shell opens the pipe for reading and writing, so it never ends.
     const auto r =
-        folder.shell("timeout --preserve-status -k 20 -s INT 0.5 $T convert - - --format obj "
-                     "--output-format obj <>in/p");
+        folder.shell("$K INT waits $T convert - - --format obj --output-format obj <>in/p");
     CHECK(r.status == 2);
     CHECK(contains(r.err, "terrane: interrupted, nothing written"));
 }
@@ -97,8 +95,7 @@ TEST_CASE("cli: an interrupt ends commands that wait for a project or a certific
          {"build in/p -o out", "verify in/p", "verify -", "ensemble in/p -o out"})
         for (const std::string name : {"INT", "TERM", "HUP"}) {
             INFO(command << ", " << name);
-            const auto r = folder.shell("timeout --preserve-status -k 20 -s " + name + " 0.5 $T " +
-                                        command + " <>in/p");
+            const auto r = folder.shell("$K " + name + " waits $T " + command + " <>in/p");
             CHECK(r.status == 2);
             CHECK(contains(r.err, "terrane: interrupted"));
             CHECK(folder.left().empty());
@@ -108,13 +105,12 @@ TEST_CASE("cli: an interrupt ends commands that wait for a project or a certific
 TEST_CASE("cli: a hangup is an interrupt, but not under nohup", "[cli][outputs]") {
     const Folder folder;
     const auto in = folder.input(model, crossing);
-    const std::string convert = " convert - - --format obj --output-format obj ";
-    const auto plain = folder.shell("(sleep 2; cat " + in +
-                                    ") | timeout --preserve-status -s HUP 0.5 $T" + convert);
+    const std::string then = "$K HUP waits --then " + in;
+    const std::string convert = " $T convert - - --format obj --output-format obj";
+    const auto plain = folder.shell(then + convert);
     CHECK(plain.status == 2);
     CHECK(contains(plain.err, "terrane: interrupted, nothing written"));
-    const auto kept = folder.shell("(sleep 2; cat " + in +
-                                   ") | timeout --preserve-status -s HUP 0.5 nohup $T" + convert);
+    const auto kept = folder.shell(then + " nohup" + convert);
     CHECK(kept.status == 0);
     CHECK(contains(kept.out, "f "));
 }
@@ -184,8 +180,8 @@ TEST_CASE("cli: edges of a filling that ask for too many points are refused befo
     const auto in = folder.input("fold.obj", test_support::holed_fold_as_obj());
     for (const std::string size : {"1e-300", "1e-12", "0.001"})
         for (const std::string method : {"kriging", "rbf"}) {
-            const auto r = folder.shell("timeout 20 $T fill " + in + " -o o.obj --mesh-size " +
-                                        size + " --method " + method);
+            const auto r =
+                folder.run("fill " + in + " -o o.obj --mesh-size " + size + " --method " + method);
             INFO(r.err);
             CHECK(r.status == 2);
             CHECK(contains(r.err, "points in a hole, more than 1e+06"));
@@ -433,9 +429,8 @@ TEST_CASE("cli: a signal that ends the program leaves no temporary file", "[cli]
     REQUIRE(in.folder.shell("mkfifo in/p.obj").status == 0);
     const std::string waits = " arrange in/in.obj -o a.vtp -o in/p.obj";
     for (const int signal : {SIGQUIT, SIGALRM, SIGVTALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGPROF}) {
-        const auto r = in.folder.shell(fmt::format(
-            "ulimit -c 0; timeout --preserve-status -k 20 -s {} 1 $T {}; test $? -eq {}", signal,
-            waits, 128 + signal));
+        const auto r = in.folder.shell(fmt::format("ulimit -c 0; $K {} waits $T {}; test $? -eq {}",
+                                                   signal, waits, 128 + signal));
         INFO(signal << ": " << r.err);
         CHECK(r.status == 0);
         CHECK(in.folder.left().empty());
@@ -455,8 +450,7 @@ TEST_CASE("cli: a signal that the caller ignores stays ignored", "[cli][outputs]
     const Inputs in;
     for (const std::string signal : {"INT", "TERM", "HUP", "QUIT", "USR1"}) {
         const auto r =
-            in.folder.shell("(sleep 2; cat in/in.obj) | timeout --preserve-status -s " + signal +
-                            " 0.5 sh -c \"trap '' " + signal +
+            in.folder.shell("$K " + signal + " waits --then in/in.obj sh -c \"trap '' " + signal +
                             "; exec '$T' convert - - --format obj --output-format obj\"");
         INFO(signal << ": " << r.err);
         CHECK(r.status == 0);

@@ -125,13 +125,12 @@ TEST_CASE("cli: standard input and output", "[cli]") {
 
 TEST_CASE("cli: an interrupt ends the program with status 2 and no file", "[cli]") {
     const Folder folder;
-    const auto waiting =
-        folder.shell("sleep 1 | timeout --preserve-status -s INT 0.3 $T check - --format ts");
+    const auto waiting = folder.shell("mkfifo in/p; $K INT waits $T check - --format ts <>in/p");
     CHECK(waiting.status == 2);
     CHECK(contains(waiting.err, "terrane: interrupted, nothing written"));
     const auto in = folder.input("model.obj", crossing);
-    const auto computing = folder.shell("timeout --preserve-status -s TERM 0.7 $T tetrahedralize " +
-                                        in + " -o out.vtu --edge-length 0.02 --quality 1.1");
+    const auto computing = folder.shell("$K TERM waits $T tetrahedralize " + in +
+                                        " -o out.vtu --edge-length 0.02 --quality 1.1");
     CHECK(computing.status == 2);
     CHECK(contains(computing.err, "terrane: interrupted, nothing written"));
     CHECK(folder.left().empty());

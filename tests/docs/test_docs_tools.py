@@ -142,15 +142,6 @@ class Pages(unittest.TestCase):
         text = "```console\n$ python3 -c 'print(1)'; echo 2 >&2; echo 3\n1\n2\n3\n```\n"
         self.assertEqual(self.run_text(text).failures, [])
 
-    def test_a_command_without_end_fails(self):
-        tally = run_docs.Tally()
-        with tempfile.TemporaryDirectory() as name:
-            page = pathlib.Path(name) / "page.md"
-            page.write_text("```console\n$ sleep 30\n```\n")
-            shell = run_docs.Shell("/bin/true", pathlib.Path(name), pathlib.Path(name), 0.2)
-            run_docs.run_page(page, "page.md", shell, tally)
-        self.assertEqual(len(tally.failures), 1)
-
     def test_commands_outside_of_console_blocks_are_refused(self):
         for text in ("```sh\nls\n```\n", "```\n$ ls\n```\n", "```text\nterrane check a.obj\n```\n",
                      "<!-- not run: -->\n```console\n$ true\n```\n",

@@ -14,7 +14,7 @@ import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSyn
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import * as controls from "./controls.mjs";
-import { about, check, count, flaws, heading, near, panel, reach, state } from "./support.mjs";
+import { about, check, count, flaws, heading, near, panel, reach, state, until } from "./support.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const [terrane, packages, work, pictures] = process.argv.slice(2, 6).map((path) => resolve(path));
@@ -90,7 +90,7 @@ async function open(browser, name, options = {}) {
   about(name);
   const context = await browser.newContext({ viewport: { width: 1600, height: 900 }, ...options });
   const page = await context.newPage();
-  page.setDefaultTimeout(120000); // a picture in software takes seconds beside other tests
+  page.setDefaultTimeout(0); // a picture in software takes long beside other tests
   page.on("console", (message) => check(!["error", "warning"].includes(message.type()), "the console is silent", message.text()));
   page.on("pageerror", (error) => check(false, "no exception", error.message));
   page.on("dialog", (dialog) => { check(false, "no dialog", dialog.message()); dialog.dismiss(); });
@@ -185,8 +185,7 @@ async function phone(browser, name) {
   await send("touchStart", [150, 300], [240, 300]);
   for (const d of [10, 25, 40]) await send("touchMove", [150 - d, 300], [240 + d, 300]);
   await send("touchEnd");
-  await page.waitForTimeout(60);
-  check(reach(await state(page)) < 0.95 * reach(turned), "two fingers zoom");
+  check(await until(page, (s) => reach(s) < 0.95 * reach(turned)), "two fingers zoom");
   await context.close();
 }
 
@@ -242,7 +241,7 @@ async function prints(browser) {
 
 makePages();
 const browser = await chromium.launch({
-  executablePath: chromiumPath,
+  executablePath: chromiumPath, timeout: 0,
   // Without smooth edges, software draws a quarter of the samples.
   args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
     "--webgl-antialiasing-mode=none", "--webgl-msaa-sample-count=0"],

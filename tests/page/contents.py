@@ -265,13 +265,11 @@ def opener(folder, name):
 def asked(folder, name):
     """Returns what the opener was asked to open; the program does not wait for it."""
     note = folder / f"asked-{name}"
-    for _ in range(200):
-        if note.exists():
-            path = note.read_text().strip()
-            note.unlink()
-            return path
+    while not note.exists():
         time.sleep(0.05)
-    return ""
+    path = note.read_text().strip()
+    note.unlink()
+    return path
 
 
 def check_view(folder):

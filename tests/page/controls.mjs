@@ -2,7 +2,7 @@
 //
 // Each function uses a control of a page and judges the scene.
 import { readFileSync } from "node:fs";
-import { check, direction, heading, near, panel, reach, setRange, state } from "./support.mjs";
+import { check, direction, heading, near, panel, reach, setRange, state, until } from "./support.mjs";
 
 export async function tryExplode(page) {
   await setRange(page, "Explode", 0.5);
@@ -98,8 +98,7 @@ export async function tryCamera(page) {
   after = await state(page);
   check(Math.abs(heading(after) - heading(before)) > 5 && after.marked === 0, "dragging turns, and picks nothing");
   await page.mouse.wheel(0, -300);
-  await page.waitForTimeout(60);
-  check(reach(await state(page)) < reach(after), "the wheel zooms");
+  check(await until(page, (s) => reach(s) < reach(after)), "the wheel zooms");
   before = await state(page);
   await page.mouse.move(300, 350);
   await page.mouse.down({ button: "right" });

@@ -17,6 +17,11 @@ export function check(holds, what, ...details) {
 export const near = (a, b, tolerance) => Math.abs(a - b) <= tolerance;
 
 export const state = (page) => page.evaluate(() => window.state());
+/** Waits until the state is as it should be: what an input event leads to is drawn some time later. */
+export async function until(page, holds) {
+  while (!holds(await state(page))) await page.waitForTimeout(20);
+  return true;
+}
 export const setRange = (page, control, value) => page.locator(`[data-control="${control}"]`).evaluate((input, v) => {
   input.value = v;
   input.dispatchEvent(new Event("input"));

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -26,7 +25,6 @@ using namespace terrane;
 using namespace terrane::tetgen::detail;
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 /// Returns the corners of a cube and its sides.
 inline TetgenInput cube_input() {
@@ -36,7 +34,7 @@ inline TetgenInput cube_input() {
     for (const auto& side : std::array<std::array<std::uint32_t, 4>, 6>{
              {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}})
         input.facets.push_back(side);
-    input.time_limit = 60;
+    input.time_limit = 1800; // for a hang
     return input;
 }
 
@@ -106,10 +104,6 @@ private:
 
 inline bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
-}
-
-inline double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 inline TetgenOutput true_output() {

@@ -63,8 +63,8 @@ TEST_CASE("optimise: random models are sound by both checks, and never worse", "
         const auto rounded = round_to_doubles(arrange(ModelMaker(seed).model()).value());
         if (!rounded->report.clean) continue;
         const Mesh& mesh = rounded->mesh;
-        const auto raw = tetrahedralize(
-            mesh, {.mesher = Mesher::tetgen, .optimise = std::nullopt, .time_limit = 5}, {});
+        const auto raw =
+            tetrahedralize(mesh, {.mesher = Mesher::tetgen, .optimise = std::nullopt}, {});
         if (!raw) continue; // TetGen may find surfaces too close
         ++filled;
         INFO("seed " << seed);

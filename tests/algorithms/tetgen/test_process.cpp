@@ -71,10 +71,9 @@ TEST_CASE("TetGen's helper: a reply cut short is an error wherever it is cut",
 TEST_CASE("TetGen's helper: garbage, other versions and giant lengths are refused at once",
           "[tetrahedra][helper]") {
     const auto error_of = [](const ReplyHeader& header) {
-        return Impostor(bytes_of(header), cube_input(), "exec sleep 30").fails();
+        return Impostor(bytes_of(header), cube_input(), "exec sleep 3600").fails();
     };
-    const auto start = Clock::now();
-    const Error garbage = Impostor(std::string(1000, 'x'), cube_input(), "exec sleep 30").fails();
+    const Error garbage = Impostor(std::string(1000, 'x'), cube_input(), "exec sleep 3600").fails();
     CHECK(garbage.code == ErrorCode::internal);
     CHECK(contains(garbage.sentence, "another language"));
     CHECK_FALSE(garbage.place.empty());
@@ -91,7 +90,6 @@ TEST_CASE("TetGen's helper: garbage, other versions and giant lengths are refuse
             CHECK(error.code == ErrorCode::internal);
             CHECK(contains(error.sentence, "more than it can count"));
         }
-    CHECK(seconds_since(start) < 20);
     // The largest allowed number is announced, but no item comes: this must not cost memory either.
     header = {};
     header.points = most_items;
@@ -188,9 +186,8 @@ TEST_CASE("TetGen's helper: where it never ends with a bound on shapes, it is as
           "[tetrahedra][helper]") {
     // The first start never ends; the next is the helper.
     const Impostor slow("echo >>\"${0%/*}/starts\"\n"
-                        "[ \"$(wc -l <\"${0%/*}/starts\")\" -gt 1 ] || exec sleep 100\nexec '" +
+                        "[ \"$(wc -l <\"${0%/*}/starts\")\" -gt 1 ] || exec sleep 3600\nexec '" +
                         find_tetgen_helper().value().string() + "' \"$@\"");
-    const auto start = Clock::now();
     const auto made = tetrahedralize(square(),
                                      {.mesher = Mesher::tetgen,
                                       .radius_edge_ratio = 2,
@@ -199,7 +196,6 @@ TEST_CASE("TetGen's helper: where it never ends with a bound on shapes, it is as
                                      {});
     INFO((made ? "" : made.error().message()));
     REQUIRE(made);
-    CHECK(seconds_since(start) < 20);
     CHECK(contains(made->failure, "gave no result in its time, so it was asked without"));
     std::ifstream starts(slow.path().parent_path() / "starts");
     CHECK(std::count(std::istreambuf_iterator<char>(starts), {}, '\n') == 2);
