@@ -48,7 +48,6 @@ struct RepairInBlocks {
     std::uint64_t triangles = 0;  ///< those that were gathered
     unsigned rounds = 0;          ///< of moving vertices, and of snapping
     double surface_deviation = 0; ///< see RoundingReport
-    double lost_length = 0;       ///< likewise
     bool is_moved = false;        ///< whether the input was moved and arranged again
 };
 

@@ -358,7 +358,6 @@ Result<Attempted> MovedBlocks::arranged(double farthest) {
     RepairInBlocks how = first_.summary;
     how.surface_deviation =
         farthest == 0 ? after->deviation : (after->deviation + farthest) * (1 + 0x1p-52);
-    how.lost_length = 0;
     unsigned rounds = 0;
     last_ = {};
     if (!after->clean) {
@@ -368,7 +367,6 @@ Result<Attempted> MovedBlocks::arranged(double farthest) {
         if (is_left_) return Error{ErrorCode::unsupported, "", ""};
         last_ = std::move(repaired->in_contact);
         how.surface_deviation = repaired->summary.surface_deviation;
-        how.lost_length = repaired->summary.lost_length;
         rounds = repaired->summary.rounds;
     }
     if (!after->clean || how.surface_deviation > report_.limit) return Attempted::in_contact;

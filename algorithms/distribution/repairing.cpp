@@ -414,12 +414,12 @@ Result<Outcome> outcome_of(Supersteps& blocks, Gathering& gathering) {
     const auto bytes = blocks.relay([&](Block& b, Bytes before) {
         if (b.index != 0) return before;
         const RepairedPart& r = gathering.repaired();
-        const Outcome outcome{gathering.is_waiting(),
-                              gathering.has_all(),
-                              r.clean,
-                              r.max_move,
-                              {r.naive_contacts, gathering.triangles(), r.rounds,
-                               r.surface_deviation, r.lost_length}};
+        const Outcome outcome{
+            gathering.is_waiting(),
+            gathering.has_all(),
+            r.clean,
+            r.max_move,
+            {r.naive_contacts, gathering.triangles(), r.rounds, r.surface_deviation}};
         Bytes next;
         append_record(next, outcome);
         return next;

@@ -87,7 +87,6 @@ RepairedPart repair_part(PartOfDoubles part, const Run& run) {
     out.rounds = repair.rounds();
     if (!out.clean) return out;
     out.surface_deviation = deviation_of(state, part.used);
-    out.lost_length = state.total_gaps();
     out.max_move = largest_move;
     for (const double m : state.move) out.max_move = std::max(out.max_move, m);
     out.points = std::move(state.points);

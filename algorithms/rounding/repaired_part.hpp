@@ -50,7 +50,7 @@ struct RepairedPart {
     rounding::detail::ParentsInContact in_contact; ///< if it is not clean
     std::size_t naive_contacts = 0;                ///< see RoundingReport
     unsigned rounds = 0;
-    double surface_deviation = 0, lost_length = 0, max_move = 0;
+    double surface_deviation = 0, max_move = 0;
 
     std::vector<Point3>
         points; ///< those of the part, some of which no triangle has any more, and new ones

@@ -20,6 +20,7 @@
 #include <terrane/algorithms/rounding/detail/reports.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/detail/tuning.hpp>
+#include <terrane/algorithms/rounding/detail/vanished.hpp>
 
 namespace terrane {
 
@@ -189,9 +190,18 @@ Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& optio
         rounded = MovedWhole(a, std::move(rounded).value(), std::move(in_contact), task)();
     }
     if (is_unclean() && where_it_lies.left()) rounded = Rounding(a, unmoved, Repairs::all, task)();
-    if (rounded && (rounded.value().report.collapsed_triangles > 0 ||
-                    !rounded.value().report.vanished.empty()))
-        report_lost_regions(a, rounded.value());
+    if (!rounded) return rounded;
+    const RoundingReport& report = rounded->report;
+    if (!report.vanished.empty()) {
+        if (rounded->mesh->triangles.empty())
+            return Error{ErrorCode::nothing_to_do,
+                         "all triangles are narrower than doubles can hold where they cross, so "
+                         "that nothing would be left of them",
+                         ""};
+        state_lost_length(a, *rounded, run);
+    }
+    if (report.collapsed_triangles > 0 || !report.vanished.empty())
+        report_lost_regions(a, *rounded);
     return rounded;
 }
 

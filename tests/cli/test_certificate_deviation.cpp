@@ -23,7 +23,8 @@ std::string word_after(const std::string& text, const std::string& before) {
 TEST_CASE("cli: certificates: a deviation that verify does not accept is warned of",
           "[cli][once]") {
     for (const std::string name :
-         {"regression/012-tip-of-needle-vanished.obj", "rounding/re1000070.obj"}) {
+         {"regression/012-tip-of-needle-vanished.obj", "rounding/re1000070.obj",
+          "regression/019-needle-without-area-once-moved.obj"}) {
         INFO(name);
         const Folder folder;
         const auto made = folder.run("arrange $D/" + name + " -o out.vtp --certificate c.json");
@@ -50,8 +51,10 @@ TEST_CASE("cli: certificates: no warning of a deviation that verify accepts", "[
     const Folder folder;
     folder.input("a.obj", crossing);
     for (const std::string command :
-         {"arrange in/a.obj -o out.obj", "arrange in/a.obj -o out.obj --box 0,0,-1,2,2,1",
-          "improve in/a.obj -o out.obj", "volume in/a.obj -o out"}) {
+         {"arrange in/a.obj -o out.obj",
+          "arrange $D/regression/020-needle-moved-onto-what-it-missed.obj -o out.obj",
+          "arrange in/a.obj -o out.obj --box 0,0,-1,2,2,1", "improve in/a.obj -o out.obj",
+          "volume in/a.obj -o out"}) {
         INFO(command);
         const auto made = folder.run(command + " --certificate c.json");
         CHECK(made.status == 0);

@@ -13,6 +13,7 @@
 #include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/rounding/detail/repair.hpp>
 #include <terrane/algorithms/rounding/detail/reports.hpp>
+#include <terrane/algorithms/rounding/detail/vanished.hpp>
 
 namespace terrane::rounding::detail {
 

@@ -7,9 +7,9 @@
 #include <span>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
-#include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
+#include <terrane/algorithms/rounding/detail/vanished.hpp>
 
 namespace terrane::rounding::detail {
 
@@ -34,17 +34,6 @@ std::vector<std::size_t> regions_per_surface(std::size_t surfaces,
 }
 
 } // namespace
-
-std::vector<std::uint32_t> vanished(const Arrangement& a,
-                                    const IndexLists<std::uint32_t>& parents_of) {
-    std::vector<bool> present(a.inputs.first.back(), false);
-    for (const std::uint32_t p : parents_of.values) present[p] = true;
-    std::vector<std::uint32_t> result;
-    for (const std::uint32_t p : a.parents_of.values)
-        if (!present[p]) result.push_back(p);
-    sort_unique(result);
-    return result;
-}
 
 double largest_distance(std::span<const Point3> points, std::span<const Triangle> triangles,
                         std::span<const Point3> others) {

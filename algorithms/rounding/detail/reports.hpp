@@ -10,16 +10,10 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 
 namespace terrane::rounding::detail {
-
-/// Returns the input triangles that have parts in the arrangement but not in `parents_of`;
-/// ascending.
-std::vector<std::uint32_t> vanished(const Arrangement& arrangement,
-                                    const IndexLists<std::uint32_t>& parents_of);
 
 /// Returns a bound for the distances between corners of triangles and other points.
 double largest_distance(std::span<const Point3> points, std::span<const Triangle> triangles,

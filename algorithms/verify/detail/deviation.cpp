@@ -2,10 +2,15 @@
 //
 // check_distances of rounded_parts.hpp.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include <terrane/algorithms/verify/detail/box_tree.hpp>
 #include <terrane/algorithms/verify/detail/coverage.hpp>
 #include <terrane/algorithms/verify/detail/distance.hpp>
 #include <terrane/algorithms/verify/detail/rounded_parts.hpp>
@@ -69,52 +74,51 @@ Squared farthest_from_parents(const RoundedParts& parts, Violations& found) {
 
 // --- What is near an input triangle -------------------------------------------------------------
 
-/// The exact triangles at each exact vertex.
-IndexLists<std::uint32_t> triangles_at_vertices(const ArrangementClaim& exact) {
-    std::vector<Edge> pairs; // {vertex, triangle}
-    for (std::uint32_t t = 0; t < exact.triangles.size(); ++t)
-        for (const std::uint32_t corner : exact.triangles[t]) pairs.push_back({corner, t});
-    std::sort(pairs.begin(), pairs.end());
-    IndexLists<std::uint32_t> result;
-    for (std::size_t v = 0, i = 0; v < exact.vertices.size(); ++v) {
-        for (; i < pairs.size() && pairs[i][0] == v; ++i) result.values.push_back(pairs[i][1]);
-        result.close();
-    }
-    return result;
-}
-
 /// Finds what is left near an input triangle of which a part has vanished.
-class Neighbours {
+class Remains {
 public:
-    explicit Neighbours(const RoundedParts& parts) :
-        parts_(parts), at_vertex_(triangles_at_vertices(parts.exact)) {}
+    explicit Remains(const RoundedParts& parts) : parts_(parts) {}
 
-    /// Returns the triangles that name an input triangle that the given one meets, or itself.
-    [[nodiscard]] Triangles of(std::uint32_t input) const {
-        Numbers inputs;
-        for (const std::uint32_t part : parts_.exact_children[input])
-            for (const std::uint32_t vertex : parts_.exact.triangles[part])
-                for (const std::uint32_t t : at_vertex_[vertex])
-                    for (const std::uint32_t parent : parts_.exact.parents_of[t])
-                        inputs.push_back(parent);
-        sort_unique(inputs);
-        Numbers triangles;
-        for (const std::uint32_t neighbour : inputs)
-            for (const std::uint32_t t : parts_.children[neighbour]) triangles.push_back(t);
-        sort_unique(triangles);
+    /// Returns the triangles of the mesh whose boxes are within a quarter of the deviation of that
+    /// of an input triangle.
+    [[nodiscard]] Triangles near(std::uint32_t input) const {
+        if (!tree_) tree_ = tree_of_mesh();
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        const double reach = parts_.rounded.deviation / 4;
+        Box box = box_of(parts_.inputs.triangles[input], parts_.inputs.vertices);
+        for (std::size_t i = 0; i < 3; ++i) {
+            box.low[i] = std::nextafter(box.low[i] - reach, -infinity);
+            box.high[i] = std::nextafter(box.high[i] + reach, infinity);
+        }
         Triangles result;
-        for (const std::uint32_t t : triangles) result.push_back(parts_.rounded.triangles[t]);
+        for (const std::uint32_t t : tree_->touching(box))
+            result.push_back(parts_.rounded.triangles[t]);
         return result;
     }
 
 private:
-    static void sort_unique(Numbers& numbers) {
-        std::sort(numbers.begin(), numbers.end());
-        numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    static Box box_of(const Triangle& t, std::span<const Point3> points) {
+        Box box;
+        for (const std::uint32_t corner : t) {
+            const auto& [x, y, z] = points[corner];
+            const Box at{{x, y, z}, {x, y, z}};
+            if (corner == t[0]) box = at;
+            extend(box, at);
+        }
+        return box;
+    }
+
+    [[nodiscard]] BoxTree tree_of_mesh() const {
+        std::vector<Box> boxes;
+        for (const Triangle& t : parts_.rounded.triangles)
+            boxes.push_back(box_of(t, parts_.rounded.vertices));
+        Numbers items(boxes.size());
+        std::iota(items.begin(), items.end(), 0U);
+        return {std::move(boxes), std::move(items)};
     }
 
     const RoundedParts& parts_;
-    IndexLists<std::uint32_t> at_vertex_;
+    mutable std::optional<BoxTree> tree_; ///< of the mesh; made for the first one that asks
 };
 
 // --- (3) From an input triangle to the triangles that name it ---------------------------------
@@ -126,6 +130,19 @@ bool sides_are_near(const RoundedParts& parts, std::uint32_t input, const Triang
                              parts.quarter))
             return false;
     return true;
+}
+
+/// Tells whether the sides of an input triangle are near the mesh. Where the deviation is large, one
+/// triangle is near all of it.
+bool is_near_mesh(const RoundedParts& parts, std::uint32_t input, const Remains& remains) {
+    const Triangles triangles = remains.near(input);
+    const auto corners = parts.input_corners(input);
+    const auto is_near_all = [&](const Triangle& t) {
+        const std::array at{&parts.points[t[0]], &parts.points[t[1]], &parts.points[t[2]]};
+        return std::ranges::all_of(
+            corners, [&](const Vector4* corner) { return within(*corner, at, parts.quarter); });
+    };
+    return std::ranges::any_of(triangles, is_near_all) || sides_are_near(parts, input, triangles);
 }
 
 bool is_unchanged(const RoundedParts& parts, std::uint32_t input) {
@@ -140,8 +157,8 @@ bool is_unchanged(const RoundedParts& parts, std::uint32_t input) {
 }
 
 /// Judges an input triangle that has children. Returns whether a part of it has vanished, so that
-/// only what it meets is near its sides.
-bool check_covered(const RoundedParts& parts, std::uint32_t input, const Neighbours& neighbours,
+/// only what is left of others is near its sides.
+bool check_covered(const RoundedParts& parts, std::uint32_t input, const Remains& remains,
                    Violations& found) {
     Triangles triangles;
     for (const std::uint32_t child : parts.children[input])
@@ -154,7 +171,7 @@ bool check_covered(const RoundedParts& parts, std::uint32_t input, const Neighbo
         return false;
     }
     if (sides_are_near(parts, input, triangles)) return false;
-    if (sides_are_near(parts, input, neighbours.of(input))) return true;
+    if (is_near_mesh(parts, input, remains)) return true;
     found.push_back(
         {Rule::R18_coverage,
          {input},
@@ -228,7 +245,7 @@ bool is_thin(const KeptRegion& region, const mpz_class& width) {
 
 /// Judges an input triangle of which a part was left out. Returns whether a part of what was kept
 /// has vanished.
-bool check_cut(const RoundedParts& parts, std::uint32_t input, const Neighbours& neighbours,
+bool check_cut(const RoundedParts& parts, std::uint32_t input, const Remains& remains,
                Violations& found) {
     const KeptRegion region = kept_region(parts, input);
     Triangles triangles;
@@ -239,7 +256,7 @@ bool check_cut(const RoundedParts& parts, std::uint32_t input, const Neighbours&
     const bool is_covered = triangles.empty() ? is_thin(region, mpz_class(2 * parts.quarter))
                                               : coverage.holds(triangles);
     if (is_covered && edges_are_near(parts, region, coverage, triangles, triangles)) return false;
-    if (is_covered && edges_are_near(parts, region, coverage, triangles, neighbours.of(input)))
+    if (is_covered && edges_are_near(parts, region, coverage, triangles, remains.near(input)))
         return true;
     found.push_back({triangles.empty() ? Rule::R12_rounded_parents : Rule::R18_coverage,
                      {input},
@@ -250,15 +267,15 @@ bool check_cut(const RoundedParts& parts, std::uint32_t input, const Neighbours&
 
 // --- (4) Vanished input triangles -------------------------------------------------------------
 
-void check_vanished(const RoundedParts& parts, std::uint32_t input, const Neighbours& neighbours,
+void check_vanished(const RoundedParts& parts, std::uint32_t input, const Remains& remains,
                     Violations& found) {
     const bool thin =
         within(squared_height(parts.input_corners(input)), mpz_class(2 * parts.quarter));
-    if (thin && sides_are_near(parts, input, neighbours.of(input))) return;
+    if (thin && is_near_mesh(parts, input, remains)) return;
     found.push_back({Rule::R12_rounded_parents,
                      {input},
                      "nothing is left of input triangle " + text(input) +
-                         (thin ? ", nor near it of what it meets"
+                         (thin ? ", nor near it of the mesh"
                                : ", which is not as thin as the stated deviation")});
 }
 
@@ -267,7 +284,7 @@ void check_vanished(const RoundedParts& parts, std::uint32_t input, const Neighb
 Distances check_distances(const RoundedParts& parts, Violations& found) {
     if (parts.same_triangles) return {root_above(largest_move(parts, found), parts.scale), 0};
     Squared farthest = farthest_from_parents(parts, found);
-    const Neighbours neighbours(parts);
+    const Remains remains(parts);
     Distances result;
     bool all_unchanged = true;
     for (std::uint32_t input = 0; input < parts.inputs.triangles.size(); ++input) {
@@ -277,10 +294,10 @@ Distances check_distances(const RoundedParts& parts, Violations& found) {
             continue;
         all_unchanged = false;
         if (!parts.is_cut.empty() && parts.is_cut[input])
-            result.partly_vanished += check_cut(parts, input, neighbours, found) ? 1 : 0;
+            result.partly_vanished += check_cut(parts, input, remains, found) ? 1 : 0;
         else if (parts.children[input].empty())
-            check_vanished(parts, input, neighbours, found);
-        else if (check_covered(parts, input, neighbours, found))
+            check_vanished(parts, input, remains, found);
+        else if (check_covered(parts, input, remains, found))
             ++result.partly_vanished;
     }
     // (5/2 c)^2, and more than the integers moved points

@@ -77,14 +77,13 @@ struct Distances {
 ///     circle is at most 3/2 c (this is at most half of the smallest height, the centroid's
 ///     distance is a third of it). The sides are at most c away from the triangles that name the
 ///     input triangle. So all of it is at most 5/2 c away from these. Where the tip of a needle has
-///     vanished, its sides are at most c away from triangles that name what the needle meets.
+///     vanished, its sides are at most c away from the mesh.
 ///     Where a part of the input triangle was left out, the same is shown for each exact triangle
 ///     that was kept: the border of what is covered is at most c away from the border of what was
 ///     kept, which is outside of each of them. Exact points are taken to integers for that, which
 ///     moves them by less than the unit of these integers.
 /// (4) An input triangle that has vanished has a height of at most 2 c, so that each point is at
-///     most c away from the sides, and the sides are at most c away from triangles that name
-///     neighbours.
+///     most c away from the sides, and the sides are at most c away from the mesh.
 Distances check_distances(const RoundedParts& parts, Violations& found);
 
 /// Reports the triangles that are turned over (R19). Where the triangles are those of the exact

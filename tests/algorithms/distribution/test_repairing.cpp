@@ -175,7 +175,6 @@ void check(const Expected& expected, Supersteps& blocks, Seen& seen,
     CHECK(report.repair->contacts >= rounding.naive_contacts);
     CHECK(report.repair->rounds == rounding.rounds);
     CHECK(report.repair->surface_deviation == Approx(rounding.surface_deviation));
-    CHECK(report.repair->lost_length == Approx(rounding.lost_length));
     if (mesh.triangles.size() != expected.exact.triangles.size()) ++seen.changed;
     if (2 * report.repair->triangles < report.triangles) ++seen.few;
     if (report.repair->is_moved) ++seen.moved;

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Input triangles of which nothing is left in the mesh of doubles.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+
+namespace terrane::rounding::detail {
+
+/// Returns the input triangles that have parts in the arrangement but not in `parents_of`;
+/// ascending.
+std::vector<std::uint32_t> vanished(const Arrangement& arrangement,
+                                    const IndexLists<std::uint32_t>& parents_of);
+
+/// Enlarges report.lost_length, and report.deviation with it, until each point of the sides of each
+/// input triangle that vanished is shown to be at most report.deviation away from the mesh. Of an
+/// arrangement of which a part was removed, these are the sides of what was kept. Exact numbers
+/// decide; where they show no smaller bound, it may be two times too large.
+/// Precondition: the mesh has a triangle.
+/// Cost: some exact distances per side, if the triangle collapsed onto others.
+void state_lost_length(const Arrangement& arrangement, RoundedMesh& rounded, const Run& run);
+
+} // namespace terrane::rounding::detail

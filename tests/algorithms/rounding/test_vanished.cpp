@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// What rounding says of input triangles of which nothing is left.
+#include "support/points.hpp"
+#include "support/read.hpp"
+#include "support/rounded.hpp"
+#include "support/shapes.hpp"
+
+#include <terrane/algorithms/rounding/detail/vanished.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using namespace terrane;
+using namespace test_support;
+
+/// Returns the rounding of a sheet and a needle that crosses nothing, as if the needle had vanished.
+RoundedMesh without_needle(const std::array<Point3, 3>& needle, double surface_deviation) {
+    const std::vector<Surface> model{surface({{0, 0, 0}, {8, 0, 0}, {0, 8, 0}}, {{0, 1, 2}}),
+                                     surface({needle[0], needle[1], needle[2]}, {{0, 1, 2}})};
+    const auto a = arranged(model);
+    RoundedMesh r = rounded(a);
+    Mesh mesh = *r.mesh;
+    REQUIRE(mesh.triangles.size() == 2);
+    mesh.triangles.resize(1);
+    mesh.parents_of = IndexLists<std::uint32_t>();
+    mesh.parents_of.push_back(std::array{0U});
+    r.mesh = std::move(mesh);
+    r.report.vanished = rounding::detail::vanished(a, r.mesh->parents_of);
+    REQUIRE(r.report.vanished == std::vector<std::uint32_t>{1});
+    r.report.surface_deviation = r.report.deviation = surface_deviation;
+    rounding::detail::state_lost_length(a, r, {});
+    CHECK(r.report.deviation >= r.report.surface_deviation + r.report.lost_length);
+    return r;
+}
+
+double lost(const std::array<Point3, 3>& needle, double surface_deviation) {
+    return without_needle(needle, surface_deviation).report.lost_length;
+}
+
+} // namespace
+
+TEST_CASE("vanished: a needle beside the mesh has no lost length, any other its distance") {
+    const double ulp = std::numeric_limits<double>::epsilon();
+    const auto beside = [&](double z, double end) {
+        return std::array<Point3, 3>{{{1, 1.5, z}, {end, 1.5, z}, {end, 1.5 + ulp, z}}};
+    };
+    // Doubles do not tell these apart: their coordinates are much larger.
+    CHECK(lost(beside(0x1p-60, 5), 0x1.02p-60) == 0);
+    CHECK(lost(beside(0x1p-60, 5), 0x1.fep-61) > 0);
+    CHECK(lost(beside(0x1p-60, 5), 0x1.fep-61) < 1e-12);
+    CHECK(lost(beside(-0x1p-60, 5), 0x1.02p-60) == 0);
+    CHECK(lost(beside(-0x1p-60, 5), 0x1.fep-61) > 0);
+    // Its tip is beyond the sheet, by 2^-.5 and 2^.5.
+    for (const double beyond : {1., 2.}) {
+        const double distance = beyond / std::sqrt(2.);
+        CHECK(lost(beside(0x1p-60, 6.5 + beyond), 0x1p-59) >= distance);
+        CHECK(lost(beside(0x1p-60, 6.5 + beyond), 0x1p-59) < 1.2 * distance);
+        CHECK(lost(beside(0x1p-60, 6.5 + beyond), distance) > 0);
+        CHECK(lost(beside(0x1p-60, 6.5 + beyond), 1.02 * distance) == 0);
+    }
+    // It stands on the sheet.
+    const std::array<Point3, 3> upright{{{1, 1.5, 0x1p-60}, {1, 1.5, 4}, {1, 1.5 + ulp, 4}}};
+    CHECK(lost(upright, 0x1p-50) >= 4);
+    CHECK(lost(upright, 0x1p-50) < 4.8);
+}
+
+TEST_CASE(
+    "vanished: needles that moving the input leaves without area are lost, or beside others") {
+    const auto far =
+        rounded(arranged(read_data("regression/019-needle-without-area-once-moved.obj")));
+    REQUIRE(far.report.clean);
+    CHECK(far.report.collapsed_triangles == 0);
+    CHECK_FALSE(far.report.vanished.empty());
+    CHECK(far.report.lost_length > 2.77); // the triangle reaches so far from what is left
+    CHECK(far.report.lost_length < 4);
+    const auto near =
+        rounded(arranged(read_data("regression/020-needle-moved-onto-what-it-missed.obj")));
+    REQUIRE(near.report.clean);
+    CHECK_FALSE(near.report.vanished.empty());
+    CHECK(near.report.lost_length == 0);
+}
+
+TEST_CASE("vanished: where nothing would be left, there is an error") {
+    const double ulp = std::numeric_limits<double>::epsilon();
+    // Two needles that cross in their middles, where they are half a double wide.
+    const auto a = arranged({surface({{0, 0, 1}, {2, 2, 1}, {2, 2 + 2 * ulp, 1}}, {{0, 1, 2}}),
+                             surface({{0, 2, 1}, {2, 0, 1}, {2, 2 * ulp, 1}}, {{0, 1, 2}})});
+    const auto r = round_to_doubles(a);
+    REQUIRE_FALSE(r);
+    CHECK(r.error().code == ErrorCode::nothing_to_do);
+}
