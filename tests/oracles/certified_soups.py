@@ -9,7 +9,8 @@ A soup has 4 to 60 triangles, more often few. The families take turns: see FAMIL
 accepted  arrange has status 0 and warns of nothing; verify accepts the certificate.
 warned    arrange has status 0, and names the --max-deviation without which verify refuses the certificate; verify refuses it without
           and accepts it with that option.
-refused   arrange has status 1, names pairs of triangles that are in the way or what vanished, and writes no file.
+refused   arrange has status 1 and names pairs of triangles that are in the way, or has status 2 as nothing would be left; it writes no
+          file.
 
 Anything else is a failure: it is printed with its seed. Prints how many soups of each family ended how; status 1 if any failed.
 """
@@ -158,10 +159,10 @@ def judge(terrane, given, folder, options):
         return subprocess.run([terrane, *map(str, command)], capture_output=True, text=True)
 
     made = run("arrange", given, "-o", result, "--certificate", certificate, "--threads", 1, *options)
-    if made.returncode == 1:
+    if made.returncode == 1 or "nothing would be left" in made.stderr:
         if result.exists() or certificate.exists():
             return "failed", "refused, but written"
-        return ("refused", "") if re.search("meet|vanish", made.stderr) else ("failed", "refused without a reason: " + made.stderr)
+        return ("refused", "") if re.search("meet improperly|nothing would be left", made.stderr) else ("failed", "refused without a reason: " + made.stderr)
     if made.returncode != 0:
         return "failed", "status %d: %s" % (made.returncode, made.stderr.strip())
     verdict = run("verify", certificate)

@@ -6,10 +6,13 @@
 #include "support/rounded.hpp"
 #include "support/shapes.hpp"
 
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/rounding/detail/vanished.hpp>
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -69,6 +72,68 @@ TEST_CASE("vanished: a needle beside the mesh has no lost length, any other its 
     CHECK(lost(upright, 0x1p-50) < 4.8);
 }
 
+TEST_CASE("vanished: a needle over a gap of the mesh is lost there") {
+    const double ulp = std::numeric_limits<double>::epsilon();
+    const auto a = arranged({surface({{0, -9, 0}, {3, 0, 0}, {0, 9, 0}}, {{0, 1, 2}}),
+                             surface({{10, -9, 0}, {10, 9, 0}, {4.5, 0, 0}}, {{0, 1, 2}}),
+                             surface({{1, 0, 1}, {9, 0, 1}, {9, ulp, 1}}, {{0, 1, 2}})});
+    RoundedMesh r = rounded(a);
+    Mesh mesh = *r.mesh;
+    REQUIRE(mesh.triangles.size() == 3);
+    mesh.triangles.resize(2);
+    mesh.parents_of = IndexLists<std::uint32_t>();
+    for (const std::uint32_t parent : {0U, 1U}) mesh.parents_of.push_back(std::array{parent});
+    r.mesh = std::move(mesh);
+    r.report.vanished = {2};
+    const auto lost_of = [&](double surface_deviation) {
+        r.report.surface_deviation = surface_deviation;
+        r.report.lost_length = 0;
+        rounding::detail::state_lost_length(a, r, {});
+        return r.report.lost_length;
+    };
+    CHECK(lost_of(1.24) > 1.25); // the middle of the gap is .75 aside and 1 below
+    CHECK(lost_of(1.26) == 0);
+}
+
+TEST_CASE("vanished: of what was cut out, only what was kept is lost") {
+    const double ulp = std::numeric_limits<double>::epsilon(), high = 0x1p-20;
+    // The tip of a needle is beyond a sheet, and beyond a wall in front of the sheet's border.
+    auto a = arranged({surface({{0, 0, 0}, {8, 0, 0}, {0, 8, 0}}, {{0, 1, 2}}),
+                       surface({{1, 1.5, high}, {9, 1.5, high}, {9, 1.5 + ulp, high}}, {{0, 1, 2}}),
+                       surface({{5, 0, high / 2}, {5, 3, high / 2}, {5, 1.5, 4}}, {{0, 1, 2}})});
+    RoundedMesh r;
+    Mesh mesh;
+    mesh.vertices = {{0, 0, 0}, {8, 0, 0}, {0, 8, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.parents_of.push_back(std::array{0U});
+    r.mesh = std::move(mesh);
+    r.report.vanished = {1};
+    const auto lost_of = [&](double surface_deviation) {
+        RoundedMesh copy = r;
+        copy.report.surface_deviation = surface_deviation;
+        rounding::detail::state_lost_length(a, copy, {});
+        return copy.report.lost_length;
+    };
+    CHECK(lost_of(2 * high) > 1.7);
+    own_state(a).whole = false;
+    CHECK(lost_of(2 * high) > 1.7);
+    std::vector<Triangle> kept;
+    IndexLists<std::uint32_t> parents;
+    for (std::size_t t = 0; t < a.triangles.size(); ++t) {
+        const auto is_beyond = [&](std::uint32_t v) {
+            return a.state->points.nearest(a.vertices[v]).x > 5.5;
+        };
+        if (a.parents_of[t][0] == 1 && std::ranges::any_of(a.triangles[t], is_beyond)) continue;
+        kept.push_back(a.triangles[t]);
+        parents.push_back(a.parents_of[t]);
+    }
+    REQUIRE(kept.size() < a.triangles.size());
+    a.triangles = kept;
+    a.parents_of = parents;
+    CHECK(lost_of(2 * high) == 0);
+    CHECK(lost_of(high / 2) > 0);
+}
+
 TEST_CASE(
     "vanished: needles that moving the input leaves without area are lost, or beside others") {
     const auto far =
@@ -86,10 +151,14 @@ TEST_CASE(
 }
 
 TEST_CASE("vanished: where nothing would be left, there is an error") {
-    const double ulp = std::numeric_limits<double>::epsilon();
-    // Two needles that cross in their middles, where they are half a double wide.
-    const auto a = arranged({surface({{0, 0, 1}, {2, 2, 1}, {2, 2 + 2 * ulp, 1}}, {{0, 1, 2}}),
-                             surface({{0, 2, 1}, {2, 0, 1}, {2, 2 * ulp, 1}}, {{0, 1, 2}})});
+    // Three needles, the wide ends of which meet.
+    const double below = std::nextafter(1., 0.), above = std::nextafter(1., 2.);
+    const auto needle = [](const Point3& tip, const Point3& p, const Point3& q) {
+        return surface({tip, p, q}, {{0, 1, 2}});
+    };
+    const auto a = arranged({needle({3, 2, 2}, {below, below, above}, {below, 1, above}),
+                             needle({2, 3, 0}, {1, above, above}, {above, below, above}),
+                             needle({2, 0, 3}, {1, above, 1}, {below, below, below})});
     const auto r = round_to_doubles(a);
     REQUIRE_FALSE(r);
     CHECK(r.error().code == ErrorCode::nothing_to_do);
