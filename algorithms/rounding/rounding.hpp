@@ -69,7 +69,7 @@ struct RoundingReport {
     double surface_deviation = 0;
     double max_allowed = 0; ///< the limit of surface_deviation: max_move of the options
     double lost_length = 0; ///< points of slivers that became narrower than doubles, and vanished,
-                            ///< are at most so much farther from the rest
+                            ///< are at most so much farther from the mesh
     double max_move = 0;    ///< no vertex is farther from its exact point
     bool arranged_again = false; ///< whether exact points are those in which surfaces cross after
                                  ///< they were moved, by at most surface_deviation
@@ -99,8 +99,9 @@ double default_max_move(const Arrangement& arrangement);
 double default_max_move(double largest);
 
 /// Rounds an arrangement. Errors: interrupted, out_of_memory, bad_option (no doubles are within
-/// max_move), bad_number (a constructed point is beyond the largest double), internal. Times:
-/// round, with the step regions (intersection edges and regions of the mesh; not rounding).
+/// max_move), bad_number (a constructed point is beyond the largest double), nothing_to_do (all
+/// triangles vanished), internal. Times: round, with the step regions (intersection edges and
+/// regions of the mesh; not rounding).
 Result<RoundedMesh> round_to_doubles(const Arrangement& arrangement,
                                      const RoundingOptions& options = {}, const Run& run = {});
 

@@ -11,8 +11,8 @@
 // (2) The mesh of doubles is conforming, or is stated not to be (R10, R11).
 // (3) Each point of a triangle of the mesh is within `deviation` of each of its parents, and each
 //     point of an input triangle is within `deviation` of the triangles that name it (R13, R18).
-//     An input triangle without any is listed as vanished, and within `deviation` of triangles that
-//     name input triangles that it meets (R12); so are thin parts of others that have vanished. The
+//     An input triangle without any is listed as vanished, thinner than half of `deviation`, and
+//     within `deviation` of the mesh (R12); so are thin parts of others that have vanished. The
 //     verifier computes the deviation itself, and refuses one that is larger than the largest that
 //     is accepted; see VerifyOptions.
 // (4) If the mesh has the triangles of the exact part, each vertex is within `max_move` of the
