@@ -13,6 +13,7 @@
 #include <terrane/algorithms/verify/detail/meetings.hpp>
 #include <terrane/algorithms/verify/detail/partition.hpp>
 #include <terrane/algorithms/verify/detail/rational.hpp>
+#include <terrane/algorithms/verify/stoppable.hpp>
 
 namespace terrane {
 
@@ -109,6 +110,7 @@ Numbers sorted_numbers(std::span<const T> items) {
     Numbers order(items.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        verifier::look_for_stop();
         if (items[a] != items[b]) return items[a] < items[b];
         return a < b;
     });

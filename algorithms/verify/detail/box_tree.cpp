@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <terrane/algorithms/verify/stoppable.hpp>
+
 namespace terrane::verifier {
 
 bool touch(const Box& a, const Box& b) {
@@ -23,6 +25,7 @@ void extend(Box& box, const Box& other) {
 template <class Take>
 void BoxTree::for_each_touching(const Box& box, const Take& take) const {
     for (std::size_t n = 0; n < nodes_.size();) {
+        look_for_stop();
         const Node& node = nodes_[n];
         if (!touch(node.box, box)) {
             n = node.after;
@@ -51,6 +54,7 @@ std::vector<std::uint32_t> BoxTree::touching_above(std::uint32_t item) const {
 }
 
 void BoxTree::build(std::size_t first, std::size_t last) {
+    look_for_stop();
     const std::size_t n = nodes_.size();
     Box box = boxes_[items_[first]];
     for (std::size_t i = first; i < last; ++i) extend(box, boxes_[items_[i]]);

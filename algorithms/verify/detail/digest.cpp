@@ -10,6 +10,7 @@
 
 #include <terrane/algorithms/verify/detail/rational.hpp>
 #include <terrane/algorithms/verify/detail/sha256.hpp>
+#include <terrane/algorithms/verify/stoppable.hpp>
 
 namespace terrane::verifier {
 
@@ -81,9 +82,11 @@ std::optional<std::vector<Digest>> hash_vertices(const HashedInputs& inputs,
 std::vector<Digest> hash_corners(const ArrangementClaim& claim, const HashedInputs& inputs,
                                  const std::vector<Digest>& vertices) {
     std::vector<std::set<std::uint32_t>> parents_at(vertices.size());
-    for (std::size_t t = 0; t < claim.triangles.size(); ++t)
+    for (std::size_t t = 0; t < claim.triangles.size(); ++t) {
+        look_for_stop();
         for (const std::uint32_t v : claim.triangles[t])
             parents_at[v].insert(claim.parents_of[t].begin(), claim.parents_of[t].end());
+    }
     std::vector<Digest> hashes;
     for (std::size_t v = 0; v < vertices.size(); ++v) {
         if (parents_at[v].empty()) continue;

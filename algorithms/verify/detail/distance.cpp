@@ -10,9 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include <terrane/algorithms/verify/stoppable.hpp>
+
 namespace terrane::verifier {
 
 Vector3 difference(const Vector4& a, const Vector4& b) {
+    look_for_stop();
     return {mpz_class(a[0] - a[3] * b[0]), mpz_class(a[1] - a[3] * b[1]),
             mpz_class(a[2] - a[3] * b[2])};
 }
@@ -27,6 +30,7 @@ mpz_class dot(const Vector3& a, const Vector3& b) {
 }
 
 Squared squared_distance(const Vector4& a, const Vector4& b) {
+    look_for_stop();
     Squared result;
     for (std::size_t i = 0; i < 3; ++i) {
         const mpz_class d = a[i] * b[3] - b[i] * a[3];

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include <terrane/algorithms/verify/stoppable.hpp>
+
 namespace terrane::verifier {
 
 namespace {
@@ -93,6 +95,7 @@ private:
     }
 
     std::uint32_t append(JsonKind kind, std::uint64_t content = 0) {
+        look_for_stop();
         if (out_.values_.size() >= most_values) fail("there are too many values");
         const auto index = static_cast<std::uint32_t>(out_.values_.size());
         out_.values_.push_back({kind, 0, index + 1, content});

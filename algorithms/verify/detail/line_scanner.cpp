@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <terrane/algorithms/verify/detail/decimal.hpp>
+#include <terrane/algorithms/verify/stoppable.hpp>
 
 namespace terrane::verifier {
 
@@ -36,6 +37,7 @@ void LineScanner::fail(std::string sentence) const {
 }
 
 std::string_view LineScanner::next() {
+    look_for_stop();
     ++number_;
     const std::size_t end = rest_.find('\n');
     if (end == std::string_view::npos) fail("the file ends too early");
@@ -50,6 +52,7 @@ void LineScanner::expect(std::string_view line) {
 }
 
 std::string_view LineScanner::word() {
+    look_for_stop();
     if (!std::exchange(first_word_, false)) {
         if (!line_.starts_with(' ')) fail("the line ends too early");
         line_.remove_prefix(1);

@@ -16,6 +16,7 @@
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/verify/detail/decimal.hpp>
 #include <terrane/algorithms/verify/detail/json.hpp>
+#include <terrane/algorithms/verify/stoppable.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane::verifier {
@@ -69,8 +70,10 @@ public:
     void for_each(const Visit& visit) const {
         const std::size_t count = size();
         std::uint32_t at = value_ + 1;
-        for (std::size_t i = 0; i < count; ++i, at = json_[at].after)
+        for (std::size_t i = 0; i < count; ++i, at = json_[at].after) {
+            look_for_stop();
             visit(Node(json_, at, this, {}, i), i);
+        }
     }
 
     [[nodiscard]] std::uint64_t count() const {

@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/verify/detail/line_scanner.hpp>
 #include <terrane/algorithms/verify/detail/output.hpp>
+#include <terrane/algorithms/verify/stoppable.hpp>
 
 namespace terrane::verifier {
 
@@ -24,6 +25,7 @@ public:
     }
     template <class T>
     T take() {
+        look_for_stop();
         if (bytes_.size() - at_ < sizeof(T)) fail("the file ends too early");
         std::make_unsigned_t<T> value = 0;
         for (std::size_t i = sizeof(T); i-- > 0;)

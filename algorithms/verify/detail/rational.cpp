@@ -6,9 +6,12 @@
 #include <limits>
 #include <utility>
 
+#include <terrane/algorithms/verify/stoppable.hpp>
+
 namespace terrane::verifier {
 
 Vector4 orthogonal(const Vector4& a, const Vector4& b, const Vector4& c) {
+    look_for_stop();
     const auto minor = [&](std::size_t i, std::size_t j) -> mpz_class {
         return b[i] * c[j] - b[j] * c[i];
     };
@@ -24,6 +27,7 @@ Vector4 orthogonal(const Vector4& a, const Vector4& b, const Vector4& c) {
 }
 
 mpz_class dot(const Vector4& plane, const Vector4& point) {
+    look_for_stop();
     mpz_class sum = plane[0] * point[0];
     for (std::size_t i = 1; i < 4; ++i) {
         mpz_addmul(sum.get_mpz_t(), plane[i].get_mpz_t(), point[i].get_mpz_t());
@@ -32,6 +36,7 @@ mpz_class dot(const Vector4& plane, const Vector4& point) {
 }
 
 void make_primitive(Vector4& vector) {
+    look_for_stop();
     mpz_class factor = gcd(vector[0], vector[1]);
     factor = gcd(factor, vector[2]);
     factor = gcd(factor, vector[3]);
@@ -42,6 +47,7 @@ void make_primitive(Vector4& vector) {
 }
 
 mpz_class turn(const Vector4& a, const Vector4& b, const Vector4& c, std::size_t axis) {
+    look_for_stop();
     const std::size_t u = (axis + 1) % 3;
     const std::size_t v = (axis + 2) % 3;
     const mpz_class vw = b[v] * c[3] - b[3] * c[v];
@@ -105,6 +111,7 @@ std::optional<Vector4> construct(const Construction& construction,
 ScaledPoints scale_to_integers(std::span<const Point3> points) {
     ScaledPoints result;
     for (const Point3& p : points) {
+        look_for_stop();
         for (const double d : {p.x, p.y, p.z}) {
             const mpq_class exact(d);
             if (exact.get_den() > result.scale) result.scale = exact.get_den();
@@ -116,12 +123,14 @@ ScaledPoints scale_to_integers(std::span<const Point3> points) {
     };
     result.points.reserve(points.size());
     for (const Point3& p : points) {
+        look_for_stop();
         result.points.push_back({integer(p.x), integer(p.y), integer(p.z), mpz_class(1)});
     }
     return result;
 }
 
 Box enclose(const Vector4& point, const mpz_class& scale) {
+    look_for_stop();
     constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr double largest = std::numeric_limits<double>::max();
     const mpz_class denominator = point[3] * scale;

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/verify/detail/sha256.hpp>
 
+#include <algorithm>
+#include <cstddef>
+
+#include <terrane/algorithms/verify/stoppable.hpp>
+
 namespace terrane::verifier {
 
 Hasher::Hasher() {
@@ -8,10 +13,16 @@ Hasher::Hasher() {
 }
 
 void Hasher::add(std::string_view text) {
-    sha256_update(&state_, text.size(), reinterpret_cast<const std::uint8_t*>(text.data()));
+    constexpr std::size_t piece = std::size_t(1) << 20;
+    for (; !text.empty(); text.remove_prefix(std::min(piece, text.size()))) {
+        look_for_stop();
+        sha256_update(&state_, std::min(piece, text.size()),
+                      reinterpret_cast<const std::uint8_t*>(text.data()));
+    }
 }
 
 void Hasher::add(const Digest& digest) {
+    look_for_stop();
     sha256_update(&state_, digest.size(), digest.data());
 }
 

@@ -12,6 +12,7 @@
 #include <zlib.h>
 
 #include <terrane/algorithms/verify/detail/output.hpp>
+#include <terrane/algorithms/verify/stoppable.hpp>
 
 namespace terrane::verifier {
 
@@ -30,6 +31,7 @@ std::string decoded(std::string_view text, const LineScanner& in) {
     if (text.size() % 4 != 0) in.fail("this is no base64");
     std::string bytes;
     for (std::size_t i = 0; i < text.size(); i += 4) {
+        look_for_stop();
         const bool last = i + 4 == text.size();
         const std::size_t padding = !last ? 0 : text[i + 2] == '=' ? 2 : text[i + 3] == '=' ? 1 : 0;
         unsigned group = 0;
@@ -164,6 +166,7 @@ void VtkScanner::array(const std::string& name, const std::vector<T>& expected, 
     const std::string_view text = in_.next();
     const std::string bytes = compressed_ ? inflated(text, size) : plain(text, size);
     for (std::size_t i = 0; i < expected.size(); ++i) {
+        look_for_stop();
         const auto right = std::bit_cast<std::array<char, sizeof(T)>>(expected[i]);
         if (!std::ranges::equal(right, std::string_view(bytes).substr(i * sizeof(T), sizeof(T))))
             in_.fail("array " + name + ", number " + std::to_string(i) +
@@ -199,6 +202,7 @@ std::string VtkScanner::inflated(std::string_view text, std::size_t size) const 
     std::string bytes(size, '\0');
     std::size_t from = 0;
     for (std::size_t i = 0; i < blocks; ++i) {
+        look_for_stop();
         const std::uint64_t packed = number_at(header, 3 + i);
         if (packed > data.size() - from) in_.fail("the array has another length");
         uLongf full = std::min(block, size - i * block);
