@@ -89,3 +89,86 @@ TEST_CASE("validation: lists of a mesh") {
     mesh.regions_of.push_back(std::vector<std::uint32_t>{0});
     check_refused(validate_mesh(mesh), ErrorCode::bad_index, "");
 }
+
+TEST_CASE("validation: each list of a mesh can be walked through, and names what is there") {
+    const Mesh sound = [] {
+        Mesh mesh = two_triangles();
+        mesh.regions_of = mesh.surfaces_of;
+        mesh.parents_of = mesh.surfaces_of;
+        mesh.intersection_edges = {{1, 2}};
+        return mesh;
+    }();
+    REQUIRE(validate_indices(sound).ok());
+    REQUIRE(validate_indices(Mesh{}).ok());
+    const std::vector<void (*)(Mesh&)> flaws{
+        [](Mesh& m) {
+            m.surfaces_of.offsets = {0, 2, 1};
+        },
+        [](Mesh& m) {
+            m.surfaces_of.offsets = {0, 1, 1};
+        },
+        [](Mesh& m) {
+            m.surfaces_of.offsets = {1, 1, 2};
+        },
+        [](Mesh& m) { m.surfaces_of.offsets.clear(); },
+        [](Mesh& m) { m.surfaces_of.values.pop_back(); },
+        [](Mesh& m) {
+            m.regions_of.offsets = {0, 0, 2};
+        },
+        [](Mesh& m) { m.regions_of.values[1] = 2; }, // two triangles have two regions at most
+        [](Mesh& m) { m.regions_of = {}, m.regions_of.values = {0}; },
+        [](Mesh& m) { m.parents_of.offsets.pop_back(); },
+        [](Mesh& m) { m.parents_of.values[0] = UINT32_MAX; },
+        [](Mesh& m) {
+            m.intersection_edges[0] = {2, 1};
+        },
+        [](Mesh& m) {
+            m.intersection_edges[0] = {1, 4};
+        },
+        [](Mesh& m) { m.triangles[1][2] = 4; },
+        [](Mesh& m) { m.triangles.pop_back(); },
+    };
+    for (std::size_t i = 0; i < flaws.size(); ++i) {
+        Mesh mesh = sound;
+        flaws[i](mesh);
+        const Status status = validate_indices(mesh);
+        CAPTURE(i);
+        REQUIRE_FALSE(status.ok());
+        CHECK(status.error().code == ErrorCode::bad_index);
+    }
+}
+
+TEST_CASE("validation: each list of tetrahedra has its length, and names what is there") {
+    TetrahedralMesh sound;
+    sound.surfaces = {{"top", Role::horizon}};
+    sound.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    sound.tetrahedra = {{0, 1, 2, 3}};
+    sound.region_of = {1};
+    sound.faces = {{0, 1, 2}, {0, 1, 3}};
+    sound.face_triangle = {0, UINT32_MAX};
+    for (int f = 0; f < 2; ++f) sound.surfaces_of.push_back(std::vector<std::uint32_t>{0});
+    sound.twins = {{0, 1}};
+    sound.region_count = 2;
+    REQUIRE(validate_indices(sound).ok());
+    const std::vector<void (*)(TetrahedralMesh&)> flaws{
+        [](TetrahedralMesh& m) { m.tetrahedra[0][3] = 4; },
+        [](TetrahedralMesh& m) { m.region_of.clear(); },
+        [](TetrahedralMesh& m) { m.region_of[0] = 2; },
+        [](TetrahedralMesh& m) { m.faces[1][0] = 4; },
+        [](TetrahedralMesh& m) { m.face_triangle.pop_back(); },
+        [](TetrahedralMesh& m) { m.surfaces_of.values[1] = 1; },
+        [](TetrahedralMesh& m) {
+            m.surfaces_of.offsets = {0, 2, 2};
+        },
+        [](TetrahedralMesh& m) { m.twins[0][1] = 2; },
+        [](TetrahedralMesh& m) { m.surfaces.clear(); },
+    };
+    for (std::size_t i = 0; i < flaws.size(); ++i) {
+        TetrahedralMesh mesh = sound;
+        flaws[i](mesh);
+        CAPTURE(i);
+        REQUIRE_FALSE(validate_indices(mesh).ok());
+    }
+    sound.vertices[0].x = std::numeric_limits<double>::quiet_NaN();
+    check_refused(validate_indices(sound), ErrorCode::bad_number, "vertex 0");
+}
