@@ -37,5 +37,5 @@ PYBIND11_MODULE(_core, module) {
     bind_project(module);
     bind_ensemble(module);
     bind_report(module);
-    py::module_::import("atexit").attr("register")(py::cpp_function(&wait_for_abandoned));
+    py::module_::import("atexit").attr("register")(py::cpp_function(&end_stages));
 }

@@ -7,7 +7,8 @@
 // (2) An exception of a signal handler or of the callback requests a stop. A stage that has not ended after
 //     0.8 s more is left to end by itself, and the exception is raised. So the work must own what it uses, and
 //     hold no object of Python.
-// (3) Errors of the library become terrane.Error, except that lack of memory becomes a MemoryError.
+// (3) The GIL is taken again at one place, which threads do not pass any more once the interpreter ends.
+// (4) Errors of the library become terrane.Error, except that lack of memory becomes a MemoryError.
 #pragma once
 
 #include <functional>
@@ -35,11 +36,11 @@ struct Failure {
     Error error;
 };
 
-/// Calls the work in a thread as (1) and (2) say. The GIL is held.
+/// Calls the work in a thread as (1) to (3) say. The GIL is held.
 void run_watched(const HowToRun& how, std::function<void(const Run&)> work);
 
-/// Waits for stages that were left to themselves by (2); at the end of the interpreter.
-void wait_for_abandoned();
+/// Stops all stages and waits for them, those that were left by (2) among them; at the end of the interpreter.
+void end_stages();
 
 /// Returns the value, or throws the error.
 template <class T>
@@ -66,7 +67,7 @@ auto run_plainly(const HowToRun& how, Work work) {
         how, [work = std::move(work)](const Run& run) -> Result<Made> { return work(run); });
 }
 
-/// Registers the translation of (3).
+/// Registers the translation of (4).
 void translate_errors();
 
 } // namespace terrane::python
