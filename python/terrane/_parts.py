@@ -117,6 +117,14 @@ class Block:
     def _names(self, numbers: Tuple[int, ...]) -> Tuple[str, ...]:
         return tuple(self._model.labels[s] for s in numbers)
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Block):
+            return NotImplemented
+        return self.number == other.number and (self._model is other._model or self._model == other._model)
+
+    def __hash__(self) -> int:
+        return hash((self.number, self.name))
+
     def __repr__(self) -> str:
         return f"<Block {self.number} {self.name!r}: volume {self.volume:.6g}>"
 
@@ -232,6 +240,14 @@ class Interface:
     def mesh(self) -> Mesh:
         """The interface as a mesh of its own."""
         return Mesh(self._model._core.part(False, self.number)[0])
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Interface):
+            return NotImplemented
+        return self.number == other.number and (self._model is other._model or self._model == other._model)
+
+    def __hash__(self) -> int:
+        return hash((self.number, self.surfaces))
 
     def __repr__(self) -> str:
         return f"<Interface {self.number} of {' and '.join(self.surfaces)}: {self.blocks[0]} | {self.blocks[1]}>"

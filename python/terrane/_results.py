@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Tuple
+from typing import Any, Dict, Tuple, Type, TypeVar
 
 import numpy as np
 
@@ -26,6 +26,21 @@ def same(a: Any, b: Any) -> bool:
     if isinstance(a, float) and isinstance(b, float):
         return a == b or (a != a and b != b)
     return bool(a == b)
+
+
+Record = TypeVar("Record", bound=Type[Tuple[Any, ...]])
+
+
+def by_value(record: Record) -> Record:
+    """Make named tuples with arrays, or numbers that may be NaN, equal if their elements are; they have no hash then."""
+    def equal(self: Any, other: object) -> bool:
+        if not isinstance(other, tuple):
+            return NotImplemented
+        return same(tuple(self), tuple(other))
+    record.__eq__ = equal  # type: ignore[assignment]
+    record.__ne__ = object.__ne__  # type: ignore[assignment]
+    record.__hash__ = None  # type: ignore[assignment]
+    return record
 
 
 def writable(state: Any) -> Any:

@@ -7,8 +7,10 @@ from typing import Any, Dict, List, NamedTuple, Tuple
 
 from ._arrays import UInt32Array
 from ._mesh import Contact
+from ._results import by_value
 
 
+@by_value
 class RoundingReport(NamedTuple):
     """The moves, contacts and losses of rounding; distances in the unit of the input.
 
