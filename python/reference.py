@@ -39,8 +39,8 @@ of results are read-only views of the library's memory, which they keep alive. C
 in the unit of the input, angles in degrees. Results can be pickled, copied and compared; a pickle of an arrangement or of
 a model holds its surfaces, and the rest is made again when it is read, bit for bit the same.
 
-Memory: `Surface` refers to arrays of float64 and uint32 or int32 in C order, and makes one copy of any other. While a stage
-runs it has a copy of its own: 24 bytes per vertex and 12 per triangle.
+Memory: a `Surface` has a copy of its arrays, 24 bytes per vertex and 12 per triangle, which was checked when it was made and which
+nobody can change. While a stage runs it has one more.
 """
 
 

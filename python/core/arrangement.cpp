@@ -65,6 +65,7 @@ py::dict statistics(const Arrangement& a) {
 py::tuple construction(const Arrangement& a, std::uint32_t vertex) {
     constexpr std::array<const char*, 4> kinds{"input", "line_plane", "three_planes", "line_line"};
     constexpr std::array<std::size_t, 4> used{1, 5, 9, 4};
+    require_below(vertex, a.vertices.size(), "vertex");
     const Construction c = a.construction(VertexId(vertex));
     const auto kind = static_cast<std::size_t>(c.kind);
     const std::vector<std::uint32_t> v(c.v.begin(), c.v.begin() + used[kind]);
@@ -91,6 +92,8 @@ py::dict dict_of_cut(const VolumeReport& report) {
 
 py::tuple cut(const ArrangementPointer& arrangement, const std::vector<std::uint32_t>& boundary,
               const HowToRun& how) {
+    for (const std::uint32_t s : boundary)
+        require_below(s, arrangement->surfaces.size(), "surface");
     auto made = run_stage(how, [arrangement, boundary](const Run& run) {
         return cut_to_volume(*arrangement, boundary, run);
     });
@@ -101,6 +104,7 @@ py::tuple cut(const ArrangementPointer& arrangement, const std::vector<std::uint
 py::tuple extend(const py::sequence& surfaces, const std::vector<std::uint32_t>& boundary,
                  double limit, const HowToRun& how) {
     auto given = std::make_shared<std::vector<Surface>>(to_surfaces(surfaces));
+    for (const std::uint32_t s : boundary) require_below(s, given->size(), "surface");
     auto made = run_stage(how, [given, boundary, limit](const Run& run) {
         return extend_to_boundary(std::move(*given), boundary, {.limit = limit}, run);
     });
@@ -165,7 +169,10 @@ void bind_arrangement(py::module_& module) {
         .def_property_readonly("statistics", &statistics)
         .def("nearest", &nearest)
         .def("coordinates",
-             [](const Arrangement& a, std::uint32_t v) { return a.coordinates(VertexId(v)); })
+             [](const Arrangement& a, std::uint32_t v) {
+                 require_below(v, a.vertices.size(), "vertex");
+                 return a.coordinates(VertexId(v));
+             })
         .def("construction", &construction);
     using A = Arrangement;
     add_array<A>(

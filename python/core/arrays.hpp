@@ -8,6 +8,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <new>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,6 +31,8 @@ namespace py = pybind11;
 py::str to_text(std::string_view text);
 /// The same back. Raises TypeError for what is no str.
 std::string from_text(py::handle text);
+/// The path that open() would take: a str, bytes or os.PathLike without NUL. Raises TypeError and ValueError as it does.
+std::filesystem::path to_path(py::handle path);
 /// A list of str.
 py::list to_texts(const std::vector<std::string>& texts);
 
@@ -74,16 +79,19 @@ py::array owned(std::vector<T> values) {
     return view(*kept, owner);
 }
 
-/// Copies an array of the right type and shape, which the Python side has checked.
+/// Raises ValueError unless the array has this type, and rows of this length; 0: no rows.
+void require_rows(const py::array& array, const py::dtype& type, std::size_t length);
+
+/// Copies an array of the very type and shape.
 template <class T>
 std::vector<T> copied(const py::array& array) {
     using Scalar = typename Row<T>::Scalar;
-    const auto rows = py::array_t<Scalar, py::array::c_style | py::array::forcecast>::ensure(array);
-    if (!rows) throw py::error_already_set();
-    const auto count =
-        static_cast<std::size_t>(rows.size()) / std::max<std::size_t>(Row<T>::length, 1);
-    const auto* first = reinterpret_cast<const T*>(rows.data());
-    return {first, first + count};
+    require_rows(array, py::dtype::of<Scalar>(), Row<T>::length);
+    const auto rows = py::array_t<Scalar, py::array::c_style>::ensure(array);
+    if (!rows) throw std::bad_alloc(); // for rows in C order: pybind11 forgets the error
+    std::vector<T> copy(static_cast<std::size_t>(rows.shape(0)));
+    if (!copy.empty()) std::memcpy(copy.data(), rows.data(), copy.size() * sizeof(T));
+    return copy;
 }
 
 /// Lists as (offsets, values).

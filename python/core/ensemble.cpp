@@ -46,7 +46,7 @@ Result<EnsembleHandle> prepared(Project project, const Run& run) {
 EnsemblePointer prepare(const py::bytes& text, const py::object& base, const py::object& source,
                         const HowToRun& how) {
     const auto project =
-        value_of(parse_project(std::string(text), from_text(base), from_text(source)));
+        value_of(parse_project(std::string(text), to_path(base), from_text(source)));
     return std::make_shared<EnsembleHandle>(
         run_stage(how, [project](const Run& run) { return prepared(project, run); }));
 }
@@ -62,6 +62,8 @@ std::shared_ptr<BuiltHandle> realised(const EnsemblePointer& ensemble, std::uint
 /// (heights, thicknesses), each (surfaces or volumes, rows, columns)
 py::tuple maps_of(const ModelPointer& m, std::array<double, 4> frame,
                   std::array<std::size_t, 2> cells, const HowToRun& how) {
+    if (cells[0] == 0 || cells[1] == 0)
+        throw Failure{{ErrorCode::bad_option, "there must be cells", "cells"}};
     const MapGrid grid{frame[0], frame[1], frame[2], frame[3], cells[0], cells[1]};
     auto maps = run_plainly(
         how, [m, grid](const Run&) { return column_maps(m->model.mesh, m->model.volumes, grid); });

@@ -26,7 +26,7 @@ std::optional<Format> to_format(const std::optional<std::string>& name) {
 
 py::list read(const py::object& path, const std::optional<std::string>& format, bool depth,
               double max_edge, const std::string& unit, const HowToRun& how) {
-    const std::filesystem::path from = from_text(path);
+    const std::filesystem::path from = to_path(path);
     const ReadOptions options{.depth = depth, .max_edge = max_edge, .unit = unit};
     return from_surfaces(run_stage(how, [from, options, chosen = to_format(format)](const Run&) {
         return read_surfaces(from, chosen, options);
@@ -36,7 +36,7 @@ py::list read(const py::object& path, const std::optional<std::string>& format, 
 void write(const MeshPointer& mesh, const py::object& path,
            const std::optional<std::string>& format, bool ascii, bool compress,
            const HowToRun& how) {
-    const std::filesystem::path to = from_text(path);
+    const std::filesystem::path to = to_path(path);
     WriteOptions options;
     options.format = to_format(format);
     options.ascii = ascii;
@@ -51,7 +51,7 @@ void bind_files(py::module_& module) {
     module.def("write_mesh", &write, "mesh"_a, "path"_a, "format"_a, "ascii"_a, "compress"_a,
                "how"_a);
     module.def(
-        "format_of", [](const py::object& path) { return format_of(from_text(path)).has_value(); },
+        "format_of", [](const py::object& path) { return format_of(to_path(path)).has_value(); },
         "path"_a);
 }
 

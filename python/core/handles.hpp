@@ -54,6 +54,13 @@ void add_lists(Bound& bound, const char* name, Get get) {
     });
 }
 
+/// Refuses a number that names none of `count` surfaces, blocks and so on.
+inline void require_below(std::uint32_t number, std::size_t count, const char* what) {
+    if (number >= count)
+        throw Failure{{ErrorCode::bad_index,
+                       "there is no " + std::string(what) + " " + std::to_string(number), ""}};
+}
+
 /// The numbers of a report on rounding.
 py::dict to_dict(const RoundingReport& report);
 /// (triangles, kind, place) of each contact.

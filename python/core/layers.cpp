@@ -27,6 +27,7 @@ py::tuple stack(const py::sequence& surfaces,
                 std::optional<double> max_move, const HowToRun& how) {
     auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(surfaces));
     std::vector<Layer> layers;
+    for (const auto& [surface, hardness] : order) require_below(surface, given->size(), "surface");
     for (const auto& [surface, hardness] : order) layers.push_back({SurfaceId(surface), hardness});
     const LayerOptions options{.min_thickness = min_thickness, .max_move = max_move};
     const auto made = run_stage(how, [given, layers, options](const Run& run) {

@@ -4,6 +4,7 @@
 
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/algorithms/regions/regions.hpp>
 
@@ -16,7 +17,7 @@ using namespace py::literals;
 
 namespace {
 
-/// Makes a mesh of arrays, which Python has checked but for the lengths of lists.
+/// Makes a mesh of a state, which is judged as nobody knows where it comes from.
 MeshPointer mesh_of(const py::tuple& state) {
     Mesh mesh;
     mesh.surfaces = to_infos(state[0].cast<py::sequence>());
@@ -26,6 +27,7 @@ MeshPointer mesh_of(const py::tuple& state) {
     mesh.regions_of = copied_lists(state[4].cast<py::tuple>());
     mesh.parents_of = copied_lists(state[5].cast<py::tuple>());
     mesh.intersection_edges = copied<Edge>(state[6].cast<py::array>());
+    if (auto valid = validate_indices(mesh); !valid) throw Failure{valid.error()};
     return handle_of(SharedMesh(std::move(mesh)));
 }
 

@@ -186,6 +186,9 @@ py::list juxtapositions(const ModelHandle& m) {
 
 py::tuple part(const ModelHandle& m, bool of_block, std::uint32_t number) {
     const Model& model = m.model;
+    require_below(number,
+                  of_block ? model.volumes.measures.size() : model.structure.interfaces.size(),
+                  of_block ? "block" : "interface");
     auto made =
         of_block ? block_part(model.mesh, model.volumes, model.structure, BlockId(number))
                  : interface_part(model.mesh, model.volumes, model.structure, InterfaceId(number));
@@ -195,7 +198,7 @@ py::tuple part(const ModelHandle& m, bool of_block, std::uint32_t number) {
 
 void save(const ModelPointer& m, const py::object& folder, const std::string& format,
           const HowToRun& how) {
-    const std::filesystem::path to = from_text(folder);
+    const std::filesystem::path to = to_path(folder);
     run_stage(how, [m, to, format](const Run& run) {
         return write_model_folder({m->model, m->sealed, m->leaks}, format, to, run);
     });

@@ -7,6 +7,7 @@
 #include <terrane/algorithms/core/process_memory.hpp>
 
 #include "handles.hpp"
+#include "surfaces.hpp"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -23,6 +24,7 @@ PYBIND11_MODULE(_core, module) {
                  return HowToRun{threads, progress};
              }),
              "threads"_a, "progress"_a);
+    bind_surface(module);
     bind_mesh(module); // classes come before the functions that name them in their signatures
     bind_files(module);
     bind_arrangement(module);

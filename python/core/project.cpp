@@ -113,7 +113,7 @@ private:
 
 std::shared_ptr<BuiltHandle> build_text(const py::bytes& text, const py::object& base,
                                         const py::object& source, const HowToRun& how) {
-    auto project = value_of(parse_project(std::string(text), from_text(base), from_text(source)));
+    auto project = value_of(parse_project(std::string(text), to_path(base), from_text(source)));
     if (project.outputs.certificate)
         throw Failure{{ErrorCode::unsupported,
                        "certificates are made by the program: terrane build",
@@ -160,7 +160,7 @@ void bind_project(py::module_& module) {
         .def(
             "save",
             [](const Pointer& b, const py::object& folder, const HowToRun& how) {
-                const std::filesystem::path to = from_text(folder);
+                const std::filesystem::path to = to_path(folder);
                 run_stage(how, [b, to](const Run& run) { return ResultFolder(*b, to, run)(); });
             },
             "folder"_a, "how"_a);

@@ -38,7 +38,7 @@ struct Request {
 Request to_request(const py::tuple& facts, const py::object& path, const py::sequence& surfaces,
                    const HowToRun& how) {
     Request request;
-    request.path = from_text(path);
+    request.path = to_path(path);
     if (const auto possible = page::check_pages(); !possible)
         throw Failure{{possible.error().code, possible.error().sentence, request.path.string()}};
     request.facts.command = from_text(facts[0]);

@@ -2,12 +2,19 @@
 #include "surfaces.hpp"
 
 #include <array>
+#include <memory>
 #include <string>
 #include <utility>
 
+#include <terrane/algorithms/mesh/validation.hpp>
+
 #include "arrays.hpp"
+#include "handles.hpp"
 
 namespace terrane::python {
+
+using namespace py::literals;
+
 namespace {
 
 constexpr std::array<std::string_view, 4> roles{"unknown", "horizon", "fault", "boundary"};
@@ -21,6 +28,56 @@ py::tuple from_frame(const CoordinateFrame& frame) {
 CoordinateFrame to_frame(const py::tuple& frame) {
     return {from_text(frame[0]), from_text(frame[1]), from_text(frame[2]),
             static_cast<VerticalAxis>(frame[3].cast<int>()), frame[4].cast<bool>()};
+}
+
+/// The corners of triangles, which name vertices. `Index` is the type of the array.
+template <class Index>
+std::vector<Triangle> to_triangles(const py::array& array, std::size_t vertices,
+                                   const std::string& owner) {
+    std::vector<Triangle> triangles;
+    const auto rows = copied<std::array<Index, 3>>(array);
+    triangles.reserve(rows.size());
+    for (const auto& row : rows) {
+        Triangle& corners = triangles.emplace_back();
+        for (std::size_t i = 0; i < 3; ++i) {
+            corners[i] = static_cast<std::uint32_t>(row[i]);
+            if (row[i] >= 0 && static_cast<std::uint64_t>(row[i]) < vertices) continue;
+            throw Failure{{ErrorCode::bad_index,
+                           "names a vertex that does not exist: [" + std::to_string(row[0]) + ", " +
+                               std::to_string(row[1]) + ", " + std::to_string(row[2]) + "], of " +
+                               std::to_string(vertices) + " vertices",
+                           owner + "triangles[" + std::to_string(triangles.size() - 1) + "]"}};
+        }
+    }
+    return triangles;
+}
+
+std::vector<Triangle> to_triangles(const py::array& array, std::size_t vertices,
+                                   const std::string& owner) {
+    const bool is_signed = array.dtype().kind() == 'i';
+    if (array.itemsize() == 4)
+        return is_signed ? to_triangles<std::int32_t>(array, vertices, owner)
+                         : to_triangles<std::uint32_t>(array, vertices, owner);
+    return is_signed ? to_triangles<std::int64_t>(array, vertices, owner)
+                     : to_triangles<std::uint64_t>(array, vertices, owner);
+}
+
+/// Copies the arrays, and judges the copies: whoever can write to the arrays can't change what was judged.
+std::shared_ptr<Surface> judged_surface(const py::array& vertices, const py::array& triangles,
+                                        const py::object& name, const py::object& role,
+                                        const py::tuple& frame) {
+    auto made = std::make_shared<Surface>();
+    made->name = from_text(name);
+    made->role = role_named(role);
+    made->frame = to_frame(frame);
+    const std::string owner = made->name.empty() ? "" : made->name + ": ";
+    made->vertices = copied<Point3>(vertices);
+    for (std::size_t v = 0; v < made->vertices.size(); ++v)
+        if (!is_finite(made->vertices[v]))
+            throw Failure{{ErrorCode::bad_number, "a coordinate is not finite",
+                           owner + "vertices[" + std::to_string(v) + "]"}};
+    made->triangles = to_triangles(triangles, made->vertices.size(), owner);
+    return made;
 }
 
 } // namespace
@@ -39,23 +96,12 @@ Role role_named(py::handle name) {
 std::vector<Surface> to_surfaces(const py::sequence& list) {
     std::vector<Surface> surfaces;
     surfaces.reserve(list.size());
-    for (const py::handle item : list) {
-        const auto parts = item.cast<py::tuple>();
-        Surface surface;
-        surface.name = from_text(parts[0]);
-        surface.role = role_named(parts[1]);
-        surface.vertices = copied<Point3>(parts[2].cast<py::array>());
-        surface.triangles = copied<Triangle>(parts[3].cast<py::array>());
-        surface.frame = to_frame(parts[4].cast<py::tuple>());
-        surfaces.push_back(std::move(surface));
-    }
+    for (const py::handle item : list) surfaces.push_back(item.cast<const Surface&>());
     return surfaces;
 }
 
-py::tuple from_surface(Surface surface) {
-    return py::make_tuple(to_text(surface.name), to_text(name_of(surface.role)),
-                          owned(std::move(surface.vertices)), owned(std::move(surface.triangles)),
-                          from_frame(surface.frame));
+py::object from_surface(Surface surface) {
+    return py::cast(std::make_shared<Surface>(std::move(surface)));
 }
 
 py::list from_surfaces(std::vector<Surface> surfaces) {
@@ -78,6 +124,18 @@ std::vector<SurfaceInfo> to_infos(const py::sequence& list) {
         infos.push_back({from_text(pair[0]), role_named(pair[1])});
     }
     return infos;
+}
+
+void bind_surface(py::module_& module) {
+    py::class_<Surface, std::shared_ptr<Surface>> bound(module, "Surface");
+    bound.def(py::init(&judged_surface), "vertices"_a, "triangles"_a, "name"_a, "role"_a, "frame"_a)
+        .def_property_readonly("name", [](const Surface& s) { return to_text(s.name); })
+        .def_property_readonly("role", [](const Surface& s) { return to_text(name_of(s.role)); })
+        .def_property_readonly("frame", [](const Surface& s) { return from_frame(s.frame); });
+    add_array<Surface>(
+        bound, "vertices", [](const Surface& s) -> auto& { return s.vertices; });
+    add_array<Surface>(
+        bound, "triangles", [](const Surface& s) -> auto& { return s.triangles; });
 }
 
 } // namespace terrane::python

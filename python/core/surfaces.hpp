@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Surfaces between Python and the library. Python's Surface holds NumPy arrays; the stages get a copy of them,
-// which is made while the GIL is held and freed when the stage ends.
+// Surfaces between Python and the library. Python's Surface holds one of the library, which was judged when it was made
+// and which nobody changes any more. The stages get a copy of it, which is freed when the stage ends.
 #pragma once
 
 #include <memory>
@@ -20,13 +20,14 @@ namespace py = pybind11;
 std::string_view name_of(Role role);
 Role role_named(py::handle name);
 
-/// A list of (name, role, vertices, triangles, frame) with arrays of float64 and uint32, and frame =
-/// (horizontal_unit, vertical_unit, system, vertical_axis, column_of_depths).
+/// Copies of a list of surfaces.
 std::vector<Surface> to_surfaces(const py::sequence& list);
 
-/// The same back. The arrays own the memory of the surface.
-py::tuple from_surface(Surface surface);
+/// The same back.
+py::object from_surface(Surface surface);
 py::list from_surfaces(std::vector<Surface> surfaces);
+
+void bind_surface(py::module_& module);
 
 /// A list of (name, role).
 py::list to_list(const std::vector<SurfaceInfo>& surfaces);

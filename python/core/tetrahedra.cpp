@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/tetgen/fill_blocks.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
@@ -55,8 +56,8 @@ TetrahedraRequest to_request(const py::dict& given) {
     r.options.max_volume = number(given, "max_volume");
     r.options.time_limit = given["time_limit"].cast<double>();
     if (!given["optimise"].cast<bool>()) r.options.optimise.reset();
-    r.options.helper = from_text(given["helper"]);
-    r.options.gmsh_helper = from_text(given["gmsh_helper"]);
+    r.options.helper = to_path(given["helper"]);
+    r.options.gmsh_helper = to_path(given["gmsh_helper"]);
     r.size_of = sizes(given, "size_of");
     r.size_in = sizes(given, "size_in");
     for (const py::handle name : given["split"].cast<py::sequence>())
@@ -75,7 +76,7 @@ TetrahedraPointer fill(const ModelPointer& model, const py::dict& options, const
 std::vector<std::string> write(const TetrahedraPointer& t, const py::object& path,
                                const std::optional<std::string>& format, bool compress,
                                unsigned order, const HowToRun& how) {
-    const std::filesystem::path to = from_text(path);
+    const std::filesystem::path to = to_path(path);
     WriteOptions options;
     options.compress = compress;
     options.order = order;
@@ -95,6 +96,7 @@ std::vector<std::string> write(const TetrahedraPointer& t, const py::object& pat
     return names;
 }
 
+/// Makes tetrahedra of a state, which is judged as nobody knows where it comes from.
 TetrahedraPointer made_of(const py::tuple& state) {
     auto made = std::make_shared<FilledBlocks>();
     TetrahedralMesh& t = made->tetrahedra;
@@ -111,6 +113,9 @@ TetrahedraPointer made_of(const py::tuple& state) {
     for (const py::handle name : state[10].cast<py::sequence>())
         made->block_names.push_back(from_text(name));
     made->added_nodes = state[11].cast<std::size_t>();
+    if (auto valid = validate_indices(t); !valid) throw Failure{valid.error()};
+    if (t.region_count > made->block_names.size())
+        throw Failure{{ErrorCode::bad_index, "there must be a name for each region", ""}};
     return made;
 }
 

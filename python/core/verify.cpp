@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <terrane/algorithms/verify/stoppable.hpp>
 #include <terrane/algorithms/verify/verify_certificate.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/files.hpp>
@@ -29,10 +30,17 @@ py::list to_list(const std::vector<Violation>& violations) {
     return all;
 }
 
+/// Runs work() -> Result<T> of the verifier, which hears a stop.
+template <class Work>
+auto run_verifier(const HowToRun& how, Work work) {
+    return run_stage(
+        how, [work = std::move(work)](const Run& run) { return stoppable(run.stop, work); });
+}
+
 py::list verify_made(const py::sequence& surfaces, const ArrangementPointer& a,
                      const HowToRun& how) {
     auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(surfaces));
-    return to_list(run_plainly(how, [given, a](const Run&) {
+    return to_list(run_verifier(how, [given, a]() -> Result<std::vector<Violation>> {
         ArrangementClaim claim;
         for (std::uint32_t v = 0; v < a->vertices.size(); ++v)
             claim.vertices.push_back(a->construction(VertexId(v)));
@@ -46,7 +54,7 @@ py::list verify_made(const py::sequence& surfaces, const ArrangementPointer& a,
 }
 
 py::list verify_mesh(const MeshPointer& mesh, const HowToRun& how) {
-    return to_list(run_plainly(how, [mesh](const Run&) {
+    return to_list(run_verifier(how, [mesh]() -> Result<std::vector<Violation>> {
         return verify_conforming(mesh->mesh->vertices, mesh->mesh->triangles);
     }));
 }
@@ -125,13 +133,15 @@ Result<Judgement> judge(const fs::path& path, const std::vector<std::string>& in
     return found;
 }
 
-py::dict verify_file(const py::object& path, const std::vector<std::string>& inputs,
+py::dict verify_file(const py::object& path, const py::sequence& inputs,
                      std::optional<double> max_deviation, std::optional<double> max_change,
                      const HowToRun& how) {
-    const fs::path from = from_text(path);
+    const fs::path from = to_path(path);
     const VerifyOptions options{max_deviation, max_change};
-    const auto found = run_stage(
-        how, [from, inputs, options](const Run&) { return judge(from, inputs, options); });
+    std::vector<std::string> given;
+    for (const py::handle input : inputs) given.push_back(to_path(input).string());
+    const auto found =
+        run_verifier(how, [from, given, options] { return judge(from, given, options); });
     py::list outputs;
     for (const JudgedFile& file : found.outputs)
         outputs.append(

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/structure/build_structure.hpp>
 #include <terrane/algorithms/structure/structure_meshes.hpp>
 #include <terrane/algorithms/volumes/point_location.hpp>
@@ -41,9 +42,23 @@ py::list to_list(const std::vector<ModelBlock>& blocks) {
     return all;
 }
 
+/// Refuses the volumes of something else, whose numbers name no triangles of this.
+void require_fitting(const Volumes& volumes, std::size_t triangles) {
+    if (volumes.of_sides.size() != triangles)
+        throw Failure{{ErrorCode::bad_option,
+                       "the volumes are those of " + std::to_string(volumes.of_sides.size()) +
+                           " triangles, not of " + std::to_string(triangles),
+                       "volumes"}};
+}
+
 py::array locate(const MeshPointer& mesh, const VolumesPointer& volumes, const py::array& points,
                  const HowToRun& how) {
+    require_fitting(*volumes, mesh->mesh->triangles.size());
     const auto places = std::make_shared<const std::vector<Point3>>(copied<Point3>(points));
+    for (std::size_t i = 0; i < places->size(); ++i)
+        if (!is_finite((*places)[i]))
+            throw Failure{
+                {ErrorCode::bad_number, "is not finite", "points[" + std::to_string(i) + "]"}};
     return owned(run_stage(how, [mesh, volumes, places](const Run& run) {
         return locate_points(*places, mesh->mesh, *volumes, run);
     }));
@@ -52,6 +67,10 @@ py::array locate(const MeshPointer& mesh, const VolumesPointer& volumes, const p
 template <class Whole>
 std::vector<std::string> exact_measures(const std::shared_ptr<Whole>& whole,
                                         const VolumesPointer& volumes, const HowToRun& how) {
+    if constexpr (std::is_same_v<Whole, Arrangement>)
+        require_fitting(*volumes, whole->triangles.size());
+    else
+        require_fitting(*volumes, whole->mesh->triangles.size());
     return run_plainly(how, [whole, volumes](const Run&) {
         if constexpr (std::is_same_v<Whole, Arrangement>)
             return exact_volumes(*whole, *volumes);
@@ -64,10 +83,18 @@ VolumesPointer volumes_of(const py::array& of_sides, const py::array& measures) 
     auto made = std::make_shared<Volumes>();
     made->of_sides = copied<std::array<std::uint32_t, 2>>(of_sides);
     made->measures = copied<double>(measures);
+    if (made->measures.empty())
+        throw Failure{{ErrorCode::bad_index, "there must be a measure of all blocks", ""}};
+    for (const auto& sides : made->of_sides)
+        for (const std::uint32_t side : sides)
+            if (side >= made->measures.size())
+                throw Failure{{ErrorCode::bad_index, "there is no volume " + std::to_string(side),
+                               "of_sides"}};
     return made;
 }
 
 py::list points_in(const MeshPointer& mesh, const VolumesPointer& volumes, const HowToRun& how) {
+    require_fitting(*volumes, mesh->mesh->triangles.size());
     const auto points = run_stage(
         how, [mesh, volumes](const Run& run) { return region_points(mesh->mesh, *volumes, run); });
     py::list all;
@@ -124,6 +151,7 @@ void bind_volumes(py::module_& module) {
     module.def(
         "structure",
         [](const MeshPointer& mesh, const VolumesPointer& volumes, const HowToRun& how) {
+            require_fitting(*volumes, mesh->mesh->triangles.size());
             return to_dict(run_stage(how, [mesh, volumes](const Run& run) {
                 return build_structure(mesh->mesh, *volumes, run);
             }));

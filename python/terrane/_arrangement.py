@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
-import os
 from fractions import Fraction
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, IndexLists, Point, SurfaceInfo, UInt32Array, as_count, as_number
+from ._arrays import Float64Array, IndexLists, Point, SurfaceInfo, UInt32Array, as_count, as_flag, as_number, as_text
 from ._errors import bad_option
 from ._mesh import CheckReport, Contact, Mesh, Path, Region, Regions, mesh_of, require_conforming
 from ._report import facts
@@ -57,7 +56,7 @@ class Arrangement(Result):
         """The doubles nearest to the vertices: ndarray, shape (n, 3), float64."""
         if self._nearest is None:
             self._nearest = self._core.nearest()
-        return self._nearest
+        return self._nearest.view()  # whose shape people may change
 
     @property
     def triangles(self) -> UInt32Array:
@@ -67,12 +66,12 @@ class Arrangement(Result):
     @property
     def parents_of(self) -> IndexLists:
         """Per triangle all input triangles that contain it; several where surfaces overlap."""
-        return IndexLists(*self._core.parents_of)
+        return IndexLists._of(self._core.parents_of)
 
     @property
     def surfaces_of(self) -> IndexLists:
         """Per triangle the surfaces of its parents."""
-        return IndexLists(*self._core.surfaces_of)
+        return IndexLists._of(self._core.surfaces_of)
 
     @property
     def intersection_edges(self) -> UInt32Array:
@@ -171,7 +170,7 @@ class Arrangement(Result):
         True
         """
         surfaces = _inputs(self)
-        _core.report_arrangement(self._core, parts_of_surfaces(surfaces), os.fspath(path),
+        _core.report_arrangement(self._core, parts_of_surfaces(surfaces), path,
                                  facts("Arrangement.report", [s.name for s in surfaces], {}), how(threads, None))
 
     def to_pyvista(self) -> Any:
@@ -297,7 +296,7 @@ class RoundedMesh(Result):
         >>> len(terrane.read("model.obj"))
         2
         """
-        if not keep_unverified:
+        if not as_flag(keep_unverified, "keep_unverified"):
             require_conforming(self.clean, len(self.report.contacts))
         self.mesh.save(path, format, ascii=ascii, compress=compress)
 
@@ -391,7 +390,7 @@ def arrange(surfaces: Any, *, search: str = "auto", threads: Optional[int] = Non
     >>> terrane.arrange([flat, wall])
     <Arrangement: 2 surfaces, 8 vertices, 8 triangles, 1 intersection edge>
     """
-    return _arranged(as_surfaces(surfaces), search, threads, progress)
+    return _arranged(as_surfaces(surfaces), as_text(search, "search"), threads, progress)
 
 
 def round(arrangement: Any, *, max_rounds: int = 8, max_move: Optional[float] = None,
@@ -457,10 +456,8 @@ def check(surfaces: Any, *, threads: Optional[int] = None, progress: Any = None)
     >>> report.contacts[0].kind
     'crossing'
     """
-    parts = [surfaces.replace()] if isinstance(surfaces, Surface) else None
-    if parts is None:
-        mesh = surfaces if isinstance(surfaces, Mesh) else getattr(surfaces, "mesh", None)
-        parts = _whole(mesh) if isinstance(mesh, Mesh) else as_surfaces(surfaces)
+    mesh = surfaces if isinstance(surfaces, Mesh) else getattr(surfaces, "mesh", None)
+    parts = _whole(mesh) if isinstance(mesh, Mesh) else as_surfaces(surfaces)
     return CheckReport(_core.check(parts_of_surfaces(parts), how(threads, progress)))
 
 
@@ -482,4 +479,4 @@ def regions(mesh: Any, *, threads: Optional[int] = None, progress: Any = None) -
     [(0, 3.5), (0, 4.5), (1, 972.0)]
     """
     offsets, values, found = _core.regions(mesh_of(mesh)._core, how(threads, progress))
-    return Regions(IndexLists(offsets, values), [Region(*r) for r in found])
+    return Regions(IndexLists._of((offsets, values)), [Region(*r) for r in found])

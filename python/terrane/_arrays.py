@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterator, NamedTuple, Optional, Tuple
+import operator
+from typing import Any, Iterable, Iterator, List, Mapping, NamedTuple, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -25,46 +26,91 @@ def read_only(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
     return view
 
 
-def as_points(value: Any, place: str, columns: int = 3) -> Float64Array:
-    """Return an (n, columns) array of float64, in C order: the same memory if it is one already."""
+def _is_masked(value: Any) -> bool:
+    """Return whether elements are masked, of an array or of one of a list of arrays."""
+    if isinstance(value, (list, tuple)):
+        return any(isinstance(row, np.ma.MaskedArray) and _is_masked(row) for row in value)
+    return isinstance(value, np.ma.MaskedArray) and bool(np.any(np.ma.getmaskarray(value)))  # type: ignore[no-untyped-call]
+
+
+def _as_array(value: Any, place: str, ragged: str) -> npt.NDArray[Any]:
+    """Return a plain array."""
+    if _is_masked(value):
+        raise bad_option("has masked elements, which are no numbers", place)
     try:
-        array = np.asarray(value)
+        return np.asarray(value)
     except ValueError:
-        raise bad_option(f"rows must have {columns} numbers each", place) from None
-    if array.size == 0 and array.ndim < 2:
-        array = np.zeros((0, columns))
+        raise bad_option(ragged, place) from None
+
+
+def _as_doubles(value: Any, array: npt.NDArray[Any], place: str) -> Float64Array:
+    """Return float64 in C order of the array of a value, and refuse numbers that lose bits by it."""
     if array.dtype.kind not in "fiub":
         raise bad_option(f"must be numbers, not {array.dtype}", place)
-    if array.ndim != 2 or array.shape[1] != columns:
-        raise bad_option(f"must have the shape (n, {columns}), not {array.shape}", place)
-    if array.dtype.kind == "f" and array.dtype.itemsize > 8:
-        if np.any(array != array.astype(np.float64)):
-            raise bad_option(f"{array.dtype} holds numbers that float64 does not", place)
-    return read_only(np.ascontiguousarray(array, dtype=np.float64))
+    doubles = np.ascontiguousarray(array, dtype=np.float64)
+    if array.dtype.itemsize > 8 and np.any(array != doubles):
+        raise bad_option(f"{array.dtype} holds numbers that float64 does not", place)
+    large = np.abs(doubles) >= 2**53  # smaller whole numbers fit
+    if np.any(large) and (array.dtype.kind in "iu" or not isinstance(value, np.ndarray)):
+        given = array if array.dtype.kind in "iu" else np.asarray(value, dtype=object)
+        for number, double in zip(given[large].tolist(), doubles[large].tolist()):
+            if isinstance(number, (int, np.integer)) and int(number) != double:
+                raise bad_option(f"{number} is a whole number that float64 does not hold", place)
+    return doubles
 
 
-def as_triangles(value: Any, vertices: int, place: str) -> UInt32Array:
-    """Return an (m, 3) array of uint32, in C order: the same memory for uint32 and int32."""
-    try:
-        array = np.asarray(value)
-    except ValueError:
-        raise bad_option("rows must have 3 indices each", place) from None
+def as_points(value: Any, place: str, columns: int = 3) -> Float64Array:
+    """Return an (n, columns) array of float64, in C order: the same memory if it is one already."""
+    array = _as_array(value, place, f"rows must have {columns} numbers each")
     if array.size == 0 and array.ndim < 2:
-        array = np.zeros((0, 3), dtype=np.uint32)
-    if array.dtype.kind not in "iu" and array.size > 0:
+        array = np.zeros((0, columns))
+    if array.dtype.kind in "fiub" and (array.ndim != 2 or array.shape[1] != columns):
+        raise bad_option(f"must have the shape (n, {columns}), not {array.shape}", place)
+    return _as_doubles(value, array, place)
+
+
+def as_triangles(value: Any, place: str) -> npt.NDArray[Any]:
+    """Return an (m, 3) array of integers with 4 or 8 bytes: the same memory if it is one already."""
+    array = _as_array(value, place, "rows must have 3 indices each")
+    if array.size == 0:
+        array = np.zeros((0, 3) if array.ndim < 2 else array.shape, dtype=np.uint32)
+    if array.dtype.kind not in "iu":
         raise bad_option(f"must be integers, not {array.dtype}", place)
     if array.ndim != 2 or array.shape[1] != 3:
         raise bad_option(f"must have the shape (m, 3), not {array.shape}", place)
-    if array.size > 0:
-        low, high = int(array.min()), int(array.max())
-        if low < 0 or high >= vertices:
-            row = int(np.argmax(np.any((array < 0) | (array >= vertices), axis=1)))
-            raise Error("bad_index", f"names a vertex that does not exist: {array[row].tolist()}, "
-                        f"of {vertices} vertices", f"{place}[{row}]")
-    array = np.ascontiguousarray(array)
-    if array.dtype == np.int32:
-        return read_only(array.view(np.uint32))
-    return read_only(array.astype(np.uint32, copy=False))
+    if array.dtype.isnative and array.dtype.itemsize >= 4:
+        return array
+    return array.astype(np.int64 if array.dtype.kind == "i" else np.uint64)
+
+
+def as_text(value: Any, place: str) -> str:
+    """Return a str."""
+    if not isinstance(value, str):
+        raise TypeError(f"{place} is a str, not {type(value).__name__}")
+    return value
+
+
+def as_flag(value: Any, place: str) -> bool:
+    """Return a bool, NumPy's among them."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{place} is True or False, not {type(value).__name__}")
+    return bool(value)
+
+
+def as_list(value: Any, place: str) -> List[Any]:
+    """Return the elements of a sequence that is no text."""
+    if isinstance(value, (str, bytes, memoryview, Mapping)) or not isinstance(value, Iterable):
+        raise TypeError(f"{place} is a list, not {type(value).__name__}")
+    return list(value)
+
+
+def as_mapping(value: Any, place: str) -> Mapping[Any, Any]:
+    """Return a mapping; None is an empty one."""
+    if value is None:
+        return {}
+    if not isinstance(value, Mapping):
+        raise TypeError(f"{place} is a dict, not {type(value).__name__}")
+    return value
 
 
 def as_number(value: Any, place: str, *, positive: bool = False, least: Optional[float] = None) -> float:
@@ -73,8 +119,12 @@ def as_number(value: Any, place: str, *, positive: bool = False, least: Optional
         raise TypeError(f"{place} is a number, not {type(value).__name__}")
     try:
         number = float(value)
+    except OverflowError:
+        raise bad_option("is larger than float64 can be", place) from None
     except (TypeError, ValueError):
         raise TypeError(f"{place} is a number, not {type(value).__name__}") from None
+    if isinstance(value, (int, np.integer)) and int(value) != number:
+        raise bad_option(f"{value} is a whole number that float64 does not hold", place)
     if not np.isfinite(number):
         raise bad_option(f"{number} is not finite", place)
     if positive and not number > 0:
@@ -96,12 +146,25 @@ def as_count(value: Any, place: str, least: int = 0, most: int = _LARGEST) -> in
 
 def as_point(value: Any, place: str) -> Point:
     """Return (x, y, z) of three finite numbers."""
-    array = np.asarray(value, dtype=np.float64)
+    array = _as_array(value, place, "must be three numbers")
     if array.shape != (3,):
         raise bad_option(f"must be three numbers, not {array.shape}", place)
-    if not np.all(np.isfinite(array)):
+    x, y, z = _as_doubles(value, array, place).tolist()
+    if not np.all(np.isfinite((x, y, z))):
         raise bad_option("is not finite", place)
-    return float(array[0]), float(array[1]), float(array[2])
+    return x, y, z
+
+
+def _as_indices(value: Any, place: str) -> UInt32Array:
+    """Return a copy as a list of indices."""
+    array = np.array(_as_array(value, place, "must be a list of indices"))
+    if array.size == 0:
+        array = np.zeros(0, dtype=np.uint32)
+    if array.dtype.kind not in "iu" or array.ndim != 1:
+        raise bad_option(f"must be a list of integers, not {array.dtype} of the shape {array.shape}", place)
+    if array.size > 0 and not 0 <= int(array.min()) <= int(array.max()) <= _LARGEST:
+        raise Error("bad_index", f"are not from 0 to {_LARGEST}", place)
+    return read_only(array.astype(np.uint32))
 
 
 class IndexLists:
@@ -127,15 +190,25 @@ class IndexLists:
     __slots__ = ("offsets", "values")
 
     def __init__(self, offsets: Any, values: Any) -> None:
-        self.offsets: UInt32Array = read_only(np.ascontiguousarray(offsets, dtype=np.uint32))
-        self.values: UInt32Array = read_only(np.ascontiguousarray(values, dtype=np.uint32))
+        self.offsets = _as_indices(offsets, "offsets")
+        self.values = _as_indices(values, "values")
+        o = self.offsets.astype(np.int64)
+        if len(o) == 0 or o[0] != 0 or o[-1] != len(self.values) or np.any(np.diff(o) < 0):
+            raise Error("bad_index", f"do not ascend from 0 to {len(self.values)}", "offsets")
+
+    @classmethod
+    def _of(cls, lists: Tuple[Any, ...]) -> "IndexLists":
+        """Return lists of the library, whose arrays nobody can change."""
+        made = cls.__new__(cls)
+        made.offsets, made.values = lists
+        return made
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
 
     def __getitem__(self, i: int) -> UInt32Array:
         n = len(self)
-        i = i.__index__()
+        i = operator.index(i)
         if not -n <= i < n:
             raise IndexError(f"list {i} of {n}")
         i %= n
@@ -180,7 +253,8 @@ class IndexLists:
         >>> int(exact.surfaces_of.contain(1).sum())
         7
         """
-        hits = np.concatenate([[0], np.cumsum(self.values == index)])
+        wanted = as_count(index, "index")
+        hits = np.concatenate([[0], np.cumsum(self.values == wanted)])
         counts = hits[self.offsets[1:]] - hits[self.offsets[:-1]]
         return np.asarray(counts > 0)
 

@@ -6,14 +6,12 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
-import numpy as np
-
 from . import _core
 from ._arrangement import Arrangement, arrangement_of
 from ._arrays import Float64Array, Point, UInt32Array, as_points
 from ._errors import Error
 from ._mesh import Mesh, mesh_of, proven
-from ._results import Result, counted
+from ._results import Result, by_value, counted
 from ._run import how
 
 #: The index that means none, as in the corners of a closed line.
@@ -106,11 +104,7 @@ class Volumes(Result):
         [1, 0]
         """
         mesh = self._mesh()
-        places = as_points(points, "points")
-        if not np.all(np.isfinite(places)):
-            row = int(np.argmin(np.all(np.isfinite(places), axis=1)))
-            raise Error("bad_number", "is not finite", f"points[{row}]")
-        return _core.locate(mesh._core, self._core, places, how(threads, progress))
+        return _core.locate(mesh._core, self._core, as_points(points, "points"), how(threads, progress))
 
     def _mesh(self) -> Mesh:
         if isinstance(self._source, Mesh):
@@ -174,6 +168,7 @@ class Corner(NamedTuple):
     lines: Tuple[int, ...]
 
 
+@by_value
 class Line(NamedTuple):
     """A chain of edges at which patches meet or end.
 
@@ -198,6 +193,7 @@ class Line(NamedTuple):
     length: float
 
 
+@by_value
 class Patch(NamedTuple):
     """A connected part of an interface.
 
@@ -218,6 +214,7 @@ class Patch(NamedTuple):
     area: float
 
 
+@by_value
 class InterfaceParts(NamedTuple):
     """The triangles between the same two volumes that belong to the same surfaces.
 
@@ -334,7 +331,6 @@ def structure(mesh: Any, volumes_of_mesh: Optional[Volumes] = None, *, threads: 
     """
     whole = mesh_of(mesh)
     found = volumes(whole, threads=threads) if volumes_of_mesh is None else volumes_of_mesh
-    if len(found.of_sides) != len(whole.triangles):
-        raise Error("bad_option", f"the volumes are those of {len(found.of_sides)} triangles, not of "
-                    f"{len(whole.triangles)}", "volumes_of_mesh")
+    if not isinstance(found, Volumes):
+        raise TypeError(f"volumes_of_mesh are Volumes, not {type(found).__name__}")
     return Structure(_core.structure(whole._core, found._core, how(threads, progress)))

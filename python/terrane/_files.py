@@ -5,20 +5,22 @@ from __future__ import annotations
 
 import glob
 import os
-from typing import Any, Dict, List, Optional
+from typing import Any, Dict, List, Mapping, Optional
 
 from . import _core
-from ._arrays import as_number
+from ._arrays import as_flag, as_mapping, as_number, as_text
 from ._errors import Error
-from ._mesh import Path, mesh
+from ._mesh import Path, as_format, mesh
 from ._run import how
 from ._surface import Surface, as_surfaces, surface_of_parts
 
 
 def _paths(value: Any) -> List[str]:
     """Return the files that a path, a pattern, or a list of these stands for."""
-    if not isinstance(value, (str, bytes, os.PathLike)):
+    if isinstance(value, (list, tuple)):
         return [path for item in value for path in _paths(item)]
+    if not isinstance(value, (str, bytes, os.PathLike)):
+        raise TypeError(f"path is a path, or a list of paths, not {type(value).__name__}")
     path = os.fsdecode(value)
     if os.path.exists(path) or not glob.has_magic(path):
         return [path]
@@ -65,16 +67,16 @@ def read(path: Any, *, format: Optional[str] = None, depth: bool = False, max_ed
     >>> terrane.read("t*.ts", roles={"top": "horizon"})
     [<Surface 'top': horizon, 3 vertices, 1 triangle>]
     """
-    edge = as_number(max_edge, "max_edge", least=0)
+    options = (as_format(format), as_flag(depth, "depth"), as_number(max_edge, "max_edge", least=0),
+               as_text(unit, "unit"))
+    of = as_mapping(roles, "roles")
     surfaces = [surface_of_parts(parts) for name in _paths(path)
-                for parts in _core.read(name, format, bool(depth), edge, unit, how(threads, progress))]
-    return with_roles(surfaces, roles)
+                for parts in _core.read(name, *options, how(threads, progress))]
+    return with_roles(surfaces, of)
 
 
-def with_roles(surfaces: List[Surface], roles: Optional[Dict[str, str]]) -> List[Surface]:
+def with_roles(surfaces: List[Surface], roles: Mapping[str, str]) -> List[Surface]:
     """Return the surfaces with the roles that are given by name."""
-    if not roles:
-        return surfaces
     names = {s.name for s in surfaces}
     for name in roles:
         if name not in names:

@@ -10,15 +10,16 @@ from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, Int32Array, Point, UInt32Array, as_count, as_number
+from ._arrays import Float64Array, Int32Array, Point, UInt32Array, as_count, as_flag, as_list, as_number, as_text
 from ._errors import Error, bad_option
 from ._mesh import Path
 from ._report import facts
-from ._results import Result, counted
+from ._results import Result, by_value, counted
 from ._run import how
 from ._surface import Surface, as_surface, parts_of_surfaces, surface_of_parts
 
 
+@by_value
 class BorderLoop(NamedTuple):
     """A closed border of a surface: "outer", "hole" or "fault gap". Lengths in the unit of the surface.
 
@@ -59,12 +60,13 @@ def holes(surface: Any, *, gap_slope: float = 0.25, outer: bool = False, threads
     >>> [(h.kind, h.area) for h in terrane.holes(terrane.Surface(x, t))]
     [('hole', 1.0)]
     """
-    slope = as_number(gap_slope, "gap_slope", positive=True)
+    slope, with_outer = as_number(gap_slope, "gap_slope", positive=True), as_flag(outer, "outer")
     loops = _core.border_loops(parts_of_surfaces([as_surface(surface)]), slope, how(threads, progress))
     found = [BorderLoop(*loop) for loop in loops]
-    return found if outer else [loop for loop in found if loop.kind != "outer"]
+    return found if with_outer else [loop for loop in found if loop.kind != "outer"]
 
 
+@by_value
 class FillReport(NamedTuple):
     """How a hole was filled, and how far that can be trusted; lengths in the unit of the surface.
 
@@ -88,6 +90,7 @@ class FillReport(NamedTuple):
     model: str
 
 
+@by_value
 class FilledHole(NamedTuple):
     """A hole, from 1; its report where it was filled, or the reason why not.
 
@@ -184,9 +187,9 @@ class Filled(Result):
         True
         """
         if self._work is None:
-            raise Error("unsupported", "what comes from a pickle has no report; fill again", os.fspath(path))
+            raise Error("unsupported", "what comes from a pickle has no report; fill again", os.fsdecode(path))
         run = how(threads, None)
-        _core.report_filled(self._work, parts_of_surfaces([self.surface]), os.fspath(path),
+        _core.report_filled(self._work, parts_of_surfaces([self.surface]), path,
                             facts("Filled.report", [self.surface.name], self._options), run)
 
     def to_pyvista(self) -> Any:
@@ -306,7 +309,7 @@ def fill(surface: Any, *, method: str = "kriging", holes: Optional[Sequence[int]
     >>> len(filled.holes), filled.given_triangles, terrane.holes(filled.surface)
     (1, 48, [])
     """
-    if method not in ("kriging", "rbf"):
+    if as_text(method, "method") not in ("kriging", "rbf"):
         raise bad_option(f"{method!r} is neither kriging nor rbf", "method")
     if smoothing is not None and method != "rbf":
         raise bad_option("is for the method rbf", "smoothing")
@@ -314,13 +317,14 @@ def fill(surface: Any, *, method: str = "kriging", holes: Optional[Sequence[int]
         raise bad_option(f"{smoothing!r} is neither a number nor 'auto'", "smoothing")
     smooth = None if smoothing is None else 0.0 if smoothing == "auto" \
         else as_number(smoothing, "smoothing", positive=True)
-    options = {"method": method, "model": model,
-               "max_area": math.inf if max_area == math.inf else as_number(max_area, "max_area", positive=True),
+    options = {"method": method, "model": as_text(model, "model"),
+               "max_area": math.inf if isinstance(max_area, float) and max_area == math.inf else as_number(max_area, "max_area", positive=True),
                "mesh_size": as_number(mesh_size, "mesh_size", least=0),
                "rings": as_count(rings, "rings", 1, 1000),
                "gap_slope": as_number(gap_slope, "gap_slope", positive=True),
-               "isotropic": bool(isotropic), "bridge": bool(bridge_faults), "smoothing": smooth}
-    numbers = None if holes is None else [as_count(h, "holes") for h in holes]
+               "isotropic": as_flag(isotropic, "isotropic"), "bridge": as_flag(bridge_faults, "bridge_faults"),
+               "smoothing": smooth}
+    numbers = None if holes is None else [as_count(h, "holes") for h in as_list(holes, "holes")]
     made = _core.fill(parts_of_surfaces([as_surface(surface)]), options, numbers, how(threads, progress))
     return Filled(surface_of_parts(made[0]), made[1], made[2], made[3], made[4], _holes_of(made[5]),
                   made[6], options)

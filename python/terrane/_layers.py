@@ -7,7 +7,7 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tup
 
 from . import _core
 from ._arrangement import as_move
-from ._arrays import Point, as_number
+from ._arrays import Point, as_list, as_number
 from ._errors import Error, bad_option
 from ._mesh import Mesh, Path
 from ._results import Result, counted
@@ -211,9 +211,12 @@ def layers(surfaces: Any, order: Union[Mapping[str, float], Sequence[Tuple[str, 
     (True, [True, False])
     """
     given = as_surfaces(surfaces)
-    pairs = list(order.items()) if isinstance(order, Mapping) else list(order)
+    pairs = list(order.items()) if isinstance(order, Mapping) else as_list(order, "order")
     numbers = []
-    for name, hardness in pairs:
+    for i, pair in enumerate(pairs):
+        if not isinstance(pair, tuple) or len(pair) != 2:
+            raise TypeError(f"order[{i}] is a pair of a name and a hardness")
+        name, hardness = pair
         found = [i for i, s in enumerate(given) if s.name == name]
         if len(found) != 1:
             names = ", ".join(s.name for s in given)

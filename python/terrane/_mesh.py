@@ -9,13 +9,18 @@ from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, IndexLists, Point, SurfaceInfo, UInt32Array
+from ._arrays import Float64Array, IndexLists, Point, SurfaceInfo, UInt32Array, as_flag, as_text
 from ._errors import Error
 from ._results import Result, counted
 from ._run import how
 from ._surface import Surface, surface_of_parts
 
 Path = Union[str, "os.PathLike[str]"]
+
+
+def as_format(value: Any) -> Optional[str]:
+    """Return the name of a format; None: the extension tells."""
+    return None if value is None else as_text(value, "format")
 
 
 class Mesh(Result):
@@ -57,17 +62,17 @@ class Mesh(Result):
     @property
     def surfaces_of(self) -> IndexLists:
         """Per triangle the surfaces that it belongs to, at least one: indices into `surfaces`."""
-        return IndexLists(*self._core.surfaces_of)
+        return IndexLists._of(self._core.surfaces_of)
 
     @property
     def regions_of(self) -> IndexLists:
         """Per triangle its region in each of its surfaces; no lists where regions were not found."""
-        return IndexLists(*self._core.regions_of)
+        return IndexLists._of(self._core.regions_of)
 
     @property
     def parents_of(self) -> IndexLists:
         """Per triangle the input triangles that contain it, counted through all surfaces; or no lists."""
-        return IndexLists(*self._core.parents_of)
+        return IndexLists._of(self._core.parents_of)
 
     @property
     def intersection_edges(self) -> UInt32Array:
@@ -115,7 +120,8 @@ class Mesh(Result):
         >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "top")
         >>> terrane.mesh([flat]).save("flat.vtp")
         """
-        _core.write_mesh(self._core, os.fspath(path), format, ascii, compress, how(1, None))
+        _core.write_mesh(self._core, path, as_format(format), as_flag(ascii, "ascii"),
+                         as_flag(compress, "compress"), how(1, None))
 
     def to_pyvista(self) -> Any:
         """Return a ``pyvista.PolyData`` with the array ``surface``. Needs PyVista.

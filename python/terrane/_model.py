@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import os
 from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -11,7 +10,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrangement import as_move
-from ._arrays import Point, as_count, as_number
+from ._arrays import Point, as_count, as_flag, as_list, as_number, as_text
 from ._blocks import Structure, Volumes
 from ._errors import Error, bad_option
 from ._mesh import Mesh, Path
@@ -222,7 +221,7 @@ class Model(Result):
         ([], 1.0)
         """
         from ._tetrahedra import tetrahedralize
-        wanted = edge_length is not None and not self.is_improved if improve is None else improve
+        wanted = edge_length is not None and not self.is_improved if improve is None else as_flag(improve, "improve")
         run = {name: options[name] for name in ("threads", "progress") if name in options}
         base = self.improved(edge_length or 0, **run) if wanted else self
         return tetrahedralize(base, edge_length=edge_length, **options)
@@ -242,7 +241,7 @@ class Model(Result):
         >>> len(terrane.read("folder/result.vtp"))
         7
         """
-        self._core.save(os.fspath(folder), format, how(threads, None))
+        self._core.save(folder, as_text(format, "format"), how(threads, None))
 
     def report(self, path: Path, *, threads: Optional[int] = None) -> None:
         """Write the page of ``terrane report``: one HTML file that shows the model, what is wrong with it, and its numbers.
@@ -284,7 +283,7 @@ class Model(Result):
             surfaces = made[1]
             options = {**made[3], **options}
         about = facts(command, [s.name for s in surfaces] or self.labels, options)
-        _core.report_model(self._core, tetrahedra, parts_of_surfaces(surfaces), os.fspath(path), about, how(threads, None))
+        _core.report_model(self._core, tetrahedra, parts_of_surfaces(surfaces), path, about, how(threads, None))
 
     def to_pyvista(self) -> Any:
         """Return a ``pyvista.MultiBlock`` of the blocks by name. Needs PyVista.
@@ -383,6 +382,11 @@ def _length(value: Any, place: str) -> Tuple[float, bool]:
     return as_number(value, place, least=0), False
 
 
+def as_pair(name: Any, place: str) -> str:
+    """Return "F1" or "F1/F2" of a surface or a pair of surfaces by name."""
+    return "/".join(as_text(n, place) for n in (name if isinstance(name, tuple) else (name,)))
+
+
 def _seal_options(seal: Any) -> Tuple[float, bool, Dict[str, float]]:
     """Return the distance, whether it is automatic, and exceptions by "F1" or "F1/F2"."""
     if not isinstance(seal, Mapping):
@@ -391,7 +395,7 @@ def _seal_options(seal: Any) -> Tuple[float, bool, Dict[str, float]]:
     of = {}
     for name, value in seal.items():
         if name is not None:
-            pair = "/".join(name) if isinstance(name, tuple) else name
+            pair = as_pair(name, "seal")
             of[pair] = as_number(value, f"seal[{pair!r}]", least=0)
     return distance, automatic, of
 
@@ -399,17 +403,21 @@ def _seal_options(seal: Any) -> Tuple[float, bool, Dict[str, float]]:
 def column_of(column: Any) -> List[Tuple[str, str, Optional[float], bool]]:
     """Return units as tuples (unit, surface, age, erosive), from the top down."""
     made = []
-    for i, entry in enumerate(column or []):
+    keys = ("unit", "surface", "age", "contact")
+    for i, entry in enumerate([] if column is None else as_list(column, "column")):
+        given = entry
         if not isinstance(entry, Mapping):
-            entry = dict(zip(("unit", "surface", "age", "contact"), entry))
-        unknown = set(entry) - {"unit", "surface", "age", "contact"}
-        if unknown or "unit" not in entry:
+            given = as_list(entry, f"column[{i}]")
+            entry = dict(zip(keys, given))
+        if len(entry) != len(given) or set(entry) - set(keys) or "unit" not in entry:
             raise bad_option("an entry has unit, surface, and perhaps age and contact", f"column[{i}]")
         age = None if entry.get("age") is None else as_number(entry["age"], f"column[{i}].age")
         contact = entry.get("contact", "conformable")
         if contact not in ("conformable", "erosive"):
             raise bad_option(f"{contact!r} is neither conformable nor erosive", f"column[{i}].contact")
-        made.append((entry["unit"], entry.get("surface") or "", age, contact == "erosive"))
+        surface = entry.get("surface")
+        made.append((as_text(entry["unit"], f"column[{i}].unit"),
+                     "" if surface is None else as_text(surface, f"column[{i}].surface"), age, contact == "erosive"))
     return made
 
 

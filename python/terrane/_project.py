@@ -75,8 +75,8 @@ class Built(Result):
         >>> len(terrane.read("result/surfaces.obj"))
         6
         """
-        to = self.folder if folder is None else os.fspath(folder)
-        if not to:
+        to = self.folder if folder is None else folder
+        if not os.fspath(to):
             raise Error("bad_option", "the key folder is missing, and no folder is given", "folder")
         self._core.save(to, how(threads, None))
 
@@ -147,9 +147,9 @@ def project_text(project: Union[Path, Mapping[str, Any]],
     """Return the text of a project, the folder of its files, and its name in messages."""
     if isinstance(project, Mapping):
         text = json.dumps(project)
-        base, source = os.fspath(folder) if folder is not None else os.getcwd(), "project"
+        base, source = os.getcwd() if folder is None else os.fsdecode(folder), "project"
     else:
-        source = os.fspath(project)
+        source = os.fsdecode(project)
         try:
             with open(source, encoding="utf-8", errors="surrogateescape") as file:
                 text = file.read()

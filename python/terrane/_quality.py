@@ -8,7 +8,7 @@ from typing import Any, Dict, Mapping, Optional, Tuple
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, UInt32Array, as_count, as_number
+from ._arrays import Float64Array, UInt32Array, as_count, as_flag, as_mapping, as_number
 from ._errors import bad_option
 from ._blocks import Volumes
 from ._mesh import Mesh, Path, mesh_of, proven
@@ -149,7 +149,7 @@ class Improved(Result):
 def improve_options(mesh: Mesh, edge_length: float, options: Mapping[str, Any]) -> Dict[str, Any]:
     """Return the options of `improve`, checked."""
     values: Dict[str, Any] = {"passes": as_count(options.get("passes", 6), "passes", 1, 100)}
-    values["dissolve"] = bool(options.get("dissolve", False))
+    values["dissolve"] = as_flag(options.get("dissolve", False), "dissolve")
     if values["dissolve"] and not options.get("resolution"):
         raise bad_option("needs a resolution", "dissolve")
     for name, value in {"edge_length": edge_length, **options}.items():
@@ -158,10 +158,11 @@ def improve_options(mesh: Mesh, edge_length: float, options: Mapping[str, Any]) 
         if name not in _OPTIONS:
             raise TypeError(f"improve() has no option {name}; it has {', '.join(_OPTIONS)}")
         values[name] = as_number(value, name, least=0)
-    if options.get("edge_length_of"):
+    lengths_of = as_mapping(options.get("edge_length_of"), "edge_length_of")
+    if lengths_of:
         names = [s.name for s in mesh.surfaces]
         lengths = [0.0] * len(names)
-        for name, length in options["edge_length_of"].items():
+        for name, length in lengths_of.items():
             if name not in names:
                 raise bad_option(f"no surface is called {name}; there are {', '.join(names)}", "edge_length_of")
             for i, own in enumerate(names):

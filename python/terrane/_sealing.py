@@ -7,7 +7,8 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Tuple
 
 from . import _core
 from ._arrangement import Arrangement
-from ._arrays import Point, as_number
+from ._arrays import Point, as_mapping, as_number
+from ._model import as_pair
 from ._results import Result, counted
 from ._run import how
 from ._surface import Surface, as_surfaces, parts_of_surfaces, surface_of_parts
@@ -160,8 +161,8 @@ def seal(surfaces: Any, distance: float, *,
     [('extended', 'top')]
     """
     given = as_surfaces(surfaces)
-    of = {"/".join(k) if isinstance(k, tuple) else k: as_number(v, f"distance_of[{k!r}]", least=0)
-          for k, v in (distance_of or {}).items()}
+    of = {as_pair(k, "distance_of"): as_number(v, f"distance_of[{k!r}]", least=0)
+          for k, v in as_mapping(distance_of, "distance_of").items()}
     width = as_number(distance, "distance", least=0)
     core, made, report = _core.seal(parts_of_surfaces(given), width, of, how(threads, progress))
     changed = [surface_of_parts(p) for p in made]

@@ -8,7 +8,8 @@ from typing import Any, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tu
 
 import numpy as np
 
-from ._arrays import Float64Array, UInt32Array, as_points, as_triangles
+from . import _core
+from ._arrays import Float64Array, UInt32Array, as_count, as_flag, as_points, as_text, as_triangles
 from ._errors import Error, bad_option
 
 #: The roles that a surface can have.
@@ -21,8 +22,10 @@ class Frame(NamedTuple):
     Examples
     --------
     >>> import terrane
-    >>> terrane.Frame("m", "m", "", "up", False)
-    Frame(horizontal_unit='m', vertical_unit='m', system='', vertical_axis='up', column_of_depths=False)
+    >>> terrane.Frame("m", "m", "", 1, False)
+    Frame(horizontal_unit='m', vertical_unit='m', system='', vertical_axis=1, column_of_depths=False)
+
+    ``vertical_axis`` is 0 (not stated), 1 (up) or 2 (down: depths, which were turned into heights).
     """
 
     horizontal_unit: str = ""
@@ -38,10 +41,9 @@ class Surface:
     Parameters
     ----------
     vertices : array_like, shape (n, 3)
-        Coordinates x, y, z in any one unit. An array of float64 in C order is not copied: do not change it
-        as long as the surface is in use. Anything else is copied once.
+        Coordinates x, y, z in any one unit.
     triangles : array_like of integers, shape (m, 3)
-        Indices into `vertices`, from 0. Arrays of uint32 and int32 in C order are not copied.
+        Indices into `vertices`, from 0.
     name : str, optional
         Name of the surface; need not be unique.
     role : {"unknown", "horizon", "fault", "boundary"}, optional
@@ -50,13 +52,13 @@ class Surface:
     Raises
     ------
     terrane.Error
-        ``bad_option`` for arrays of another shape or type, ``bad_index`` for a triangle that names a vertex
-        that does not exist.
+        ``bad_option`` for arrays of another shape or type, and for numbers that float64 does not hold; ``bad_number``
+        for a coordinate that is not finite; ``bad_index`` for a triangle that names a vertex that does not exist.
 
     Notes
     -----
-    Stages copy the arrays once more while they run: 24 bytes per vertex and 12 per triangle. Coordinates that are
-    not finite are refused by the stages.
+    A surface copies the arrays and checks the copy, 24 bytes per vertex and 12 per triangle, which nobody can change
+    afterwards. Stages copy it once more while they run.
 
     Examples
     --------
@@ -65,45 +67,47 @@ class Surface:
     <Surface 'top': horizon, 3 vertices, 1 triangle>
     """
 
-    __slots__ = ("_vertices", "_triangles", "_name", "_role", "_frame")
+    __slots__ = ("_core",)
 
     def __init__(self, vertices: Any, triangles: Any, name: str = "", role: str = "unknown",
                  frame: Optional[Frame] = None) -> None:
-        if not isinstance(name, str):
-            raise TypeError(f"name is a str, not {type(name).__name__}")
-        if role not in ROLES:
+        place = f"{name}: " if as_text(name, "name") else ""
+        if not isinstance(role, str) or role not in ROLES:
             raise bad_option(f"no role is called {role!r}; there are {', '.join(ROLES)}", "role")
-        place = f"{name}: " if name else ""
-        self._vertices = as_points(vertices, place + "vertices")
-        self._triangles = as_triangles(triangles, len(self._vertices), place + "triangles")
-        self._name = str(name)
-        self._role = str(role)
-        self._frame = Frame() if frame is None else Frame(*frame)
+        self._core = _core.Surface(as_points(vertices, place + "vertices"),
+                                   as_triangles(triangles, place + "triangles"), name, role, _as_frame(frame))
+
+    @classmethod
+    def _of(cls, core: _core.Surface) -> "Surface":
+        """Return a surface of the library."""
+        made = cls.__new__(cls)
+        made._core = core
+        return made
 
     @property
     def vertices(self) -> Float64Array:
         """Coordinates: ndarray, shape (n, 3), float64, read-only."""
-        return self._vertices
+        return self._core.vertices
 
     @property
     def triangles(self) -> UInt32Array:
         """Indices into `vertices`: ndarray, shape (m, 3), uint32, read-only."""
-        return self._triangles
+        return self._core.triangles
 
     @property
     def name(self) -> str:
         """The name; may be empty."""
-        return self._name
+        return self._core.name
 
     @property
     def role(self) -> str:
         """One of `terrane.ROLES`."""
-        return self._role
+        return self._core.role
 
     @property
     def frame(self) -> Frame:
         """What a file stated about the coordinates."""
-        return self._frame
+        return Frame(*self._core.frame)
 
     @property
     def bounds(self) -> Tuple[Tuple[float, float, float], Tuple[float, float, float]]:
@@ -115,9 +119,10 @@ class Surface:
         >>> terrane.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 2]], [[0, 1, 2]]).bounds
         ((0.0, 0.0, 0.0), (1.0, 1.0, 2.0))
         """
-        if len(self._vertices) == 0:
-            raise Error("nothing_to_do", "a surface without vertices has no bounds", self._name)
-        low, high = self._vertices.min(axis=0), self._vertices.max(axis=0)
+        vertices = self.vertices
+        if len(vertices) == 0:
+            raise Error("nothing_to_do", "a surface without vertices has no bounds", self.name)
+        low, high = vertices.min(axis=0), vertices.max(axis=0)
         return (float(low[0]), float(low[1]), float(low[2])), (float(high[0]), float(high[1]), float(high[2]))
 
     def replace(self, **changes: Any) -> "Surface":
@@ -130,8 +135,8 @@ class Surface:
         >>> s.replace(name="F1", role="fault")
         <Surface 'F1': fault, 3 vertices, 1 triangle>
         """
-        values: Dict[str, Any] = {"vertices": self._vertices, "triangles": self._triangles,
-                                  "name": self._name, "role": self._role, "frame": self._frame}
+        values: Dict[str, Any] = {"vertices": self.vertices, "triangles": self.triangles,
+                                  "name": self.name, "role": self.role, "frame": self.frame}
         unknown = set(changes) - set(values)
         if unknown:
             raise TypeError(f"a surface has no {', '.join(sorted(unknown))}")
@@ -188,16 +193,12 @@ class Surface:
         """
         return self.to_pyvista().plot(**options)
 
-    def _parts(self) -> Tuple[Any, ...]:
-        return self._name, self._role, self._vertices, self._triangles, tuple(self._frame)
-
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Surface):
             return NotImplemented
-        return bool(self._name == other._name and self._role == other._role
-                    and self._frame == other._frame
-                    and np.array_equal(self._vertices, other._vertices, equal_nan=True)
-                    and np.array_equal(self._triangles, other._triangles))
+        return bool(self.name == other.name and self.role == other.role and self.frame == other.frame
+                    and np.array_equal(self.vertices, other.vertices)
+                    and np.array_equal(self.triangles, other.triangles))
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -205,23 +206,34 @@ class Surface:
         return self
 
     def __deepcopy__(self, memo: Dict[int, Any]) -> "Surface":
-        return self.replace(vertices=np.array(self._vertices), triangles=np.array(self._triangles))
+        return self  # nobody can change it
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        return Surface, (np.array(self._vertices), np.array(self._triangles), self._name,
-                         self._role, tuple(self._frame))
+        return Surface, (np.array(self.vertices), np.array(self.triangles), self.name, self.role,
+                         tuple(self.frame))
 
     def __repr__(self) -> str:
         from ._results import counted
-        return (f"<Surface {self._name!r}: {self._role}, {counted(len(self._vertices), 'vertex')}, "
-                f"{counted(len(self._triangles), 'triangle')}>")
+        return (f"<Surface {self.name!r}: {self.role}, {counted(len(self.vertices), 'vertex')}, "
+                f"{counted(len(self.triangles), 'triangle')}>")
 
     def _repr_html_(self) -> str:
         from ._picture import card
-        return card("Surface " + self._name,
-                    {"role": self._role, "vertices": len(self._vertices),
-                     "triangles": len(self._triangles)},
-                    self._vertices, self._triangles)
+        return card("Surface " + self.name,
+                    {"role": self.role, "vertices": len(self.vertices), "triangles": len(self.triangles)},
+                    self.vertices, self.triangles)
+
+
+def _as_frame(value: Any) -> Frame:
+    """Return a frame, checked."""
+    if value is None:
+        return Frame()
+    if not isinstance(value, (tuple, list)) or len(value) != len(Frame._fields):
+        raise TypeError(f"frame is a terrane.Frame, not {type(value).__name__}")
+    horizontal, vertical, system, axis, depths = value
+    return Frame(as_text(horizontal, "frame.horizontal_unit"), as_text(vertical, "frame.vertical_unit"),
+                 as_text(system, "frame.system"), as_count(axis, "frame.vertical_axis", 0, 2),
+                 as_flag(depths, "frame.column_of_depths"))
 
 
 def _faces_of_polydata(faces: Any) -> Any:
@@ -285,7 +297,7 @@ def as_surface(value: Any, name: Optional[str] = None, role: Optional[str] = Non
     given = getattr(value, "name", "") if name is None else name
     own_role = getattr(value, "role", "unknown") if role is None else role
     return Surface(parts[0], parts[1], given if isinstance(given, str) else "",
-                   own_role if own_role in ROLES else "unknown")
+                   own_role if isinstance(own_role, str) and own_role in ROLES else "unknown")
 
 
 def as_surfaces(value: Any, place: str = "surfaces") -> List[Surface]:
@@ -298,6 +310,7 @@ def as_surfaces(value: Any, place: str = "surfaces") -> List[Surface]:
     >>> terrane.as_surfaces({"top": flat, "base": flat})
     [<Surface 'top': unknown, 3 vertices, 1 triangle>, <Surface 'base': unknown, 3 vertices, 1 triangle>]
     """
+    as_text(place, "place")
     if isinstance(value, Surface):
         return [value]
     if isinstance(value, dict):
@@ -315,12 +328,11 @@ def as_surfaces(value: Any, place: str = "surfaces") -> List[Surface]:
     return [as_surface(item) for item in items]
 
 
-def parts_of_surfaces(surfaces: Iterable[Surface]) -> List[Tuple[Any, ...]]:
-    """Return the tuples that the extension module takes."""
-    return [surface._parts() for surface in surfaces]
+def parts_of_surfaces(surfaces: Iterable[Surface]) -> List[_core.Surface]:
+    """Return what the extension module takes."""
+    return [surface._core for surface in surfaces]
 
 
-def surface_of_parts(parts: Tuple[Any, ...]) -> Surface:
-    """Return the surface of a tuple that the extension module made."""
-    name, role, vertices, triangles, frame = parts
-    return Surface(vertices, triangles, name, role, Frame(*frame))
+def surface_of_parts(parts: _core.Surface) -> Surface:
+    """Return the surface that the extension module made."""
+    return Surface._of(parts)

@@ -9,9 +9,9 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tup
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, IndexLists, SurfaceInfo, UInt32Array, as_number, as_point
-from ._errors import Error
-from ._mesh import Path
+from ._arrays import Float64Array, IndexLists, SurfaceInfo, UInt32Array, as_count, as_flag, as_list, as_mapping, as_number, as_point, as_text
+from ._errors import Error, bad_option
+from ._mesh import Path, as_format
 from ._model import Model, number_of
 from ._results import Result, counted
 from ._run import how
@@ -130,7 +130,7 @@ class Tetrahedra(Result):
     @property
     def surfaces_of(self) -> IndexLists:
         """Per face its surfaces."""
-        return IndexLists(*self._core.surfaces_of)
+        return IndexLists._of(self._core.surfaces_of)
 
     @property
     def twins(self) -> UInt32Array:
@@ -214,7 +214,10 @@ class Tetrahedra(Result):
         >>> len(cells.of_block(1)) > 0
         True
         """
-        number = self.block_names.index(block) if isinstance(block, str) else int(block)
+        names = self.block_names
+        if isinstance(block, str) and block not in names:
+            raise Error("bad_option", f"{block!r} is no block: {', '.join(map(repr, names))}", "block")
+        number = names.index(block) if isinstance(block, str) else as_count(block, "block")
         return np.asarray(self.tetrahedra[self.region_of == number])
 
     def save(self, path: Path, format: Optional[str] = None, *, compress: bool = True, order: int = 1) -> List[str]:
@@ -233,9 +236,8 @@ class Tetrahedra(Result):
         >>> cells.save("cells.vtu")
         ['cells.vtu']
         """
-        if order not in (1, 2):
-            raise Error("bad_option", f"must be 1 or 2, not {order!r}", "order")
-        return list(_core.write_tetrahedra(self._core, os.fspath(path), format, compress, order, how(1, None)))
+        return list(_core.write_tetrahedra(self._core, path, as_format(format), as_flag(compress, "compress"),
+                                           as_count(order, "order", 1, 2), how(1, None)))
 
     def report(self, path: Path, *, threads: Optional[int] = None) -> None:
         """Write the page of the model with its tetrahedra: one HTML file, as `Model.report`.
@@ -255,7 +257,7 @@ class Tetrahedra(Result):
         True
         """
         if self._model is None:
-            raise Error("unsupported", "these tetrahedra do not hold their model, so they have no report", os.fspath(path))
+            raise Error("unsupported", "these tetrahedra do not hold their model, so they have no report", os.fsdecode(path))
         self._model._report(path, "Tetrahedra.report", self._core, threads)
 
     def to_pyvista(self) -> Any:
@@ -382,19 +384,22 @@ def tetrahedralize(model: Model, *, edge_length: Optional[float] = None,
     def number(value: Optional[float], name: str) -> Optional[float]:
         return None if value is None else as_number(value, name, positive=True)
     sizes_in = {}
-    for block, length in (size_in or {}).items():
+    for block, length in as_mapping(size_in, "size_in").items():
         of = "0" if block in (0, "0", "outside") else str(number_of(model, block))
         sizes_in[of] = as_number(length, f"size_in[{block!r}]", positive=True)
-    corners = None if around is None else (as_point(around[0], "around[0]"), as_point(around[1], "around[1]"))
+    corners = None if around is None else [as_point(p, "around") for p in as_list(around, "around")]
+    if corners is not None and len(corners) != 2:
+        raise bad_option("is not two corners", "around")
     options = {
-        "mesher": mesher, "box": corners, "margin": as_number(margin, "margin"),
+        "mesher": as_text(mesher, "mesher"), "box": corners, "margin": as_number(margin, "margin"),
         "edge_length": number(edge_length, "edge_length"), "quality": number(quality, "quality"),
-        "split_surfaces": bool(split_surfaces), "max_volume": number(max_volume, "max_volume"),
+        "split_surfaces": as_flag(split_surfaces, "split_surfaces"), "max_volume": number(max_volume, "max_volume"),
         "time_limit": as_number(time_limit, "time_limit", positive=True),
-        "helper": os.fspath(helper), "gmsh_helper": os.fspath(gmsh_helper),
-        "size_of": {k: as_number(v, f"size_of[{k!r}]", positive=True) for k, v in (size_of or {}).items()},
-        "size_in": sizes_in, "split": [split] if isinstance(split, str) else list(split),
-        "outside": bool(outside), "optimise": bool(optimise)}
+        "helper": helper, "gmsh_helper": gmsh_helper,
+        "size_of": {as_text(k, "size_of"): as_number(v, f"size_of[{k!r}]", positive=True)
+                    for k, v in as_mapping(size_of, "size_of").items()},
+        "size_in": sizes_in, "split": [split] if isinstance(split, str) else as_list(split, "split"),
+        "outside": as_flag(outside, "outside"), "optimise": as_flag(optimise, "optimise")}
     made = Tetrahedra(_core.fill_blocks(model._core, options, how(threads, progress)), model)
     if made.violations:
         raise Error("internal", "; ".join(v.first for v in made.violations), "tetrahedra")

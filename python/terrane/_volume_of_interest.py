@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _core
 from ._arrangement import Arrangement, _arranged
-from ._arrays import Point, as_number, as_point, as_points
+from ._arrays import Point, as_flag, as_list, as_number, as_point, as_points
 from ._errors import bad_option
 from ._results import Result, counted
 from ._run import how
@@ -162,7 +162,7 @@ def rotated_box(place: Sequence[float], lengths: Sequence[float], *, azimuth: fl
     6
     """
     return [surface_of_parts(p) for p in _core.rotated_box_boundary(
-        as_point(place, "place"), bool(is_corner), list(as_point(lengths, "lengths")),
+        as_point(place, "place"), as_flag(is_corner, "is_corner"), list(as_point(lengths, "lengths")),
         as_number(azimuth, "azimuth"), as_number(plunge, "plunge"), as_number(roll, "roll"))]
 
 
@@ -206,17 +206,15 @@ def as_boundary(value: Any) -> List[Surface]:
         return []
     if isinstance(value, Surface):
         return [value]
-    items = list(value)
+    if isinstance(value, np.ndarray) and value.size != 6:
+        raise bad_option(f"must be six numbers, not an array of the shape {value.shape}", "box")
+    items = as_list(value, "box")
     if items and all(isinstance(item, Surface) for item in items):
         return items
-    try:
-        corners = np.asarray(items, dtype=np.float64)
-    except (TypeError, ValueError):
-        corners = np.zeros(0)
-    if corners.shape == (6,):
-        corners = corners.reshape(2, 3)
-    if corners.shape == (2, 3):
-        return box(corners[0], corners[1])
+    if len(items) == 6:
+        items = [items[:3], items[3:]]
+    if len(items) == 2:
+        return box(items[0], items[1])
     raise bad_option("is neither surfaces, nor two corners (x, y, z) of a box, nor six numbers", "box")
 
 

@@ -36,7 +36,7 @@ def test_errors_of_files_are_the_program_s(name):
     ("cannot_open", lambda: terrane.read("missing*.ts")),
     ("unknown_format", lambda: terrane.read("x.ts", format="xyzzy")),
     ("bad_index", lambda: terrane.Surface([[0, 0, 0]], [[0, 0, 1]])),
-    ("bad_number", lambda: terrane.arrange(terrane.Surface([[0, 0, np.nan], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))),
+    ("bad_number", lambda: terrane.Surface([[0, 0, np.nan], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])),
     ("bad_option", lambda: terrane.seal(stack(), 0)),
     ("bad_option", lambda: terrane.box((0, 0, 0), (0, 0, 0))),
     ("nothing_to_do", lambda: terrane.closed([terrane.Surface([], [])])),

@@ -50,22 +50,6 @@ def test_triangles_in_each_layout(make):
     assert terrane.Surface(V, make(T)).triangles.tolist() == T
 
 
-@pytest.mark.parametrize("dtype", ["u4", "i4"])
-def test_arrays_of_the_library_s_types_are_not_copied(dtype):
-    v, t = np.array(V), np.array(T, dtype=dtype)
-    s = terrane.Surface(v, t)
-    assert np.shares_memory(s.vertices, v)
-    assert np.shares_memory(s.triangles, t)
-    assert v.flags.writeable and t.flags.writeable
-
-
-def test_other_arrays_are_copied_once():
-    v, t = np.array(V, dtype="f4"), np.array(T, dtype="i8")
-    s = terrane.Surface(v, t)
-    assert not np.shares_memory(s.vertices, v)
-    assert not np.shares_memory(s.triangles, t)
-
-
 def test_arrays_outlive_their_names():
     s = terrane.Surface(np.array(V), np.array(T, dtype="u4"))
     gc.collect()
@@ -135,14 +119,6 @@ def test_a_wrong_index_is_named_with_its_row():
     assert raised.value.place == "top: triangles[1]"
 
 
-@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
-def test_stages_refuse_coordinates_that_are_not_finite(bad):
-    s = terrane.Surface([[0, 0, 0], [1, 0, 0], [0, 1, bad]], [[0, 1, 2]], "top")
-    with pytest.raises(terrane.Error) as raised:
-        terrane.arrange([s])
-    assert raised.value.code == "bad_number"
-
-
 def test_longdouble_that_does_not_fit_is_refused():
     if np.finfo(np.longdouble).nmant <= 52:
         pytest.skip("no longer than double")
@@ -191,7 +167,6 @@ def test_pickle_and_copy():
     for other in (pickle.loads(pickle.dumps(s)), copy.copy(s), copy.deepcopy(s)):
         assert other == s and other.frame == s.frame
         assert not other.vertices.flags.writeable
-    assert not np.shares_memory(copy.deepcopy(s).vertices, s.vertices)
 
 
 def test_repr_is_one_line():
@@ -211,11 +186,6 @@ def test_html_of_nothing_and_of_much():
     assert "no triangles" in terrane.Surface([], [])._repr_html_()
     from conftest import sheet
     assert len(sheet(80, 80)._repr_html_()) < 400_000
-
-
-def test_html_leaves_out_what_is_not_finite():
-    text = terrane.Surface([[0, 0, 0], [1, 0, 0], [0, 1, np.nan]], [[0, 1, 2]])._repr_html_()
-    assert "nan" not in text
 
 
 def test_bounds():
@@ -309,15 +279,6 @@ def test_dicts_name_their_surfaces():
 def test_one_surface_and_generators():
     assert len(terrane.arrange(terrane.Surface(V, T)).triangles) == 2
     assert len(terrane.arrange(terrane.Surface(V, T) for _ in range(2)).surfaces) == 2
-
-
-def test_changed_memory_is_seen_by_the_next_stage():
-    """The array is the user's: nothing is cached."""
-    v = np.array(V)
-    s = terrane.Surface(v, T)
-    assert terrane.arrange([s]).vertices[0].tolist() == [0, 0, 0]
-    v[0, 0] = -1
-    assert terrane.arrange([s]).vertices[0].tolist() == [-1, 0, 0]
 
 
 def test_import_needs_no_other_package():

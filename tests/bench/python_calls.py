@@ -40,7 +40,7 @@ def grid(m, n, u, v):
 
 
 def pair(terrane, name):
-    """Return the pair of section 6 with a localised intersection: arrays of the library's types, which are not copied."""
+    """Return the pair of section 6 with a localised intersection: arrays of the library's types."""
     horizon, fault_x, fault_z = PAIRS[name]
     x, y, cells = grid(horizon, horizon, (0, 4), (0, 4))
     top = terrane.Surface(np.stack([x, y, 0.1 * np.sin(3 * x) * np.cos(2 * y)], axis=1), cells, "horizon", "horizon")
