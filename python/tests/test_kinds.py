@@ -92,3 +92,9 @@ def test_each_argument_of_another_kind(results, kind, name, given, argument):
             assert label not in ("object", "number") and (label != "nested" or name == "read"), f"{label} is taken"
             if label in ("str", "bytes"):
                 assert argument in ANY_TEXT, f"{label} is taken"
+
+
+@pytest.mark.parametrize("order", [["top"], [("top",)], [("top", 1, 2)], "top", {"top"}])
+def test_what_is_no_order_is_refused(order):
+    with pytest.raises(TypeError, match="order"):
+        terrane.layers(stack(), order)

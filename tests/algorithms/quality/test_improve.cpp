@@ -311,6 +311,7 @@ TEST_CASE("improve: invalid options and meshes are refused", "[improve]") {
         broken.triangles.push_back({v, v + 1, v + 2});
         broken.surfaces_of.push_back(std::vector<std::uint32_t>{0});
         broken.regions_of.push_back(std::vector<std::uint32_t>{0});
+        broken.parents_of.push_back(std::vector<std::uint32_t>{0});
     }
     CHECK(refusal(broken) == ErrorCode::improper_contact);
     broken = mesh;
