@@ -84,8 +84,8 @@ Result<std::vector<OutputRecord>> outputs_of(const terrane_certified& given,
     need_array(given.outputs, given.output_count, "certified.outputs");
     std::vector<OutputRecord> records;
     if (given.model_folder)
-        for (const ModelFile& file :
-             model_files(given.model->model, given.part_format ? given.part_format : "vtp")) {
+        for (const ModelFile& file : model_files(
+                 given.model->model, given.part_format ? given.part_format : automatic_parts)) {
             auto record = output_of((fs::path(given.model_folder) / file.path).c_str(), file.format,
                                     surfaces, certificate);
             if (!record) return record.error();

@@ -249,7 +249,7 @@ terrane_code terrane_model_write(const terrane_model* model, const char* folder,
     return call(error, [&]() -> Status {
         const terrane::Model& m = needed(model, "model").model;
         return terrane::write_model_folder({m, std::nullopt, std::nullopt},
-                                           part_format ? part_format : "vtp",
+                                           part_format ? part_format : terrane::automatic_parts,
                                            needed_text(folder, "folder"), run_of(run));
     });
 }

@@ -178,8 +178,9 @@ TERRANE_API size_t terrane_model_made(const terrane_model* model);
 TERRANE_API terrane_code terrane_model_to_json(const terrane_model* model, char** text,
                                                terrane_error** error);
 /// Writes a model to a folder, which appears when it is complete, as `terrane volume` does:
-/// model.json, result.vtp, and each block and interface in a format, "vtp" for NULL. The folder
-/// must not exist, or be empty. Errors: UNKNOWN_FORMAT, CANNOT_OPEN, those of writing, INTERRUPTED,
+/// model.json, result.vtp, and each block and interface in a format. NULL or "auto" is "vtp", with one
+/// file for all blocks and one for all interfaces if they are more than 1000. The folder must not
+/// exist, or be empty. Errors: UNKNOWN_FORMAT, CANNOT_OPEN, those of writing, INTERRUPTED,
 /// OUT_OF_MEMORY.
 TERRANE_API terrane_code terrane_model_write(const terrane_model* model, const char* folder,
                                              const char* part_format, const terrane_run* run,

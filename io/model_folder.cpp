@@ -27,12 +27,32 @@ std::vector<std::int32_t> as_cells(const std::vector<std::uint32_t>& values) {
     return {values.begin(), values.end()};
 }
 
+/// How the blocks and interfaces of a model are written.
+struct PartsForm {
+    std::string format;
+    bool together = false; ///< whether all blocks are one file, and all interfaces another one
+};
+
+PartsForm form_of(const Model& model, const std::string& part_format) {
+    if (part_format != automatic_parts) return {part_format};
+    const Structure& s = model.structure;
+    return {"vtp", s.blocks.size() - 1 + s.interfaces.size() > most_single_parts};
+}
+
+/// Returns "blocks/block_7.vtp", say. MSH 2.2 has the extension of MSH.
+std::string file_of_part(const char* start, std::size_t number, const std::string& format) {
+    return fmt::format("{}{}.{}", start, number, format == "msh22" ? "msh" : format);
+}
+
+constexpr auto block_start = "blocks/block_", interface_start = "interfaces/interface_";
+constexpr auto all_blocks = "blocks.vtp", all_interfaces = "interfaces.vtp";
+
 class FolderWriter {
 public:
     FolderWriter(const ModelReports& reports, const std::string& part_format,
                  const std::filesystem::path& folder) :
         model_(reports.model),
-        part_format_(part_format), folder_(folder),
+        form_(form_of(reports.model, part_format)), folder_(folder),
         labels_(unique_labels(reports.model.mesh->surfaces)) {
         if (reports.leaks) extras_.leak_verdicts = reports.leaks->verdicts;
         if (!reports.sealed) return;
@@ -42,6 +62,32 @@ public:
     }
 
     Status operator()(const Run& run) {
+        if (auto done = write_result(); !done) return done;
+        name_parts();
+        if (auto done = form_.together ? write_parts_together(run) : write_single_parts(run); !done)
+            return done;
+        if (form_.format == "vtp")
+            if (auto done = write_file(folder_ / "model.vtm", to_vtm(groups())); !done) return done;
+        return write_json();
+    }
+
+private:
+    [[nodiscard]] const Structure& structure() const { return model_.structure; }
+
+    /// Names the file of each block and interface.
+    void name_parts() {
+        const auto& blocks = structure().blocks;
+        extras_.block_files.resize(blocks.size());
+        for (std::uint32_t b = 1; b < blocks.size(); ++b)
+            if (!blocks[b].interfaces.empty())
+                extras_.block_files[b] =
+                    form_.together ? all_blocks : file_of_part(block_start, b, form_.format);
+        for (std::uint32_t i = 0; i < structure().interfaces.size(); ++i)
+            extras_.interface_files.push_back(
+                form_.together ? all_interfaces : file_of_part(interface_start, i, form_.format));
+    }
+
+    Status write_single_parts(const Run& run) {
         for (const char* inner : {"blocks", "interfaces"}) {
             std::error_code failed;
             std::filesystem::create_directory(folder_ / inner, failed);
@@ -49,42 +95,45 @@ public:
                 return Error{ErrorCode::cannot_open, "cannot be made: " + failed.message(),
                              final_path_of(folder_ / inner).string()};
         }
-        if (auto done = write_result(); !done) return done;
-        const Structure& s = model_.structure;
-        extras_.block_files.resize(s.blocks.size());
+        const Structure& s = structure();
+        const auto surfaces = form_.format == "vtp" ? PartSurfaces::own : PartSurfaces::all;
         for (std::uint32_t b = 1; b < s.blocks.size(); ++b) {
-            if (run.stop.stop_requested())
-                return Error{ErrorCode::interrupted, "stopped on request", ""};
+            if (run.stop.stop_requested()) return stopped();
             if (s.blocks[b].interfaces.empty()) continue;
-            extras_.block_files[b] = name("blocks/block_", b);
-            const auto part = block_part(model_.mesh, model_.volumes, s, BlockId(b));
-            if (auto done = write_part(part, {&s.blocks[b].name, 1}, extras_.block_files[b]); !done)
+            const auto part = block_part(model_.mesh, model_.volumes, s, BlockId(b), surfaces);
+            if (auto done = write_part(part, {}, {&s.blocks[b].name, 1}, extras_.block_files[b]);
+                !done)
                 return done;
         }
         for (std::uint32_t i = 0; i < s.interfaces.size(); ++i) {
-            if (run.stop.stop_requested())
-                return Error{ErrorCode::interrupted, "stopped on request", ""};
-            extras_.interface_files.push_back(name("interfaces/interface_", i));
-            const auto part = interface_part(model_.mesh, model_.volumes, s, InterfaceId(i));
+            if (run.stop.stop_requested()) return stopped();
+            const auto part =
+                interface_part(model_.mesh, model_.volumes, s, InterfaceId(i), surfaces);
             const auto [low, high] = s.interfaces[i].volumes;
             const std::array block_names{s.blocks[low].name, s.blocks[high].name};
-            if (auto done = write_part(part, block_names, extras_.interface_files[i]); !done)
+            if (auto done = write_part(part, {}, block_names, extras_.interface_files[i]); !done)
                 return done;
         }
-        if (part_format_ == "vtp")
-            if (auto done = write_file(folder_ / "model.vtm", to_vtm(groups())); !done) return done;
-        return write_json();
+        return Done{};
     }
 
-private:
-    [[nodiscard]] std::string name(const char* start, std::uint32_t number) const {
-        return fmt::format("{}{}.{}", start, number,
-                           part_format_ == "msh22" ? "msh" : part_format_);
+    Status write_parts_together(const Run& run) {
+        const auto names = names_of_blocks();
+        const auto blocks = block_parts(model_.mesh, model_.volumes, structure());
+        if (auto done =
+                write_part(blocks.all, {{"block", as_cells(blocks.part_of)}}, names, all_blocks);
+            !done)
+            return done;
+        if (run.stop.stop_requested()) return stopped();
+        return write_part(interface_parts(model_.mesh, model_.volumes, structure()).all, {}, names,
+                          all_interfaces);
     }
+
+    static Error stopped() { return {ErrorCode::interrupted, "stopped on request", ""}; }
 
     /// Names the blocks on both sides of an interface, and its surfaces.
     [[nodiscard]] std::string name_of_interface(const ModelInterface& i) const {
-        const auto& blocks = model_.structure.blocks;
+        const auto& blocks = structure().blocks;
         std::string surfaces;
         for (const std::uint32_t s : i.surfaces)
             surfaces += (surfaces.empty() ? "" : " and ") + labels_[s];
@@ -94,8 +143,10 @@ private:
     }
 
     [[nodiscard]] std::vector<FileGroup> groups() const {
+        if (form_.together)
+            return {{"parts", {{"blocks", all_blocks}, {"interfaces", all_interfaces}}}};
         FileGroup blocks{"blocks", {}}, interfaces{"interfaces", {}};
-        const Structure& s = model_.structure;
+        const Structure& s = structure();
         for (std::size_t b = 1; b < s.blocks.size(); ++b)
             if (!extras_.block_files[b].empty())
                 blocks.files.push_back({s.blocks[b].name, extras_.block_files[b]});
@@ -105,31 +156,36 @@ private:
         return {std::move(blocks), std::move(interfaces)};
     }
 
+    [[nodiscard]] std::vector<std::string> names_of_blocks() const {
+        std::vector<std::string> names;
+        for (const ModelBlock& block : structure().blocks) names.push_back(block.name);
+        return names;
+    }
+
     Status write_result() {
         std::vector<CellArray> cells = volume_cells(model_.volumes.of_sides);
-        cells.push_back({"interface", as_cells(model_.structure.interface_of)});
-        cells.push_back({"patch", as_cells(model_.structure.patch_of)});
-        std::vector<std::string> block_names;
-        for (const ModelBlock& block : model_.structure.blocks) block_names.push_back(block.name);
+        cells.push_back({"interface", as_cells(structure().interface_of)});
+        cells.push_back({"patch", as_cells(structure().patch_of)});
+        const auto block_names = names_of_blocks();
         WriteOptions options;
         options.cells = cells;
         options.region_names = block_names;
         return write_mesh(model_.mesh, folder_ / "result.vtp", options);
     }
 
-    /// Writes a part; `block_names` are those of the block, or of the blocks on both sides.
-    Status write_part(const MeshPart& part, std::span<const std::string> block_names,
-                      const std::string& file) {
+    /// Writes parts; `block_names` are those of the block, of the blocks on both sides, or of all.
+    Status write_part(const MeshPart& part, std::vector<CellArray> cells,
+                      std::span<const std::string> block_names, const std::string& file) {
         std::vector<std::uint32_t> interfaces, patches;
         for (const std::uint32_t t : part.triangles) {
-            interfaces.push_back(model_.structure.interface_of[t]);
-            patches.push_back(model_.structure.patch_of[t]);
+            interfaces.push_back(structure().interface_of[t]);
+            patches.push_back(structure().patch_of[t]);
         }
-        const std::vector<CellArray> cells{{"triangle", as_cells(part.triangles)},
-                                           {"interface", as_cells(interfaces)},
-                                           {"patch", as_cells(patches)}};
+        cells.push_back({"triangle", as_cells(part.triangles)});
+        cells.push_back({"interface", as_cells(interfaces)});
+        cells.push_back({"patch", as_cells(patches)});
         WriteOptions options;
-        options.format = format_named(part_format_);
+        options.format = format_named(form_.format);
         options.ascii = true; // binary STL would round the checked coordinates
         options.cells = cells;
         options.region_names = block_names;
@@ -138,13 +194,13 @@ private:
 
     Status write_json() {
         extras_.exact_volumes = model_.exact_volumes;
-        extras_.exact_volumes.resize(model_.structure.blocks.size(), 0); // what rounding made
+        extras_.exact_volumes.resize(structure().blocks.size(), 0); // what rounding made
         extras_.free_borders = model_.borders;
-        return write_file(folder_ / "model.json", to_json(model_.mesh, model_.structure, extras_));
+        return write_file(folder_ / "model.json", to_json(model_.mesh, structure(), extras_));
     }
 
     const Model& model_;
-    const std::string& part_format_;
+    const PartsForm form_;
     const std::filesystem::path& folder_;
     std::vector<std::string> labels_; ///< per surface
     StructureExtras extras_;
@@ -154,18 +210,27 @@ private:
 
 std::vector<ModelFile> model_files(const Model& model, const std::string& part_format) {
     std::vector<ModelFile> files{{"model.json", "json"}, {"result.vtp", "vtp"}};
+    const PartsForm form = form_of(model, part_format);
+    if (form.together) {
+        files.insert(files.end(), {{all_blocks, "vtp"}, {all_interfaces, "vtp"}});
+        return files;
+    }
     const Structure& s = model.structure;
     for (std::size_t b = 1; b < s.blocks.size(); ++b)
         if (!s.blocks[b].interfaces.empty())
-            files.push_back({fmt::format("blocks/block_{}.{}", b, part_format), part_format});
+            files.push_back({file_of_part(block_start, b, form.format), form.format});
     for (std::size_t i = 0; i < s.interfaces.size(); ++i)
-        files.push_back({fmt::format("interfaces/interface_{}.{}", i, part_format), part_format});
+        files.push_back({file_of_part(interface_start, i, form.format), form.format});
     return files;
 }
 
 std::vector<std::string> part_formats() {
-    return {"vtp", "obj",   "ts",  "ply",  "off",  "stl",
-            "msh", "msh22", "inp", "mesh", "poly", "smesh"};
+    return {automatic_parts, "vtp",   "obj", "ts",   "ply",  "off",  "stl",
+            "msh",           "msh22", "inp", "mesh", "poly", "smesh"};
+}
+
+bool is_certified(const std::string& part_format) {
+    return part_format == automatic_parts || part_format == "vtp" || part_format == "obj";
 }
 
 Status write_model_files(const ModelReports& reports, const std::string& part_format,

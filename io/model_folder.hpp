@@ -3,6 +3,7 @@
 // The folder of files that a model is written to, as `terrane volume` makes it.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -29,16 +30,23 @@ struct ModelFile {
     std::string format;         ///< "json", "vtp", or that of blocks and interfaces
 };
 
+/// The format of blocks and interfaces that writes a VTP file of each, or, where they are more than
+/// most_single_parts, all blocks to blocks.vtp and all interfaces to interfaces.vtp.
+inline constexpr const char* automatic_parts = "auto";
+inline constexpr std::size_t most_single_parts = 1000;
+
 /// Lists the files that say what a model is: model.json, result.vtp, and those of blocks and
 /// interfaces in `part_format`. model.vtm, which only names others, is not among them.
 std::vector<ModelFile> model_files(const Model& model, const std::string& part_format);
 
 /// Lists the names of the formats of blocks and interfaces.
 std::vector<std::string> part_formats();
+/// Tells whether a certificate can be about blocks and interfaces in this format.
+bool is_certified(const std::string& part_format);
 
 /// Writes model.json (with what was sealed or judged, if anything), result.vtp, and the blocks and
-/// interfaces in `part_format` into an empty folder that exists; with vtp also model.vtm, which has
-/// them all under their names. Errors: those of write_mesh; interrupted.
+/// interfaces in `part_format` into an empty folder that exists; as VTP also model.vtm, which has
+/// all these files under the names of what they hold. Errors: those of write_mesh; interrupted.
 Status write_model_files(const ModelReports& reports, const std::string& part_format,
                          const std::filesystem::path& folder, const Run& run = {});
 

@@ -14,6 +14,7 @@
 #include <terrane/io/detail/project_keys.hpp>
 #include <terrane/io/detail/uncertainty_keys.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/io/model_folder.hpp>
 #include <terrane/io/text/names.hpp>
 
 namespace terrane {
@@ -84,7 +85,7 @@ private:
                 "whole surfaces as their files have them");
         check_tetrahedra_formats(project);
         const std::string& parts = project.outputs.blocks;
-        if (project.outputs.certificate && !parts.empty() && parts != "vtp" && parts != "obj")
+        if (project.outputs.certificate && !parts.empty() && !is_certified(parts))
             in_.fail("outputs.certificate", "is about blocks as vtp or obj only");
         if (project.outputs.certificate && project.min_volume)
             in_.fail("outputs.certificate",
@@ -372,7 +373,7 @@ private:
         if (const Json* v = in_.find(json, "tetrahedra"))
             o.tetrahedra = in_.words(*v, path + ".tetrahedra", tetrahedra_formats);
         if (const Json* v = in_.find(json, "blocks"))
-            o.blocks = in_.one_of(*v, path + ".blocks", surface_formats);
+            o.blocks = in_.one_of(*v, path + ".blocks", block_formats);
         if (const Json* v = in_.find(json, "certificate"))
             o.certificate = in_.truth(*v, path + ".certificate");
         if (const Json* v = in_.find(json, "gocad")) o.gocad = in_.truth(*v, path + ".gocad");

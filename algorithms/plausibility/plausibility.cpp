@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/plausibility/plausibility.hpp>
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
@@ -40,6 +43,32 @@ std::string Examination::names(const std::vector<std::uint32_t>& about) const {
     }
     return named == about.size() ? text : fmt::format("{} and {} more", text, about.size() - named);
 }
+
+namespace {
+
+/// Warnings of one kind that are told one by one; the others are told together.
+constexpr std::size_t most_of_a_kind = 20;
+
+/// Makes one of all warnings of a kind that are too many.
+std::vector<PlausibilityWarning> summed_up(std::vector<PlausibilityWarning> all) {
+    std::vector<PlausibilityWarning> told;
+    for (std::size_t i = 0, count = 0, more = 0; i < all.size(); ++i) {
+        const bool first = i == 0 || all[i].doubt != all[i - 1].doubt;
+        count = first ? 1 : count + 1;
+        if (count <= most_of_a_kind + 1) {
+            told.push_back(std::move(all[i]));
+            more = 1;
+            continue;
+        }
+        PlausibilityWarning& rest = told.back();
+        rest.surfaces.insert(rest.surfaces.end(), all[i].surfaces.begin(), all[i].surfaces.end());
+        rest.seen = fmt::format("the same is seen in {} more places", ++more);
+    }
+    for (PlausibilityWarning& warning : told) std::ranges::sort(warning.surfaces);
+    return told;
+}
+
+} // namespace
 
 } // namespace plausibility::detail
 
@@ -87,7 +116,7 @@ std::vector<PlausibilityWarning> find_doubts(std::span<const Surface> surfaces,
     check_top_and_base(examination);
     check_float32(examination);
     check_duplicates(examination);
-    return std::move(examination.warnings);
+    return summed_up(std::move(examination.warnings));
 }
 
 std::vector<NamedConstant> plausibility_constants() {

@@ -150,9 +150,11 @@ void tell_apart(const BlockDescriptions& descriptions, std::vector<std::string>&
 /// Adds numbers to names that are met again.
 void number_equals(std::vector<std::string>& names) {
     std::set<std::string> taken;
+    std::map<std::string, unsigned> next_number;
     for (std::string& name : names) {
         const std::string start = name;
-        for (int k = 2; !taken.insert(name).second; ++k) name = start + ", " + std::to_string(k);
+        unsigned& number = next_number.try_emplace(start, 2).first->second;
+        while (!taken.insert(name).second) name = start + ", " + std::to_string(number++);
     }
 }
 

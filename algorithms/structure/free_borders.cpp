@@ -11,50 +11,14 @@
 #include <utility>
 
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
-#include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/structure/detail/surface_tree.hpp>
 
 namespace terrane {
+
+using namespace structure::detail;
+
 namespace {
-
-/// The nearest surface to a point, and its distance.
-struct Nearest {
-    std::uint32_t surface = 0;
-    double distance = 0;
-};
-
-class SurfaceTrees {
-public:
-    explicit SurfaceTrees(const Mesh& mesh) {
-        std::vector<std::vector<Triangle>> triangles(mesh.surfaces.size());
-        for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-            for (const std::uint32_t s : mesh.surfaces_of[t])
-                triangles[s].push_back(mesh.triangles[t]);
-        for (auto& of_surface : triangles) {
-            filled_.push_back(!of_surface.empty());
-            trees_.emplace_back(mesh.vertices, std::move(of_surface));
-        }
-    }
-
-    /// Finds the nearest of all surfaces except those listed (ascending); the first among equals.
-    /// Looks no farther than `bound`.
-    [[nodiscard]] std::optional<Nearest>
-    nearest(const Point3& p, std::span<const std::uint32_t> but, double bound) const {
-        std::optional<Nearest> best;
-        for (std::uint32_t s = 0; s < trees_.size(); ++s) {
-            if (!filled_[s] || std::binary_search(but.begin(), but.end(), s)) continue;
-            const double d = trees_[s].distance(p, bound);
-            if (d >= bound) continue;
-            bound = d;
-            best = {s, d};
-        }
-        return best;
-    }
-
-private:
-    std::vector<TriangleTree> trees_; ///< per surface
-    std::vector<bool> filled_;
-};
 
 int decade_of(double distance) {
     return distance > 0 ? static_cast<int>(std::floor(std::log10(distance))) : INT_MIN;
@@ -63,13 +27,12 @@ int decade_of(double distance) {
 /// A point of the border and the surface nearest to it.
 struct Sample {
     Point3 place{};
-    Nearest nearest{};
+    NearestSurface nearest{};
 };
 
 /// Samples a border at its vertices and the midpoints of its edges; empty if there is no other
 /// surface.
-std::vector<Sample> samples_along(const Mesh& mesh, const ModelLine& line,
-                                  const SurfaceTrees& trees) {
+std::vector<Sample> samples_along(const Mesh& mesh, const ModelLine& line, SurfaceTree& tree) {
     std::vector<Sample> samples;
     const auto add = [&](const Point3& p) {
         double bound = std::numeric_limits<double>::infinity();
@@ -77,9 +40,9 @@ std::vector<Sample> samples_along(const Mesh& mesh, const ModelLine& line,
             const auto& [before, nearest] = samples.back();
             bound = 1.001 * (nearest.distance + length(minus(p, before)));
         }
-        auto found = trees.nearest(p, line.surfaces, bound);
+        auto found = tree.nearest(p, line.surfaces, bound);
         if (!found && !samples.empty())
-            found = trees.nearest(p, line.surfaces, std::numeric_limits<double>::infinity());
+            found = tree.nearest(p, line.surfaces, std::numeric_limits<double>::infinity());
         if (found) samples.push_back({p, *found});
     };
     for (std::size_t i = 0; i < line.vertices.size(); ++i) {
@@ -92,9 +55,8 @@ std::vector<Sample> samples_along(const Mesh& mesh, const ModelLine& line,
     return samples;
 }
 
-std::vector<BorderGap> gaps_along(const Mesh& mesh, const ModelLine& line,
-                                  const SurfaceTrees& trees) {
-    const auto samples = samples_along(mesh, line, trees);
+std::vector<BorderGap> gaps_along(const Mesh& mesh, const ModelLine& line, SurfaceTree& tree) {
+    const auto samples = samples_along(mesh, line, tree);
     std::map<std::pair<int, std::uint32_t>, BorderGap> gaps;
     for (std::size_t i = 0; i + 2 < samples.size(); i += 2) {
         const Sample& far = *std::max_element(
@@ -121,14 +83,14 @@ std::vector<BorderGap> gaps_along(const Mesh& mesh, const ModelLine& line,
 
 std::vector<FreeBorder> find_free_borders(const Mesh& mesh, const Structure& structure) {
     const StandardArithmetic guard;
-    const SurfaceTrees trees(mesh);
+    SurfaceTree tree(mesh);
     std::vector<FreeBorder> borders;
     for (std::uint32_t l = 0; l < structure.lines.size(); ++l) {
         const ModelLine& line = structure.lines[l];
         if (line.kind != LineKind::free_border) continue;
         borders.push_back({l, line.surfaces, line.length,
                            line.vertices.front() == line.vertices.back(),
-                           gaps_along(mesh, line, trees)});
+                           gaps_along(mesh, line, tree)});
     }
     return borders;
 }

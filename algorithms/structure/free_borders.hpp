@@ -53,7 +53,7 @@ struct Leak {
 
 /// Finds all free borders, in the order of their lines. Each edge counts for the surface nearest to
 /// its farthest point. Distances and lengths are in the unit of the mesh, in floating point. Cost:
-/// O(n log n) for search trees; two queries in each surface per border vertex.
+/// O(n log n) for a search tree; two queries in it per border vertex.
 std::vector<FreeBorder> find_free_borders(const Mesh& mesh, const Structure& structure);
 
 /// Summarises free borders by pairs of surfaces: by the surface that ends, then the other. A border

@@ -32,7 +32,7 @@ struct VolumeCommand {
     ArrangeSettings settings;
     std::string folder;
     std::vector<std::string> roles; ///< NAME=ROLE
-    std::string part_format = "vtp";
+    std::string part_format = automatic_parts;
     std::string column;        ///< file; empty: none
     std::string certificate;   ///< file; empty: none
     std::string relations;     ///< file for the table of relations; here and below, empty: none
@@ -55,6 +55,7 @@ surfaces enclose, 1, 2, ...; 0 is the outside. DIR must not exist, or be empty. 
   blocks/            the closed boundary of each block, wound outward
   interfaces/        what lies between the same two blocks and in the same surfaces
 
+More than 1000 blocks and interfaces are two files, blocks.vtp and interfaces.vtp, unless --parts is given.
 Neighbours have the same vertices, to the last bit. Open surfaces are no error: they dangle, and the
 summary says which, and how far their free borders are from other surfaces.
 
@@ -111,8 +112,7 @@ Status write_folder(const VolumeCommand& command, const ModelReports& reports, S
 
 /// Checks before any work is done that the folder is given and will do, or that none is wanted.
 Status check_output(const VolumeCommand& command) {
-    if (!command.certificate.empty() && command.part_format != "vtp" &&
-        command.part_format != "obj")
+    if (!command.certificate.empty() && !is_certified(command.part_format))
         return Error{ErrorCode::bad_option, "is about parts as vtp or obj only", "--certificate"};
     for (const std::string& file : {command.gocad, command.lines})
         if (!file.empty())
@@ -303,7 +303,8 @@ Command volume_command(CLI::App& program) {
     add_column(*app, command->column);
     app->add_option("--parts", command->part_format,
                     "Format of blocks and interfaces: vtp, obj, ts, ply, off, stl, msh, msh22, "
-                    "inp, mesh, poly, smesh")
+                    "inp, mesh, poly, smesh, a file of each; auto: vtp, and if they are more than "
+                    "1000, one file for all blocks and one for all interfaces (default: auto)")
         ->check(one_of(part_formats()))
         ->type_name("FORMAT");
     app->add_option("--relations", command->relations,

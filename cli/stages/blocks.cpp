@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t most_blocks = 50; ///< listed on the terminal
 constexpr std::size_t most_leaks = 20;
+constexpr std::size_t most_dangling = 40; ///< surfaces
 
 std::string blocks_text(const Inputs& inputs, const Model& model) {
     const Quantities quantities(inputs.unit);
@@ -63,11 +64,13 @@ std::string dangling_text(const Inputs& inputs, const Model& model) {
     for (const FreeBorder& b : model.borders)
         for (const std::uint32_t s : b.surfaces) border[s] += b.length;
     std::string text;
+    std::size_t count = 0;
     for (std::size_t s = 0; s < area.size(); ++s)
-        if (dangling[s] > 0)
+        if (dangling[s] > 0 && ++count <= most_dangling)
             text += fmt::format("  {}: {} of {} in area dangles, free border {}\n",
                                 inputs.labels[s], quantities.area(dangling[s], 3),
                                 quantities.area(area[s], 3), quantities.length(border[s], 3));
+    if (count > most_dangling) text += fmt::format("  and {} more\n", count - most_dangling);
     return text.empty() ? "no surface dangles\n" : "surfaces that dangle:\n" + text;
 }
 

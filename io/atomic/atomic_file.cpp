@@ -105,6 +105,18 @@ int fill(Descriptor& file, std::string_view contents) {
     return file.close() ? 0 : errno;
 }
 
+/// Writes a file of a folder that has no name yet: it needs none of its own, nor to be flushed alone.
+Status write_in_place(const fs::path& path, std::string_view contents) {
+    Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (file.number() < 0)
+        return Error{ErrorCode::cannot_open, "cannot be written: " + reason(errno), path.string()};
+    int code = write_all(file.number(), contents);
+    if (code == 0 && !file.close()) code = errno;
+    if (code == 0) return Done{};
+    ::unlink(path.c_str());
+    return write_error(path, code);
+}
+
 /// Where a file goes, with the name that the user gave.
 struct Target {
     fs::path path;   ///< as it was given
@@ -176,6 +188,7 @@ Status replace(const Target& to, std::string_view contents, FileSet* set) {
 
 Status write_to(const fs::path& path, std::string_view contents, FileSet* set) {
     if (path == "-") return write_directly("standard output", STDOUT_FILENO, contents);
+    if (is_in_temporary(path)) return write_in_place(path, contents);
     struct stat info {};
     if (::stat(path.c_str(), &info) != 0) // a link to nothing yet is kept
         return replace({path, followed(path)}, contents, set);
@@ -225,7 +238,7 @@ fs::path followed(fs::path path) {
 }
 
 Status write_file(const fs::path& path, std::string_view contents) {
-    return write_with(path, contents, is_in_temporary(path) ? nullptr : FileSet::current());
+    return write_with(path, contents, FileSet::current());
 }
 
 Status write_file_at_once(const fs::path& path, std::string_view contents) {

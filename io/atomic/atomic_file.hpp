@@ -23,7 +23,8 @@ std::filesystem::path followed(std::filesystem::path path);
 /// temporary file is renamed. Links are followed; an existing file keeps its permissions. Standard
 /// output ("-") and files that are not regular (pipes, devices) are written directly.
 /// Errors: cannot_open, write_failed (disk full, ...); no temporary file is left behind.
-/// While a FileSet lives in this thread, it renames the file.
+/// While a FileSet lives in this thread, it renames the file. In the folder of a NewFolder, which is
+/// flushed and renamed as a whole, the file is written in place.
 Status write_file(const std::filesystem::path& path, std::string_view contents);
 
 /// Does the same, but replaces the file even while a FileSet lives.

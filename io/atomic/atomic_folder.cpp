@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/atomic/atomic_folder.hpp>
 
+#include <cerrno>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -87,6 +88,19 @@ Result<fs::path> make_beside(const fs::path& target, const fs::path& path) {
     }
 }
 
+Error write_error(const fs::path& path, const std::string& reason) {
+    return {ErrorCode::write_failed, "writing failed: " + reason, path.string()};
+}
+
+/// Flushes the file system that holds a folder: one call for any number of files. Returns 0, or errno.
+int flush(const fs::path& folder) {
+    const int number = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (number < 0) return errno;
+    const int code = ::syncfs(number) == 0 ? 0 : errno;
+    ::close(number);
+    return code == EINVAL || code == ENOTSUP || code == ENOSYS ? 0 : code;
+}
+
 } // namespace
 
 Status check_new_folder(const fs::path& path) {
@@ -139,6 +153,8 @@ Result<NewFolder> NewFolder::create(const fs::path& path) {
 }
 
 Status NewFolder::publish() {
+    if (const int code = flush(temporary_))
+        return write_error(target_, std::generic_category().message(code));
     if (FileSet::current() != nullptr) {
         if (auto added = FileSet::current()->add(temporary_, target_); !added) return added;
         temporary_.clear();
@@ -146,9 +162,7 @@ Status NewFolder::publish() {
     }
     std::error_code failed;
     fs::rename(temporary_, target_, failed); // replaces an empty folder
-    if (failed)
-        return Error{ErrorCode::write_failed, "writing failed: " + failed.message(),
-                     target_.string()};
+    if (failed) return write_error(target_, failed.message());
     forget_temporary(temporary_);
     temporary_.clear();
     return Done{};

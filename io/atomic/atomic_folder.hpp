@@ -15,8 +15,8 @@ namespace terrane {
 /// that shows that one can be made. Errors: cannot_open.
 Status check_new_folder(const std::filesystem::path& path);
 
-/// A folder that gets its name when it is complete. Write files into temporary(), then call
-/// publish().
+/// A folder that gets its name when it is complete. Write files into temporary(), by write_file(), then
+/// call publish().
 class NewFolder {
 public:
     /// Errors: cannot_open, as check_new_folder.
@@ -30,8 +30,8 @@ public:
     /// The folder to write to; it is in the parent of the final folder, so that it can be renamed.
     [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
-    /// Renames the temporary folder to its final name. Errors: write_failed; the destructor then
-    /// removes the folder.
+    /// Flushes all files to the disk at once, then renames the temporary folder to its final name.
+    /// Errors: write_failed; the destructor then removes the folder.
     Status publish();
 
 private:

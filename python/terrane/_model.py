@@ -226,10 +226,11 @@ class Model(Result):
         base = self.improved(edge_length or 0, **run) if wanted else self
         return tetrahedralize(base, edge_length=edge_length, **options)
 
-    def save(self, folder: Path, format: str = "vtp", *, threads: Optional[int] = None) -> None:
+    def save(self, folder: Path, format: str = "auto", *, threads: Optional[int] = None) -> None:
         """Write the model into a new folder, as ``terrane volume -o`` does.
 
-        `format` is that of blocks and interfaces. The folder must not exist, or be empty.
+        `format` is that of blocks and interfaces; ``"auto"`` is VTP, with one file for all blocks and one for all
+        interfaces if they are more than 1000. The folder must not exist, or be empty.
 
         Examples
         --------

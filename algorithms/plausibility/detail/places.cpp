@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/plausibility/detail/examination.hpp>
+#include <terrane/algorithms/plausibility/detail/left_extents.hpp>
 #include <terrane/algorithms/plausibility/detail/thresholds.hpp>
 
 namespace terrane::plausibility::detail {
@@ -15,23 +16,15 @@ namespace {
 /// Returns groups of surfaces: two are in one if boxes lead from one to the other without a far
 /// gap. The first group is the one of most surfaces; of equal ones, the one of the first surface.
 std::vector<std::vector<std::uint32_t>> groups_of(const Examination& e) {
-    std::vector<std::uint32_t> left = e.used;
+    LeftExtents left(e.extents, e.used);
     std::vector<std::vector<std::uint32_t>> groups;
-    while (!left.empty()) {
-        std::vector<std::uint32_t> group{left.front()};
-        left.erase(left.begin());
-        for (std::size_t i = 0; i < group.size(); ++i) {
-            const Extent& here = e.extents[group[i]];
-            std::erase_if(left, [&](std::uint32_t s) {
-                const Extent& there = e.extents[s];
-                const double size = std::max(here.diagonal(), there.diagonal());
-                const bool near = gap_from_above(here, there) <= thresholds.far_apart * size;
-                if (near) group.push_back(s);
-                return near;
-            });
-        }
+    for (const auto s : e.used) {
+        if (!left.holds(s)) continue;
+        auto& group = groups.emplace_back();
+        left.take_near(e.extents[s], thresholds.far_apart, group); // s among them
+        for (std::size_t i = 0; i < group.size(); ++i)
+            left.take_near(e.extents[group[i]], thresholds.far_apart, group);
         std::ranges::sort(group);
-        groups.push_back(std::move(group));
     }
     std::ranges::stable_sort(groups, std::ranges::greater{}, &std::vector<std::uint32_t>::size);
     return groups;

@@ -63,29 +63,41 @@ std::vector<Numbers> connected(const WrittenMesh& mesh, const Numbers& interface
     return all;
 }
 
-/// Takes triangles out of the mesh; turns those over for which turned(t) holds.
-template <class Turned>
-PartMesh cut(const WrittenMesh& mesh, Numbers triangles, const Turned& turned) {
+/// A triangle of the mesh, and whether a part has it turned over.
+struct Taken {
+    std::uint32_t triangle;
+    bool turned;
+};
+
+/// Takes triangles out of the mesh.
+PartMesh cut(const WrittenMesh& mesh, const std::vector<Taken>& taken) {
     PartMesh part;
-    std::vector<bool> used(mesh.vertices.size());
-    for (const std::uint32_t t : triangles)
-        for (const std::uint32_t v : mesh.triangles[t]) used[v] = true;
-    Numbers number(used.size());
-    for (std::uint32_t v = 0; v < used.size(); ++v)
-        if (used[v]) {
-            number[v] = static_cast<std::uint32_t>(part.vertices.size());
-            part.vertices.push_back(mesh.vertices[v]);
-        }
-    for (const std::uint32_t t : triangles) {
+    Numbers used;
+    for (const auto& [t, turned] : taken)
+        used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (const std::uint32_t v : used) part.vertices.push_back(mesh.vertices[v]);
+    const auto number = [&](std::uint32_t v) {
+        return static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) -
+                                          used.begin());
+    };
+    for (const auto& [t, turned] : taken) {
         auto [a, b, c] = mesh.triangles[t];
-        if (turned(t)) std::swap(b, c);
-        part.triangles.push_back({number[a], number[b], number[c]});
+        if (turned) std::swap(b, c);
+        part.triangles.push_back({number(a), number(b), number(c)});
         part.surfaces_of.push_back(mesh.surfaces_of[t]);
         part.regions_of.push_back(mesh.regions_of[t]);
         part.parents_of.push_back(mesh.parents_of[t]);
+        part.numbers.push_back(t);
     }
-    part.numbers = std::move(triangles);
     return part;
+}
+
+void take_interface(const std::vector<BlockSides>& sides, const Interface& interface,
+                    std::vector<Taken>& taken) {
+    for (const std::uint32_t t : interface.triangles)
+        taken.push_back({t, sides[t][0] < sides[t][1]});
 }
 
 } // namespace
@@ -102,6 +114,12 @@ BlockParts find_parts(const WrittenMesh& mesh, const std::vector<BlockSides>& si
     BlockParts parts;
     parts.interface_of.resize(count);
     parts.patch_of.resize(count);
+    for (std::uint32_t t = 0; t < count; ++t) {
+        const auto [front, back] = sides[t];
+        if (front == back) continue;
+        parts.around[front].push_back(t);
+        parts.around[back].push_back(t);
+    }
     for (const auto& [blocks, ranks, first, triangles] : order) {
         for (const std::uint32_t t : *triangles)
             parts.interface_of[t] = static_cast<std::uint32_t>(parts.interfaces.size());
@@ -124,17 +142,35 @@ BlockParts find_parts(const WrittenMesh& mesh, const std::vector<BlockSides>& si
 }
 
 PartMesh block_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
-                    std::uint32_t block) {
-    Numbers triangles;
-    for (std::uint32_t t = 0; t < sides.size(); ++t)
-        if ((sides[t][0] == block) != (sides[t][1] == block)) triangles.push_back(t);
-    return cut(mesh, std::move(triangles), [&](std::uint32_t t) { return sides[t][0] == block; });
+                    const BlockParts& parts, std::uint32_t block) {
+    std::vector<Taken> taken;
+    for (const std::uint32_t t : parts.around.at(block)) taken.push_back({t, sides[t][0] == block});
+    return cut(mesh, taken);
 }
 
 PartMesh interface_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
                         const Interface& interface) {
-    return cut(mesh, interface.triangles,
-               [&](std::uint32_t t) { return sides[t][0] < sides[t][1]; });
+    std::vector<Taken> taken;
+    take_interface(sides, interface, taken);
+    return cut(mesh, taken);
+}
+
+PartMesh all_blocks_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
+                         const BlockParts& parts, Numbers& part_of) {
+    std::vector<Taken> taken;
+    for (const auto& [block, triangles] : parts.around) {
+        if (block == 0) continue;
+        for (const std::uint32_t t : triangles) taken.push_back({t, sides[t][0] == block});
+        part_of.resize(taken.size(), block);
+    }
+    return cut(mesh, taken);
+}
+
+PartMesh all_interfaces_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
+                             const std::vector<Interface>& interfaces) {
+    std::vector<Taken> taken;
+    for (const Interface& interface : interfaces) take_interface(sides, interface, taken);
+    return cut(mesh, taken);
 }
 
 } // namespace terrane::verifier

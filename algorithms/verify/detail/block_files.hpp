@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // What the files of a folder with blocks must hold, as it follows from a mesh and its blocks:
-// result.vtp, blocks/block_N, interfaces/interface_N and the lists of model.json.
+// result.vtp, blocks/block_N, interfaces/interface_N, or blocks.vtp and interfaces.vtp with all of these,
+// and the lists of model.json.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,8 +36,9 @@ struct Patch {
 struct BlockParts {
     std::vector<Interface> interfaces;
     std::vector<Patch> patches;
-    Numbers interface_of; ///< per triangle
-    Numbers patch_of;     ///< per triangle
+    std::map<std::uint32_t, Numbers> around; ///< by block: triangles with it on one side, ascending
+    Numbers interface_of;                    ///< per triangle
+    Numbers patch_of;                        ///< per triangle
 };
 
 BlockParts find_parts(const WrittenMesh& mesh, const std::vector<BlockSides>& sides);
@@ -50,12 +53,20 @@ struct PartMesh {
 
 /// Returns the triangles around a block, wound outward; none that has the block on both sides.
 PartMesh block_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
-                    std::uint32_t block);
+                    const BlockParts& parts, std::uint32_t block);
 
 /// Returns the triangles of an interface, so wound that the block with the higher number is in
 /// front.
 PartMesh interface_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
                         const Interface& interface);
+
+/// Returns all blocks but the outside, one after the other, each as block_mesh() does; `part_of` gets
+/// the block of each triangle.
+PartMesh all_blocks_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
+                         const BlockParts& parts, Numbers& part_of);
+/// Returns all interfaces, one after the other, each as interface_mesh() does.
+PartMesh all_interfaces_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
+                             const std::vector<Interface>& interfaces);
 
 /// What the lists of model.json are compared with.
 struct ModelLists {
@@ -64,7 +75,7 @@ struct ModelLists {
     std::span<const SurfaceInfo> surfaces;
     const std::vector<BlockSides>& sides;
     std::vector<double> volumes; ///< per block: nearest to the exact volume of the mesh
-    std::string part_format;     ///< "vtp" or "obj"
+    std::string part_format;     ///< "vtp" or "obj"; empty: all blocks are in one file
 };
 
 /// Compares model.json with what follows from a mesh and its blocks; the volumes of the exact

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -73,20 +74,53 @@ std::optional<std::uint32_t> number_in(std::string_view name, std::string_view s
     return number;
 }
 
+constexpr auto all_blocks = "blocks.vtp", all_interfaces = "interfaces.vtp";
+
 bool is_called(std::string_view name, std::string_view file) {
     return name == file || name.ends_with("/" + std::string(file));
 }
 
+/// Numbers the surfaces of the triangles alone; returns these surfaces.
+std::vector<SurfaceInfo> own_surfaces(PartMesh& part, std::span<const SurfaceInfo> all) {
+    const std::set<std::uint32_t> used(part.surfaces_of.values.begin(),
+                                       part.surfaces_of.values.end());
+    std::map<std::uint32_t, std::uint32_t> number;
+    std::vector<SurfaceInfo> own;
+    for (const std::uint32_t s : used) {
+        number.emplace(s, static_cast<std::uint32_t>(own.size()));
+        own.push_back(all[s]);
+    }
+    for (std::uint32_t& s : part.surfaces_of.values) s = number.at(s);
+    return own;
+}
+
+/// Compares with a part, or with many; `cells` come before those that all parts have.
 std::string compare_part(std::string_view contents, const Folder& folder,
-                         const CertifiedOutput& output, const PartMesh& part) {
+                         const CertifiedOutput& output, std::span<const SurfaceInfo> surfaces,
+                         const PartMesh& part, std::vector<CellNumbers> cells = {}) {
     const WrittenMesh mesh{part.vertices,   part.triangles,   part.regions_of,
                            part.parents_of, part.surfaces_of, true};
-    ExpectedMesh expected{mesh, output.surfaces, {}};
-    if (output.format == "vtp")
-        expected.cells = {{"triangle", as_cells(part.numbers)},
-                          {"interface", cells_of(folder.parts.interface_of, part.numbers)},
-                          {"patch", cells_of(folder.parts.patch_of, part.numbers)}};
-    return difference(contents, output.format, expected);
+    cells.push_back({"triangle", as_cells(part.numbers)});
+    cells.push_back({"interface", cells_of(folder.parts.interface_of, part.numbers)});
+    cells.push_back({"patch", cells_of(folder.parts.patch_of, part.numbers)});
+    return difference(contents, output.format, {mesh, surfaces, std::move(cells)});
+}
+
+/// Compares with a block or an interface alone, of which VTP names only its own surfaces.
+std::string compare_single(std::string_view contents, const Folder& folder,
+                           const CertifiedOutput& output, PartMesh part) {
+    if (output.format != "vtp")
+        return compare_part(contents, folder, output, output.surfaces, part);
+    const auto surfaces = own_surfaces(part, output.surfaces);
+    return compare_part(contents, folder, output, surfaces, part);
+}
+
+std::string compare_all_blocks(std::string_view contents, const Folder& folder,
+                               const CertifiedOutput& output) {
+    Numbers part_of;
+    const PartMesh part = all_blocks_mesh(folder.mesh, folder.sides, folder.parts, part_of);
+    return compare_part(contents, folder, output, output.surfaces, part,
+                        {{"block", as_cells(part_of)}});
 }
 
 std::string compare_result(std::string_view contents, const Folder& folder,
@@ -105,16 +139,22 @@ std::string compare_result(std::string_view contents, const Folder& folder,
                         {"patch", as_cells(folder.parts.patch_of)}}});
 }
 
-/// Returns the format of the parts among the outputs of a certificate.
+/// Returns the format of the parts among the outputs of a certificate; empty: they are together.
 std::string part_format(const Certificate& certificate) {
-    for (const CertifiedOutput& output : certificate.outputs)
+    for (const CertifiedOutput& output : certificate.outputs) {
         if (number_in(output.name, "interfaces/interface_", output.format)) return output.format;
+        if (is_called(output.name, all_interfaces)) return "";
+    }
     return "vtp";
 }
 
 /// Returns the names of all files of a folder with these blocks, relative to it.
 std::set<std::string> file_names(const Folder& folder, const std::string& part_format) {
     std::set<std::string> names{"model.json", "result.vtp"};
+    if (part_format.empty()) {
+        names.insert({all_blocks, all_interfaces});
+        return names;
+    }
     const auto add = [&](const std::string& start, std::size_t number) {
         names.insert(start + std::to_string(number) + "." + part_format);
     };
@@ -199,14 +239,20 @@ std::string compare_block_file(std::string_view contents, const Certificate& cer
         return compare_model(contents, certificate, folder, output, verdict);
     if (is_called(output.name, "result.vtp") && output.format == "vtp")
         return compare_result(contents, folder, output);
+    if (is_called(output.name, all_blocks) && output.format == "vtp")
+        return compare_all_blocks(contents, folder, output);
+    if (is_called(output.name, all_interfaces) && output.format == "vtp")
+        return compare_part(
+            contents, folder, output, output.surfaces,
+            all_interfaces_mesh(folder.mesh, folder.sides, folder.parts.interfaces));
     if (output.format == "vtp" || output.format == "obj") {
         if (const auto b = number_in(output.name, "blocks/block_", output.format);
-            b && *b > 0 && *b < certificate.blocks->volumes.size())
-            return compare_part(contents, folder, output,
-                                block_mesh(folder.mesh, folder.sides, *b));
+            b && *b > 0 && folder.parts.around.contains(*b))
+            return compare_single(contents, folder, output,
+                                  block_mesh(folder.mesh, folder.sides, folder.parts, *b));
         if (const auto i = number_in(output.name, "interfaces/interface_", output.format);
             i && *i < folder.parts.interfaces.size())
-            return compare_part(
+            return compare_single(
                 contents, folder, output,
                 interface_mesh(folder.mesh, folder.sides, folder.parts.interfaces[*i]));
     }

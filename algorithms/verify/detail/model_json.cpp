@@ -238,7 +238,7 @@ private:
         line.expect(",\"interfaces\":").array(around.interfaces);
         line.expect(",\"inner_interfaces\":").array(around.inner);
         line.expect(",\"neighbours\":").array(around.neighbours);
-        if (b > 0 && !around.interfaces.empty()) line.expect(file("blocks/block_", b));
+        if (b > 0 && !around.interfaces.empty()) line.expect(file("blocks", "/block_", b));
         line.expect("}");
     }
 
@@ -248,7 +248,7 @@ private:
         line.expect(",\"surfaces\":").array(interface.surfaces);
         line.expect(",\"area\":").near(interface_areas_[i].value, interface_areas_[i].slack);
         line.expect(",\"patches\":").array(interface.patches);
-        line.expect(file("interfaces/interface_", i)).expect("}");
+        line.expect(file("interfaces", "/interface_", i)).expect("}");
     }
 
     void patch(Follower& line, std::uint32_t p) const {
@@ -312,8 +312,13 @@ private:
             Follower(in_.next(), in_).expect("\"seal\": {\"distance\":").rest("]}");
     }
 
-    [[nodiscard]] std::string file(const std::string& start, std::uint32_t number) const {
-        return ",\"file\":\"" + start + std::to_string(number) + "." + lists_.part_format + "\"";
+    [[nodiscard]] std::string file(const std::string& kind, const std::string& start,
+                                   std::uint32_t number) const {
+        const std::string name =
+            lists_.part_format.empty()
+                ? kind + ".vtp"
+                : kind + start + std::to_string(number) + "." + lists_.part_format;
+        return ",\"file\":\"" + name + "\"";
     }
     [[nodiscard]] double outside_volume() const { return lists_.volumes[0]; }
 

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/structure/detail/surface_tree.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include <terrane/algorithms/mesh/triangle_tree.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
+
+namespace terrane::structure::detail {
+namespace {
+
+constexpr std::uint32_t most_in_leaf = 4;
+constexpr std::uint32_t no_surface = UINT32_MAX;
+
+/// Returns the first surface that is not listed, or no_surface. Both lists are ascending.
+std::uint32_t first_but(std::span<const std::uint32_t> surfaces,
+                        std::span<const std::uint32_t> but) {
+    for (const std::uint32_t s : surfaces)
+        if (!std::binary_search(but.begin(), but.end(), s)) return s;
+    return no_surface;
+}
+
+struct BoxOfTriangles {
+    Point3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+
+    void add(const Point3& p) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+};
+
+} // namespace
+
+/// Distances to triangles are rounded, and so are those to boxes. A triangle is never nearer than its
+/// box: `least` is the larger of the two, so that what is found does not depend on the order of visits.
+struct SurfaceTree::Best {
+    double least;
+    std::uint32_t surface = no_surface;
+    double distance = 0; ///< to the triangle
+
+    /// Tells whether a surface from `number` on, at this distance or farther, may be better.
+    [[nodiscard]] bool admits(double box_distance, std::uint32_t number) const {
+        return std::tie(box_distance, number) < std::tie(least, surface);
+    }
+};
+
+SurfaceTree::SurfaceTree(const Mesh& mesh) : mesh_(mesh) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        if (!mesh.surfaces_of[t].empty()) order_.push_back(t);
+    if (!order_.empty()) add_node(0, static_cast<std::uint32_t>(order_.size()));
+}
+
+void SurfaceTree::Node::name(std::uint32_t surface) {
+    least = std::min(least, surface);
+    const auto end = surfaces.begin() + std::min(count, most_named);
+    if (count > most_named || std::find(surfaces.begin(), end, surface) != end) return;
+    if (count < most_named) surfaces[count] = surface;
+    ++count;
+}
+
+bool SurfaceTree::Node::is_of(std::span<const std::uint32_t> listed) const {
+    return count <= most_named &&
+           std::all_of(surfaces.begin(), surfaces.begin() + count, [&](std::uint32_t s) {
+               return std::binary_search(listed.begin(), listed.end(), s);
+           });
+}
+
+void SurfaceTree::add_node(std::uint32_t first, std::uint32_t last) {
+    BoxOfTriangles box;
+    Node node{{}, {}, first, last, no_surface};
+    for (std::uint32_t i = first; i < last; ++i) {
+        for (const std::uint32_t v : mesh_.triangles[order_[i]]) box.add(mesh_.vertices[v]);
+        for (const std::uint32_t s : mesh_.surfaces_of[order_[i]]) node.name(s);
+    }
+    node.low = box.low;
+    node.high = box.high;
+    nodes_.push_back(node);
+}
+
+void SurfaceTree::split(std::uint32_t node) {
+    const std::uint32_t first = nodes_[node].first, last = nodes_[node].last;
+    const Point3 size = minus(nodes_[node].high, nodes_[node].low);
+    const auto longest = size.x >= size.y && size.x >= size.z ? &Point3::x
+                         : size.y >= size.z                   ? &Point3::y
+                                                              : &Point3::z;
+    const auto key = [&](std::uint32_t t) {
+        double sum = 0;
+        for (const std::uint32_t v : mesh_.triangles[t]) sum += mesh_.vertices[v].*longest;
+        return std::pair(sum, t);
+    };
+    const std::uint32_t half = first + (last - first) / 2;
+    std::nth_element(order_.begin() + first, order_.begin() + half, order_.begin() + last,
+                     [&](std::uint32_t t, std::uint32_t u) { return key(t) < key(u); });
+    nodes_[node].children = static_cast<std::uint32_t>(nodes_.size());
+    add_node(first, half);
+    add_node(half, last);
+}
+
+void SurfaceTree::visit(const Point3& p, std::span<const std::uint32_t> but, std::uint32_t triangle,
+                        Best& best) const {
+    const std::uint32_t surface = first_but(mesh_.surfaces_of[triangle], but);
+    if (surface == no_surface) return;
+    const auto& [i, j, k] = mesh_.triangles[triangle];
+    const Point3 &a = mesh_.vertices[i], &b = mesh_.vertices[j], &c = mesh_.vertices[k];
+    BoxOfTriangles box;
+    for (const Point3& corner : {a, b, c}) box.add(corner);
+    const double distance = distance_to_triangle(p, a, b, c);
+    const double least = std::max(distance, distance_to_box(p, box.low, box.high));
+    if (std::tie(least, surface, distance) >= std::tie(best.least, best.surface, best.distance))
+        return;
+    best = {least, surface, distance};
+}
+
+std::optional<NearestSurface>
+SurfaceTree::nearest(const Point3& p, std::span<const std::uint32_t> but, double bound) {
+    if (nodes_.empty()) return std::nullopt;
+    Best best{bound, 0}; // surface 0: what is found must be nearer than the bound
+    struct Open {
+        std::uint32_t node;
+        double distance; ///< from the point to the box of the node
+        std::uint32_t least;
+    };
+    const auto opened = [&](std::uint32_t n) {
+        return Open{n, distance_to_box(p, nodes_[n].low, nodes_[n].high), nodes_[n].least};
+    };
+    std::vector<Open> stack{opened(0)};
+    while (!stack.empty()) {
+        const Open next = stack.back();
+        stack.pop_back();
+        ++visits_;
+        if (!best.admits(next.distance, next.least) || nodes_[next.node].is_of(but)) continue;
+        if (nodes_[next.node].last - nodes_[next.node].first <= most_in_leaf) {
+            for (std::uint32_t i = nodes_[next.node].first; i < nodes_[next.node].last; ++i)
+                visit(p, but, order_[i], best);
+            continue;
+        }
+        if (nodes_[next.node].children == 0) split(next.node);
+        Open first = opened(nodes_[next.node].children),
+             second = opened(nodes_[next.node].children + 1);
+        if (std::tie(second.distance, second.least) < std::tie(first.distance, first.least))
+            std::swap(first, second);
+        stack.push_back(second);
+        stack.push_back(first);
+    }
+    if (best.least >= bound) return std::nullopt;
+    return NearestSurface{best.surface, best.distance};
+}
+
+} // namespace terrane::structure::detail
