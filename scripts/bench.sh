@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Builds with benchmarks and prints the table of required speeds: medians, and ratios to CGAL and to
 # the floor, all from one run. With --parts the memory use and the benchmarks of all parts follow.
-# With --degenerate it prints how the costs of inputs in which everything coincides grow instead.
+# With --degenerate it prints how the costs of inputs in which everything coincides grow instead, with
+# --many those of very many surfaces.
 # Other arguments:
 #   --repeats N   --large   NAME...
 set -eu
@@ -14,6 +15,10 @@ if [ "${1-}" = --degenerate ]; then
     shift
     cmake --build --preset bench --target terrane_bench_degenerate >/dev/null
     exec build/bench/tests/bench/terrane_bench_degenerate "$@"
+fi
+if [ "${1-}" = --many ]; then
+    cmake --build --preset bench --target terrane_program >/dev/null
+    exec tests/oracles/many.py --terrane build/bench/cli/terrane --bench
 fi
 cmake --build --preset bench --target terrane_bench terrane_bench_table \
     terrane_bench_memory >/dev/null

@@ -51,13 +51,15 @@ std::vector<Leak> by_pairs(std::span<const ClosedGap> gaps, const std::vector<bo
     return leaks;
 }
 
-LeakVerdict verdict_of(const Leak& leak, const LeakAdvice& advice) {
+/// Leaks by their surfaces; there is one of two surfaces.
+using LeaksByPairs = std::map<std::pair<std::uint32_t, std::uint32_t>, const Leak*>;
+
+LeakVerdict verdict_of(const Leak& leak, const LeakAdvice& advice, const LeaksByPairs& separating) {
     if (!(leak.least <= advice.distance)) return LeakVerdict::wide;
-    const bool separates = std::ranges::any_of(advice.separating, [&](const Leak& other) {
-        return leak.from == other.from && leak.to == other.to && leak.least <= other.largest &&
-               other.least <= leak.largest;
-    });
-    if (separates) return LeakVerdict::separates;
+    const auto found = separating.find({leak.from, leak.to});
+    if (found != separating.end() && leak.least <= found->second->largest &&
+        found->second->least <= leak.largest)
+        return LeakVerdict::separates;
     return leak.largest <= advice.distance ? LeakVerdict::harmless : LeakVerdict::wide;
 }
 
@@ -95,8 +97,10 @@ Result<LeakAdvice> judge_leaks(const Arranged& arranged, std::span<const FreeBor
         const auto volumes = find_volumes(sealed->exact, timer.inside());
         if (!volumes) return volumes.error();
         advice.separating = by_pairs(sealed->sealed->closed, separating_gaps(*sealed, *volumes));
+        LeaksByPairs separating;
+        for (const Leak& leak : advice.separating) separating[{leak.from, leak.to}] = &leak;
         for (std::size_t l = 0; l < leaks.size(); ++l)
-            advice.verdicts[l] = verdict_of(leaks[l], advice);
+            advice.verdicts[l] = verdict_of(leaks[l], advice, separating);
         return advice;
     });
 }

@@ -33,6 +33,7 @@ Result<Model> finished(Model model, const GivenNames& given, const Run& run) {
     model.structure = std::move(structure).value();
     if (!given.column.empty() || !given.regions.empty())
         name_blocks(model.mesh, model.volumes, given, model.structure);
+    timer.next("free borders");
     model.borders = find_free_borders(model.mesh, model.structure);
     timer.stop();
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};

@@ -3,7 +3,6 @@
 #include <utility>
 #include <vector>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/stages/blockwise.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
@@ -43,7 +42,6 @@ Status check_certificate(const ArrangeCommand& command) {
 }
 
 Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session) {
-    Stopwatch total;
     if (command.blockwise.digest)
         return usage("it needs --memory; a certificate has the digest, too", "--digest");
     if (command.blockwise.volumes)
@@ -55,12 +53,12 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
     if (const auto sound = check_volume_options(command.settings.volume); !sound)
         return sound.error();
     if (const auto possible = check_certificate(command); !possible) return possible.error();
-    auto page = plan_page(files);
+    auto page = plan_page(files, session);
     if (!page) return page.error();
     auto inputs = read_certified_inputs(command.proof.certificate, files, session);
     if (!inputs) return inputs.error();
     if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
-    Json statistics = statistics_of(inputs.value(), session.times());
+    Json statistics = statistics_of(inputs.value());
 
     const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
@@ -77,7 +75,6 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
     }
     if (session.stopped()) return Error{ErrorCode::interrupted, "", ""};
 
-    Stopwatch writing;
     const bool keep = clean || command.keep_unverified;
     if (keep) {
         const auto written = write_outputs(mesh, clean, files, outputs.value(), session);
@@ -93,9 +90,8 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
     const auto proved =
         write_proof(command.proof, certified, inputs.value(), arranged.value(), session);
     if (!proved) return proved.error();
-    statistics["seconds"]["write"] = writing.lap();
     add_page_certificate(*page, files, command.proof.certificate, true, session);
-    return write_run(*page, statistics, files, total.lap(), clean);
+    return write_run(*page, statistics, files, session, clean);
 }
 
 } // namespace

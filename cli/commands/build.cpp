@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/stage_timer.hpp>
-#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/algorithms/volumes/region_points.hpp>
@@ -103,9 +102,7 @@ private:
         return ExitStatus::done;
     }
 
-    Status write_the_page() {
-        return write_page(page_, page_files_, statistics_, journal_.seconds());
-    }
+    Status write_the_page() { return write_page(page_, page_files_, statistics_, session_); }
 
     /// Adds the verdicts about the certificates that are among the results.
     void add_certificates() {
@@ -164,12 +161,15 @@ private:
                                  project_.surfaces[f].file.string());
         if (auto added = add_page_inputs(page_, page_files_, inputs_); !added) return added;
         timer.stop();
-        statistics_ = statistics_of(inputs_, session_.times());
+        statistics_ = statistics_of(inputs_);
         statistics_["resumed"] = Json::array();
         add_constants(statistics_, "plausibility", plausibility_constants());
         const PlausibilityContext use{read_.build.boundary, wants_blocks()};
-        return report_doubts(find_doubts(read_.build.surfaces, use), inputs_.labels, inputs_.strict,
-                             statistics_);
+        session_.begin("plausibility", Phase::computing);
+        auto sound = report_doubts(find_doubts(read_.build.surfaces, use), inputs_.labels,
+                                   inputs_.strict, statistics_);
+        session_.end_stage();
+        return sound;
     }
 
     /// Checks that a certificate can state the names of the surfaces, if one is wanted.
@@ -227,7 +227,7 @@ private:
             return preprocessed(built.preprocessed);
         case BuildStage::arrange:
             inputs_.labels = built.labels;
-            add_statistics(statistics_, built.arranged, inputs_, session_.times());
+            add_statistics(statistics_, built.arranged, inputs_);
             journal_.say(summary(inputs_, built.arranged));
             page_.add_arranged(built.arranged);
             if (!built.arranged.rounded.conforming)
@@ -235,19 +235,19 @@ private:
                            complaint("no blocks without a conforming mesh; nothing written");
             return;
         case BuildStage::improve:
-            add_statistics(statistics_, *built.improved, session_.times());
+            add_statistics(statistics_, *built.improved);
             if (!keeps_volumes(*built.improved, strict_)) refused_ = complaint("nothing written");
             page_.add_improved(built.improved->improved.mesh, built.arranged.rounded.mesh);
             return journal_.say(resolution_text(statistics_, built.arranged, inputs_) +
                                 improve_text(*built.improved, inputs_));
         case BuildStage::blocks:
-            add_statistics(statistics_, *built.model, session_.times());
+            add_statistics(statistics_, *built.model);
             if (auto judged = judge_leaks(built.arranged, *built.model, session_)) leaks_ = *judged;
             journal_.say(model_text(inputs_, *built.model, leaks_));
             page_.add_model(*built.model, leaks_);
             return doubt(*built.model);
         case BuildStage::tetrahedra:
-            add_statistics(statistics_, *built.filled, session_.times());
+            add_statistics(statistics_, *built.filled);
             add_changes(statistics_, built);
             page_.add_tetrahedra(*built.filled);
             return journal_.say(changes_text(built, inputs_.unit) +
@@ -262,7 +262,7 @@ private:
 
     /// Warns about the blocks; with --strict nothing will be written.
     void doubt(const Model& model) {
-        const auto sound = examine(model, inputs_, wants_blocks(), statistics_);
+        const auto sound = examine(model, inputs_, wants_blocks(), session_, statistics_);
         if (!sound) doubts_ = sound.error();
     }
 
@@ -275,12 +275,11 @@ private:
                 refused_ += complaint("what was invented meets other triangles") +
                             contacts_text(*done.filled, done.contacts);
             add_statistics(statistics_, *done.filled);
-            statistics_["seconds"]["fill"] = session_.times().latest("fill");
         }
         if (done.stack) {
             said += text_of(inputs_, done.layers, *done.stack, done.step_width);
             refused_ = flaws_text(*done.stack, done.out_of_order);
-            add_statistics(statistics_, inputs_, done.layers, session_.times());
+            add_statistics(statistics_, inputs_, done.layers);
         }
         journal_.say(said);
         if (!refused_.empty()) refused_ += complaint("nothing written");
@@ -298,13 +297,12 @@ private:
             if (auto done = (this->*step)(to); !done) return done;
             if (session_.stopped()) return Error{ErrorCode::interrupted, "", ""};
         }
-        statistics_["seconds"]["write"] = watch.lap();
         written_.insert(written_.end(), {"statistics.json", "log.txt"});
         std::string list;
         for (const std::string& name : written_) list += "  " + name + "\n";
         const auto said = "wrote " + folder_.string() + ":\n" + list;
-        if (auto done = write_statistics(statistics_, (to / "statistics.json").string(),
-                                         journal_.seconds());
+        session_.begin("write", Phase::folder); // so that the time up to here is known
+        if (auto done = write_statistics(statistics_, (to / "statistics.json").string(), session_);
             !done)
             return done;
         journal_.note("done");
@@ -466,7 +464,7 @@ Result<ExitStatus> build(const BuildCommand& command) {
     session.use_threads(command.threads.value_or(project->threads));
     FileOptions page_files = command.page;
     page_files.inputs = surface_files(*project);
-    auto page = plan_page(page_files);
+    auto page = plan_page(page_files, session);
     if (!page) return page.error();
     return Build(project.value(), command, std::move(*page), std::move(page_files), session)();
 }

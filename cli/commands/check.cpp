@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/reports/check_report.hpp>
@@ -32,17 +31,17 @@ Examples:
   terrane check horizons.ts faults.ts --json > findings.json)";
 
 Result<ExitStatus> check_files(const CheckCommand& command, Session& session) {
-    Stopwatch total;
     const auto nothing = plan_outputs(command.files, OutputKind::surfaces);
     if (!nothing) return nothing.error();
-    auto page = plan_page(command.files);
+    auto page = plan_page(command.files, session);
     if (!page) return page.error();
     const auto inputs = read_inputs(command.files, session);
     if (!inputs) return inputs.error();
     if (const auto added = add_page_inputs(*page, command.files, *inputs); !added)
         return added.error();
     Json warnings;
-    if (const auto sound = examine(inputs.value(), {}, warnings); !sound) return sound.error();
+    if (const auto sound = examine(inputs.value(), {}, session, warnings); !sound)
+        return sound.error();
     session.begin("check", Phase::computing);
     const auto report = check(inputs.value().surfaces, session.run());
     session.end_stage();
@@ -54,7 +53,7 @@ Result<ExitStatus> check_files(const CheckCommand& command, Session& session) {
         say(stdout, report_text(r, inputs.value(), name_of_inputs(command.files), command.all));
     if (const auto drawn = page->add_check(inputs->surfaces, r, session.run()); !drawn)
         return drawn.error();
-    return write_run(*page, json_of(r, *inputs), command.files, total.lap(), r.clean());
+    return write_run(*page, json_of(r, *inputs), command.files, session, r.clean());
 }
 
 } // namespace

@@ -3,7 +3,6 @@
 #include <memory>
 #include <vector>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/files.hpp>
@@ -55,7 +54,6 @@ Result<ExitStatus> join_pieces(const FileOptions& files, const std::vector<Outpu
 }
 
 Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session) {
-    Stopwatch total;
     FileOptions files = command.files;
     files.inputs = {command.input};
     files.outputs = {command.output};
@@ -63,13 +61,14 @@ Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session)
     if (!outputs) return outputs.error();
     if (std::filesystem::path(command.input).extension() == ".pvtp")
         return join_pieces(files, *outputs, session);
-    auto page = plan_page(files);
+    auto page = plan_page(files, session);
     if (!page) return page.error();
     const auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
     if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
-    Json statistics = statistics_of(*inputs, session.times()); // for the page alone
-    if (const auto sound = examine(inputs.value(), {}, statistics); !sound) return sound.error();
+    Json statistics = statistics_of(*inputs); // for the page alone
+    if (const auto sound = examine(inputs.value(), {}, session, statistics); !sound)
+        return sound.error();
     const Mesh mesh = concatenate(inputs.value().surfaces);
     const Output& output = outputs.value().front();
     const auto written = write_output(mesh, output, {.ascii = files.ascii}, session);
@@ -80,7 +79,7 @@ Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session)
         warn(output.path + ": coordinates were rounded to float32, all that binary STL holds; "
                            "--ascii or another format keeps them");
     page->add_mesh(mesh);
-    return write_run(*page, statistics, files, total.lap(), true);
+    return write_run(*page, statistics, files, session, true);
 }
 
 } // namespace

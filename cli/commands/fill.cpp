@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/choices.hpp>
@@ -203,17 +202,17 @@ Status refuse_for_rbf(const CLI::App& app, const FillCommand& command) {
 }
 
 Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
-    Stopwatch total;
     const auto outputs = plan(command);
     if (!outputs) return outputs.error();
-    auto page = plan_page(command.files);
+    auto page = plan_page(command.files, session);
     if (!page) return page.error();
     const auto inputs = read_certified_inputs(command.proof.certificate, command.files, session);
     if (!inputs) return inputs.error();
     if (const auto added = add_page_inputs(*page, command.files, *inputs); !added)
         return added.error();
-    Json statistics = statistics_of(inputs.value(), session.times());
-    if (const auto sound = examine(inputs.value(), {}, statistics); !sound) return sound.error();
+    Json statistics = statistics_of(inputs.value());
+    if (const auto sound = examine(inputs.value(), {}, session, statistics); !sound)
+        return sound.error();
     session.begin("holes", Phase::computing);
     auto work =
         find_holes(inputs.value().surfaces, tasks_of(command, inputs.value()), session.run());
@@ -235,7 +234,7 @@ Result<ExitStatus> fill_files(const FillCommand& command, Session& session) {
     page->add_filled(*work);
     page->set_verdict(verdict_on(outcome, command.list), outcome.whole);
     add_page_certificate(*page, command.files, command.proof.certificate, outcome.written, session);
-    return write_run(*page, statistics, command.files, total.lap(), outcome.whole);
+    return write_run(*page, statistics, command.files, session, outcome.whole);
 }
 
 void add_choice(CLI::App& app, FillCommand& command) {

@@ -11,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
@@ -188,7 +187,6 @@ Status simplify(const ImproveCommand& command, const Inputs& inputs, ImproveOpti
     const SimplifyReport& report = arranged.simplified->report;
     add_statistics(statistics, report, inputs);
     add_constants(statistics, "resolution", simplify_constants());
-    statistics["seconds"]["simplify"] = session.times().latest("simplify");
     say(summary_stream(command.files), text_of(report, inputs));
     return Done{};
 }
@@ -222,12 +220,11 @@ const char* refusal(bool narrow) {
 }
 
 Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session) {
-    Stopwatch total;
     const FileOptions& files = command.files;
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
     if (const auto sound = check_improve(command); !sound) return sound.error();
-    auto page = plan_page(files);
+    auto page = plan_page(files, session);
     if (!page) return page.error();
     auto inputs = read_certified_inputs(command.proof.certificate, files, session);
     if (!inputs) return inputs.error();
@@ -236,7 +233,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     options.check = check_of(command.settings.check, inputs.value());
     if (const auto set = set_lengths(command, inputs.value(), options); !set) return set.error();
     if (const auto good = judge(inputs.value(), options); !good) return good.error();
-    Json statistics = statistics_of(inputs.value(), session.times());
+    Json statistics = statistics_of(inputs.value());
 
     auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
@@ -259,7 +256,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
             improve_and_measure(*arranged.value().rounded.conforming, options, session.run());
         session.end_stage();
         if (!measured) return measured.error();
-        add_statistics(statistics, measured.value(), session.times());
+        add_statistics(statistics, measured.value());
         say(summary_stream(files), improve_text(measured.value(), inputs.value()));
         page->add_improved(measured->improved.mesh, arranged->rounded.mesh);
         const Mesh& mesh = measured.value().improved.mesh;
@@ -271,7 +268,6 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         clean = keeps_volumes(measured.value(), files.strict, options.max_volume_change) && clean;
         clean = keeps_resolution(*arranged, mesh, session) && clean;
         if (!clean) page->set_verdict(refusal(narrow.value()), false);
-        Stopwatch writing;
         if (clean) {
             const auto written = write_all(command, inputs.value(), arranged.value(),
                                            measured.value(), outputs.value(), session);
@@ -279,10 +275,9 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         } else {
             print(stderr, complaint("nothing written"));
         }
-        statistics["seconds"]["write"] = writing.lap();
     }
     add_page_certificate(*page, files, command.proof.certificate, clean, session);
-    return write_run(*page, statistics, files, total.lap(), clean);
+    return write_run(*page, statistics, files, session, clean);
 }
 
 void add_lengths(CLI::App& app, ImproveCommand& command) {

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/choices.hpp>
@@ -125,18 +124,18 @@ Status write_all(const Mesh& mesh, const FileOptions& files, const std::vector<O
 }
 
 Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
-    Stopwatch total;
     const FileOptions& files = command.files;
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
     if (const auto possible = check_certificate(command); !possible) return possible.error();
-    auto page = plan_page(files);
+    auto page = plan_page(files, session);
     if (!page) return page.error();
     const auto inputs = read_certified_inputs(command.proof.certificate, files, session);
     if (!inputs) return inputs.error();
     if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
-    Json statistics = statistics_of(inputs.value(), session.times());
-    if (const auto sound = examine(inputs.value(), {}, statistics); !sound) return sound.error();
+    Json statistics = statistics_of(inputs.value());
+    if (const auto sound = examine(inputs.value(), {}, session, statistics); !sound)
+        return sound.error();
     const auto order = order_of(command, inputs.value());
     if (!order) return order.error();
 
@@ -169,7 +168,7 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
                                : "The layers are not in order, or their mesh is not conforming.",
                       is_stack);
     add_page_certificate(*page, files, command.proof.certificate, is_stack, session);
-    return write_run(*page, statistics, files, total.lap(), is_stack);
+    return write_run(*page, statistics, files, session, is_stack);
 }
 
 } // namespace

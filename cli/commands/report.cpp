@@ -13,7 +13,6 @@
 #include <spawn.h>
 #include <unistd.h>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/column.hpp>
 #include <terrane/cli/options/roles.hpp>
@@ -55,13 +54,12 @@ Examples:
   terrane view model.html)";
 
 Result<ExitStatus> report_files(const ReportCommand& command, Session& session) {
-    Stopwatch total;
     const FileOptions& files = command.files;
     if (const auto planned = plan_outputs(files, OutputKind::surfaces); !planned)
         return planned.error();
     if (const auto sound = check_volume_options(command.settings.volume); !sound)
         return sound.error();
-    auto page = plan_page(files);
+    auto page = plan_page(files, session);
     if (!page) return page.error();
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
@@ -71,7 +69,7 @@ Result<ExitStatus> report_files(const ReportCommand& command, Session& session) 
     if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
     if (const auto found = page->add_holes(inputs->surfaces, session.run()); !found)
         return found.error();
-    Json statistics = statistics_of(*inputs, session.times());
+    Json statistics = statistics_of(*inputs);
 
     auto arranged = arrange_and_round(*inputs, command.settings, session, statistics);
     if (!arranged) return arranged.error();
@@ -87,10 +85,10 @@ Result<ExitStatus> report_files(const ReportCommand& command, Session& session) 
         if (!leaks) return leaks.error();
         say(summary_stream(files), model_text(*inputs, *model, *leaks));
         page->add_model(*model, *leaks);
-        if (const auto sound = examine(*model, *inputs, false, statistics); !sound)
+        if (const auto sound = examine(*model, *inputs, false, session, statistics); !sound)
             return sound.error();
     }
-    return write_run(*page, statistics, files, total.lap(), clean);
+    return write_run(*page, statistics, files, session, clean);
 }
 
 /// Starts the program that opens a page, and does not wait for it.

@@ -13,7 +13,6 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/tetgen/fill_blocks.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
@@ -140,7 +139,7 @@ Result<FilledBlocks> fill(const Model& model, const TetrahedraRequest& wishes, S
                           Json& statistics) {
     auto filled = fill_blocks(model, wishes, session.run());
     session.end_stage();
-    if (filled) add_statistics(statistics, *filled, session.times());
+    if (filled) add_statistics(statistics, *filled);
     return filled;
 }
 
@@ -185,7 +184,6 @@ Status check_call(const TetrahedralizeCommand& command, const std::vector<Output
 }
 
 Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Session& session) {
-    Stopwatch total;
     const FileOptions& files = command.files;
     const auto wishes = wishes_of(command);
     if (!wishes) return wishes.error();
@@ -193,7 +191,7 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (!outputs) return outputs.error();
     if (const auto sound = check_files_beside(*files.app, *outputs); !sound) return sound.error();
     if (const auto sound = check_call(command, *outputs); !sound) return sound.error();
-    auto page = plan_page(files);
+    auto page = plan_page(files, session);
     if (!page) return page.error();
     auto inputs = read_certified_inputs(command.certificate, files, session);
     if (!inputs) return inputs.error();
@@ -202,10 +200,10 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
     const auto naming = naming_of(command.column, *inputs);
     if (!naming) return naming.error();
-    Json statistics = statistics_of(inputs.value(), session.times());
+    Json statistics = statistics_of(inputs.value());
     const auto finish = [&](bool good) -> Result<ExitStatus> {
         add_page_certificate(*page, files, command.certificate, good, session);
-        return write_run(*page, statistics, files, total.lap(), good);
+        return write_run(*page, statistics, files, session, good);
     };
 
     auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
@@ -222,14 +220,14 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     const auto model = make_model(arranged.value().exact, *arranged.value().rounded.conforming,
                                   session.run(), *naming);
     if (!model) return model.error();
-    if (const auto sound = examine(*model, *inputs, true, statistics); !sound) return sound.error();
+    if (const auto sound = examine(*model, *inputs, true, session, statistics); !sound)
+        return sound.error();
     page->add_model(*model, std::nullopt);
     const auto filled = fill(model.value(), wishes.value(), session, statistics);
     if (!filled) return at_option(filled.error(), *files.app);
     page->add_tetrahedra(*filled);
     say(summary_stream(files), filled_text(filled.value(), inputs->unit));
     const bool good = filled->report.violations.empty();
-    Stopwatch writing;
     if (good) {
         const auto written = write_all(filled.value(), outputs.value(), files, session);
         if (!written) return written.error();
@@ -243,7 +241,6 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     } else {
         print(stderr, violations_text(filled->report) + complaint("nothing written"));
     }
-    statistics["seconds"]["write"] = writing.lap();
     return finish(good);
 }
 

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/column.hpp>
@@ -192,21 +191,20 @@ Status write_tables(const VolumeCommand& command, const Model& model, const Inpu
 }
 
 Result<ExitStatus> suggest_seal(const VolumeCommand& command, Session& session) {
-    Stopwatch total;
     const FileOptions& files = command.files;
     auto inputs = read_inputs(files, session);
     if (!inputs) return inputs.error();
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
     const auto options = options_within(command.settings, *inputs);
     if (!options) return options.error();
-    Json statistics = statistics_of(inputs.value(), session.times());
+    Json statistics = statistics_of(inputs.value());
     std::vector<Surface> boundary;
     if (command.settings.volume.wanted()) {
         auto made = boundary_of(command.settings.volume, session);
         if (!made) return made.error();
         boundary = std::move(*made);
     }
-    if (const auto sound = examine(*inputs, {boundary, true}, statistics); !sound)
+    if (const auto sound = examine(*inputs, {boundary, true}, session, statistics); !sound)
         return sound.error();
     session.begin("seal", Phase::computing);
     const auto advice = advise_seal(inputs->surfaces, boundary, *options, session.run());
@@ -221,19 +219,18 @@ Result<ExitStatus> suggest_seal(const VolumeCommand& command, Session& session) 
     add_statistics(statistics, *advice);
     add_constants(statistics, "seal", seal_constants());
     add_constants(statistics, "seal_choice", seal_choice_constants());
-    if (auto written = write_statistics(statistics, files.stats, total.lap()); !written)
+    if (auto written = write_statistics(statistics, files.stats, session); !written)
         return written.error();
     return ExitStatus::done;
 }
 
 Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
-    Stopwatch total;
     const FileOptions& files = command.files;
     if (const auto sound = check_call(command); !sound) return sound.error();
     if (command.suggests) return suggest_seal(command, session);
     const auto grid = read_grid(command.cells);
     if (!grid) return grid.error();
-    auto page = plan_page(files);
+    auto page = plan_page(files, session);
     if (!page) return page.error();
     auto inputs = read_certified_inputs(command.certificate, files, session);
     if (!inputs) return inputs.error();
@@ -242,7 +239,7 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
     if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
     const auto naming = naming_of(command.column, *inputs);
     if (!naming) return naming.error();
-    Json statistics = statistics_of(inputs.value(), session.times());
+    Json statistics = statistics_of(inputs.value());
 
     auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
@@ -259,9 +256,8 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         if (!leaks) return leaks.error();
         say(summary_stream(files), model_text(*inputs, *model, *leaks));
         page->add_model(*model, *leaks);
-        if (const auto sound = examine(*model, *inputs, true, statistics); !sound)
+        if (const auto sound = examine(*model, *inputs, true, session, statistics); !sound)
             return sound.error();
-        Stopwatch writing;
         const auto written = write_folder(command, {*model, arranged->sealed, *leaks}, session);
         if (!written) return written.error();
         say_written(summary_stream(files), command.folder);
@@ -279,10 +275,9 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
                 model.value(), command.folder, command.part_format, session);
             if (!proved) return proved.error();
         }
-        statistics["seconds"]["write"] = writing.lap();
     }
     add_page_certificate(*page, files, command.certificate, clean, session);
-    return write_run(*page, statistics, files, total.lap(), clean);
+    return write_run(*page, statistics, files, session, clean);
 }
 
 } // namespace

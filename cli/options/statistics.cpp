@@ -20,14 +20,13 @@ double peak_memory() {
     return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-Json statistics_of(const Inputs& inputs, const StageTimes& times) {
+Json statistics_of(const Inputs& inputs) {
     Json json;
     json["version"] = TERRANE_VERSION;
     json["input"] = {{"surfaces", inputs.labels.size()},
                      {"triangles", inputs.triangles},
                      {"vertices", inputs.vertices}};
     add_constants(json, "read", point_constants());
-    json["seconds"]["read"] = times.latest("read");
     return json;
 }
 
@@ -48,13 +47,7 @@ void add_statistics(Json& json, const Arrangement& a) {
                           {"exact", s.predicates.exact}};
 }
 
-void add_arrangement_times(Json& json, const std::string& stage, const StageTimes& times) {
-    for (const char* step : {"prepare", "search", "intersect", "triangulate", "stitch"})
-        json["seconds"][step] = times.latest(stage + "/" + step);
-    json["seconds"]["stitch"] = times.latest(stage + "/stitch") + times.latest(stage + "/assemble");
-}
-
-void add_statistics(Json& json, const RoundedMesh& rounded, const StageTimes& times) {
+void add_statistics(Json& json, const RoundedMesh& rounded) {
     const Mesh& m = rounded.mesh;
     const RoundingReport& r = rounded.report;
     json["output"] = {{"triangles", m.triangles.size()},
@@ -80,9 +73,6 @@ void add_statistics(Json& json, const RoundedMesh& rounded, const StageTimes& ti
                         {"vanished_input_triangles", r.vanished.size()}};
     if (r.pairs) json["rounding"]["pairs"] = json_of(*r.pairs);
     add_constants(json, "round", rounding_constants());
-    const double regions = times.latest("round/regions");
-    json["seconds"]["round"] = times.latest("round") - regions;
-    json["seconds"]["regions"] = regions;
 }
 
 Json json_of(const PairCounts& pairs) {
@@ -98,9 +88,16 @@ void add_constants(Json& json, const char* stage, std::span<const NamedConstant>
     for (const NamedConstant& c : constants) all[std::string(c.name)] = c.value;
 }
 
-Status write_statistics(Json json, const std::string& path, double total_seconds) {
+Json seconds_json(const Session& session) {
+    Json json = Json::object();
+    for (const auto& [stage, seconds] : session.seconds().all()) json[stage] = seconds;
+    json["total"] = session.elapsed();
+    return json;
+}
+
+Status write_statistics(Json json, const std::string& path, const Session& session) {
     if (path.empty()) return Done{};
-    json["seconds"]["total"] = total_seconds;
+    json["seconds"] = seconds_json(session);
     json["peak_rss_mb"] = peak_memory();
     return write_file(path, text_of(json));
 }

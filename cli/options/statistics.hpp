@@ -8,7 +8,6 @@
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/core/named_constant.hpp>
-#include <terrane/algorithms/core/stage_times.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/io/text/json.hpp>
@@ -17,15 +16,12 @@ namespace terrane::cli {
 
 using Json = detail::Json;
 
-/// Starts the document with the version, the input's counts, and the time and the constants of
-/// reading. add_statistics adds the keys of the stages that were run.
-Json statistics_of(const Inputs& inputs, const StageTimes& times);
+/// Starts the document with the version, the input's counts, and the constants of reading. add_statistics adds the keys of the stages that were run.
+Json statistics_of(const Inputs& inputs);
 /// Adds the keys search, arrangement and predicates.
 void add_statistics(Json& json, const Arrangement& arrangement);
-/// Adds the keys output and rounding, with the times and the constants of rounding.
-void add_statistics(Json& json, const RoundedMesh& rounded, const StageTimes& times);
-/// Adds the times of the steps of an arrangement; `stage` is its path, "arrange" or "seal/arrange".
-void add_arrangement_times(Json& json, const std::string& stage, const StageTimes& times);
+/// Adds the keys output and rounding, with the constants of rounding.
+void add_statistics(Json& json, const RoundedMesh& rounded);
 
 /// Returns the keys tested, in_patches, separated, unmoved and apart.
 Json json_of(const PairCounts& pairs);
@@ -33,9 +29,10 @@ Json json_of(const PairCounts& pairs);
 /// Adds the constants of a stage under the key constants.
 void add_constants(Json& json, const char* stage, std::span<const NamedConstant> constants);
 
-/// Adds the total time and the peak memory, and writes the document; does nothing for an empty
-/// path.
-Status write_statistics(Json json, const std::string& path, double total_seconds);
+/// Returns the seconds of the stages that have ended, and of the whole run so far.
+Json seconds_json(const Session& session);
+/// Adds these seconds and the peak memory, and writes the document; does nothing for an empty path.
+Status write_statistics(Json json, const std::string& path, const Session& session);
 
 /// Returns the peak resident memory of the process in MiB.
 double peak_memory();

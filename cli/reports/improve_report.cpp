@@ -166,10 +166,8 @@ std::string improve_text(const ImprovedAndMeasured& measured, const Inputs& inpu
            deviation_text(measured, inputs);
 }
 
-void add_statistics(Json& json, const ImprovedAndMeasured& measured, const StageTimes& times) {
+void add_statistics(Json& json, const ImprovedAndMeasured& measured) {
     add_constants(json, "improve", improve_constants());
-    json["seconds"]["improve"] = times.latest("improve");
-    json["seconds"]["measure"] = times.latest("measure");
     const Improved& improved = measured.improved;
     const ImproveReport& r = improved.report;
     json["output"]["triangles"] = improved.mesh->triangles.size();

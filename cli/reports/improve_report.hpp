@@ -22,7 +22,7 @@ bool keeps_volumes(const ImprovedAndMeasured& measured, bool strict,
 std::string improve_text(const ImprovedAndMeasured& measured, const Inputs& inputs);
 
 /// Adds "improve" (counts of operations), "quality" (before, after), "deviation" and the times.
-void add_statistics(Json& json, const ImprovedAndMeasured& measured, const StageTimes& times);
+void add_statistics(Json& json, const ImprovedAndMeasured& measured);
 
 /// Draws the histograms of triangle quality as SVG, after the paper's Figure 19.
 std::string histogram_of(const ImproveReport& report);

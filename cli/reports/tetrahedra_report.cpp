@@ -231,12 +231,9 @@ std::string filled_text(const FilledBlocks& filled, const std::string& unit) {
     return text + report_text(filled.report);
 }
 
-void add_statistics(Json& json, const FilledBlocks& filled, const StageTimes& times) {
+void add_statistics(Json& json, const FilledBlocks& filled) {
     add_constants(json, "structure", structure_constants()); // they decide the names of regions
     add_constants(json, "tetrahedralize", tetrahedra_constants());
-    json["seconds"]["tetrahedralize"] = times.latest("tetrahedralize");
-    json["seconds"]["check"] = times.latest("check");
-    json["seconds"]["split"] = times.latest("split");
     const TetrahedralMesh& mesh = filled.tetrahedra;
     json["output"]["volumes"] = mesh.region_count - 1;
     Json volumes = Json::array();
@@ -252,7 +249,6 @@ void add_statistics(Json& json, const FilledBlocks& filled, const StageTimes& ti
                           {"twin_faces", mesh.twins.size()}};
     if (filled.optimised) {
         add_constants(json, "optimise", optimise_constants());
-        json["seconds"]["optimise"] = times.latest("optimise");
         json["tetrahedra"]["optimised"] = optimised_json(*filled.optimised);
     }
     json["tetrahedra"]["check"] = report_json(filled.report);

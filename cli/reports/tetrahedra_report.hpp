@@ -27,7 +27,7 @@ Json report_json(const TetrahedraReport& report);
 std::string filled_text(const FilledBlocks& filled, const std::string& unit);
 
 /// Adds counts, volumes, checks and times of the tetrahedra.
-void add_statistics(Json& json, const FilledBlocks& filled, const StageTimes& times);
+void add_statistics(Json& json, const FilledBlocks& filled);
 
 /// Says what was done to the improved surfaces where tetrahedra were bad: what the rounds came to in
 /// which triangles became smaller, and how far vertices moved; empty if nothing was done.

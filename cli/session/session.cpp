@@ -6,6 +6,7 @@
 #include <csignal>
 #include <ctime>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 #include <pthread.h>
@@ -77,7 +78,7 @@ Session::Session(unsigned threads) :
         const std::lock_guard lock(mutex_);
         enter(stage, share);
     };
-    run_.timing = times_.observer();
+    run_.timing = [this](std::string_view stage, double seconds) { seconds_.end(stage, seconds); };
     const auto set = watched_signals();
     pthread_sigmask(SIG_BLOCK, &set, nullptr);
     watcher_ = std::jthread([this](const std::stop_token& over) { watch(over); });
@@ -94,7 +95,21 @@ void Session::use_threads(unsigned threads) {
     run_.threads = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
 }
 
+double Session::elapsed() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+}
+
+void Session::end_timed() {
+    const auto now = std::chrono::steady_clock::now();
+    if (!timed_.empty())
+        seconds_.end(std::exchange(timed_, {}),
+                     std::chrono::duration<double>(now - timed_since_).count(), now);
+    timed_since_ = now;
+}
+
 void Session::begin(std::string_view stage, Phase phase) {
+    end_timed();
+    timed_ = stage;
     phase_ = phase;
     const std::lock_guard lock(mutex_);
     enter(stage, 0);
@@ -117,6 +132,7 @@ void Session::number(std::size_t stage, std::size_t stages) {
 }
 
 void Session::end_stage() {
+    end_timed();
     phase_ = Phase::idle;
     const std::lock_guard lock(mutex_);
     stage_.clear();

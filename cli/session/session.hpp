@@ -13,7 +13,7 @@
 #include <thread>
 
 #include <terrane/algorithms/core/run.hpp>
-#include <terrane/algorithms/core/stage_times.hpp>
+#include <terrane/cli/session/stage_seconds.hpp>
 #include <terrane/cli/session/time_left.hpp>
 
 namespace terrane::cli {
@@ -43,14 +43,17 @@ public:
     /// Sets the number of threads of stages that begin later; 0: all cores.
     void use_threads(unsigned threads);
     /// How long the stages took that have ended.
-    [[nodiscard]] const StageTimes& times() const { return times_; }
+    [[nodiscard]] const StageSeconds& seconds() const { return seconds_; }
+    /// Returns the seconds since the session was made.
+    [[nodiscard]] double elapsed() const;
     [[nodiscard]] bool stopped() const { return source_.stop_requested(); }
 
-    /// Shows the name of a stage and sets the phase, which decides what an interrupt does.
+    /// Ends the stage before, shows the name of a stage and sets the phase, which decides what an
+    /// interrupt does. The time up to its end counts for it, but for what its steps report.
     void begin(std::string_view stage, Phase phase);
     /// Shows "stage 2 of 5: " before the names of the stages that follow.
     void number(std::size_t stage, std::size_t stages);
-    /// Removes the progress line until the next stage.
+    /// Ends the stage, and removes the progress line until the next one.
     void end_stage();
 
 private:
@@ -60,11 +63,15 @@ private:
     [[noreturn]] void end_at_once();
     [[noreturn]] void end_by(int signal);
     void show();
+    /// Adds the time of the stage that begin() began.
+    void end_timed();
     /// Notes the stage and its share; the caller holds mutex_.
     void enter(std::string_view stage, double share);
 
     std::stop_source source_;
-    StageTimes times_;
+    StageSeconds seconds_;
+    std::string timed_; ///< the stage that begin() began; empty: it has ended
+    std::chrono::steady_clock::time_point timed_since_;
     Run run_;
     std::atomic<Phase> phase_ = Phase::idle;
 

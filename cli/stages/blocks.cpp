@@ -130,10 +130,8 @@ std::string leaks_text(const Inputs& inputs, const Model& model,
 
 } // namespace
 
-void add_statistics(Json& json, const Model& model, const StageTimes& times) {
+void add_statistics(Json& json, const Model& model) {
     add_constants(json, "structure", structure_constants());
-    json["seconds"]["volumes"] = times.latest("volumes");
-    json["seconds"]["structure"] = times.latest("structure");
     json["output"]["volumes"] = model.block_count();
     Json volumes = Json::array();
     for (std::size_t b = 1; b < model.exact_volumes.size(); ++b)
@@ -156,7 +154,7 @@ Result<Model> find_model(const Arranged& arranged, const BlockNaming& naming, Se
     auto model =
         make_model(arranged.exact, arranged.rounded.conforming.value(), session.run(), naming);
     session.end_stage();
-    if (model) add_statistics(statistics, *model, session.times());
+    if (model) add_statistics(statistics, *model);
     return model;
 }
 

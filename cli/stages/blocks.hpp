@@ -19,7 +19,7 @@ Result<Model> find_model(const Arranged& arranged, const BlockNaming& naming, Se
                          Json& statistics);
 
 /// Adds the model's counts, volumes and times to the statistics.
-void add_statistics(Json& statistics, const Model& model, const StageTimes& times);
+void add_statistics(Json& statistics, const Model& model);
 
 /// Judges the leaks of an arrangement, unless it was sealed or no surface ends. Errors: those of
 /// terrane::judge_leaks.

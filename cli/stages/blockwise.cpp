@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
 #include <terrane/algorithms/distribution/local_supersteps.hpp>
 #include <terrane/algorithms/distribution/pieces.hpp>
@@ -228,7 +227,6 @@ std::optional<std::uint64_t> bytes_of_size(std::string_view text) {
 
 Result<ExitStatus> arrange_blockwise(const FileOptions& files, const BlockwiseOptions& options,
                                      Session& session) {
-    Stopwatch total;
     if (const auto sound = check_alone(*files.app); !sound) return sound.error();
     if (const auto sound = check_outputs(files); !sound) return sound.error();
     const Spool spool(files.outputs.front());
@@ -268,7 +266,7 @@ Result<ExitStatus> arrange_blockwise(const FileOptions& files, const BlockwiseOp
     if (const auto written = write_in_blocks(files, blocks, made, session); !written)
         return written.error();
     Json statistics = distribution_json(made.report, made.repaired(), count);
-    if (const auto done = write_statistics(std::move(statistics), files.stats, total.lap()); !done)
+    if (const auto done = write_statistics(std::move(statistics), files.stats, session); !done)
         return done.error();
     return ExitStatus::done;
 }

@@ -215,6 +215,7 @@ Result<std::string> certificate_text(const std::string& path, const ProofFiles& 
 Status write_proof(const ProofOptions& options, const ProofFiles& files, const Inputs& inputs,
                    const Arranged& arranged, Session& session) {
     if (!options.certificate.empty()) {
+        session.begin("certificate", Phase::computing);
         const auto text = certificate_text(options.certificate, files, inputs, arranged, session);
         if (!text) return text.error();
         if (auto status = write(options.certificate, text.value(), files.told, session); !status)
@@ -223,6 +224,7 @@ Status write_proof(const ProofOptions& options, const ProofFiles& files, const I
                           arranged.surfaces);
     }
     if (options.exact.empty()) return Done{};
+    session.begin("write", Phase::computing);
     return write(options.exact, to_text(to_exact(arranged.exact, session.run())), files.told,
                  session);
 }
@@ -230,6 +232,7 @@ Status write_proof(const ProofOptions& options, const ProofFiles& files, const I
 Status write_improved_certificate(const std::string& path, const ProofFiles& files,
                                   const Inputs& inputs, const Arranged& before,
                                   const Improved& improved, Session& session) {
+    session.begin("certificate", Phase::computing);
     const auto records = record_inputs(path, files.inputs, inputs);
     if (!records) return records.error();
     const auto outputs = record_outputs(path, files, improved.mesh);
@@ -250,6 +253,7 @@ Status write_improved_certificate(const std::string& path, const ProofFiles& fil
 Status write_filled_certificate(const std::string& path, const ProofFiles& files,
                                 const Inputs& inputs, const FillWork& work, const Mesh& mesh,
                                 Session& session) {
+    session.begin("certificate", Phase::computing);
     const auto records = record_inputs(path, files.inputs, inputs);
     if (!records) return records.error();
     const auto outputs = record_outputs(path, files, mesh);
@@ -265,6 +269,7 @@ Status write_filled_certificate(const std::string& path, const ProofFiles& files
 Status write_layered_certificate(const std::string& path, const ProofFiles& files,
                                  const Inputs& inputs, std::span<const Layer> order,
                                  const Layered& layered, Session& session) {
+    session.begin("certificate", Phase::computing);
     const auto records = record_inputs(path, files.inputs, inputs);
     if (!records) return records.error();
     const auto outputs = record_outputs(path, files, layered.rounded.mesh);

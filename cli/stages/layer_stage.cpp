@@ -35,14 +35,13 @@ Result<Layered> layer_inputs(const Inputs& inputs, const std::vector<Layer>& ord
     auto layered = stack_layers(inputs.surfaces, order, options, session.run());
     session.end_stage();
     if (!layered) return layered.error();
-    add_statistics(statistics, inputs, layered.value().reports, session.times());
+    add_statistics(statistics, inputs, layered.value().reports);
     if (const auto& pairs = layered.value().rounded.report.pairs)
         statistics["rounding"]["pairs"] = json_of(*pairs);
     return layered;
 }
 
-void add_statistics(Json& json, const Inputs& inputs, std::span<const LayerReport> reports,
-                    const StageTimes& times) {
+void add_statistics(Json& json, const Inputs& inputs, std::span<const LayerReport> reports) {
     Json all = Json::array();
     for (const LayerReport& r : reports)
         all.push_back({{"name", inputs.labels[r.surface]},
@@ -55,7 +54,6 @@ void add_statistics(Json& json, const Inputs& inputs, std::span<const LayerRepor
                        {"step_length", r.step_length}});
     json["layers"] = std::move(all);
     add_constants(json, "round", rounding_constants());
-    json["seconds"]["layers"] = times.latest("layers");
 }
 
 std::string text_of(const Inputs& inputs, std::span<const LayerReport> reports,

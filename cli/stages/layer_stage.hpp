@@ -29,7 +29,6 @@ std::string text_of(const Inputs& inputs, std::span<const LayerReport> reports,
 std::string flaws_text(const RoundingReport& rounding, std::span<const OutOfOrder> out_of_order);
 
 /// Adds the key layers, one entry per layer, with the time and the constants of the rounding.
-void add_statistics(Json& json, const Inputs& inputs, std::span<const LayerReport> reports,
-                    const StageTimes& times);
+void add_statistics(Json& json, const Inputs& inputs, std::span<const LayerReport> reports);
 
 } // namespace terrane::cli

@@ -77,11 +77,9 @@ page::CertificateVerdict judged_by_verifier(const FileOptions& files,
 }
 
 /// Returns what differs from run to run: seconds by stage, memory, threads.
-Json run_json(const Json& statistics, double total_seconds, const FileOptions& files) {
+Json run_json(const FileOptions& files, const Session& session) {
     Json run;
-    const Json* const seconds = statistics.find("seconds");
-    run["seconds"] = seconds == nullptr ? Json::object() : *seconds;
-    run["seconds"]["total"] = total_seconds;
+    run["seconds"] = seconds_json(session);
     run["peak_rss_mb"] = peak_memory();
     run["threads"] = files.threads;
     return run;
@@ -89,7 +87,7 @@ Json run_json(const Json& statistics, double total_seconds, const FileOptions& f
 
 } // namespace
 
-Result<page::Page> plan_page(const FileOptions& files) {
+Result<page::Page> plan_page(const FileOptions& files, const Session& session) {
     if (files.report.empty()) return page::Page();
     if (const auto possible = page::check_pages(); !possible)
         return Error{possible.error().code, possible.error().sentence, "--report"};
@@ -98,7 +96,8 @@ Result<page::Page> plan_page(const FileOptions& files) {
                        .title = title_of(files),
                        .unit = {},
                        .options = given_options(*files.app),
-                       .files = {}});
+                       .files = {}},
+                      session.run().timing);
 }
 
 Status add_page_inputs(page::Page& page, const FileOptions& files, const Inputs& inputs) {
@@ -121,20 +120,21 @@ void add_page_certificate(page::Page& page, const FileOptions& files,
 }
 
 Status write_page(page::Page& page, const FileOptions& files, const Json& statistics,
-                  double total_seconds) {
+                  Session& session) {
     if (!page.wanted()) return Done{};
-    const auto html = page.html(statistics, run_json(statistics, total_seconds, files));
+    session.begin("page", Phase::writing);
+    const auto html = page.html(statistics, run_json(files, session));
     if (!html) return html.error();
     auto done = write_file(files.report, *html);
+    session.end_stage();
     if (done) say_written(summary_stream(files), files.report);
     return done;
 }
 
 Result<ExitStatus> write_run(page::Page& page, const Json& statistics, const FileOptions& files,
-                             double total_seconds, bool good) {
-    if (const auto done = write_page(page, files, statistics, total_seconds); !done)
-        return done.error();
-    if (const auto done = write_statistics(statistics, files.stats, total_seconds); !done)
+                             Session& session, bool good) {
+    if (const auto done = write_page(page, files, statistics, session); !done) return done.error();
+    if (const auto done = write_statistics(statistics, files.stats, session); !done)
         return done.error();
     return good ? ExitStatus::done : ExitStatus::negative;
 }

@@ -15,7 +15,7 @@ namespace terrane::cli {
 
 /// Checks before any work is done that the page can be written, and begins it if --report is given.
 /// Errors: unsupported in a build without pages, cannot_open.
-Result<page::Page> plan_page(const FileOptions& files);
+Result<page::Page> plan_page(const FileOptions& files, const Session& session);
 
 /// Takes the unit, and hashes the input files. Call it before surfaces are moved. Errors:
 /// cannot_open.
@@ -28,11 +28,11 @@ void add_page_certificate(page::Page& page, const FileOptions& files,
 
 /// Writes the page, with the statistics of the run. Errors: those of writing.
 Status write_page(page::Page& page, const FileOptions& files, const Json& statistics,
-                  double total_seconds);
+                  Session& session);
 
 /// Writes the page and the statistics of a run, as far as they are wanted. Returns the status of a
 /// run with this result. Errors: those of writing.
 Result<ExitStatus> write_run(page::Page& page, const Json& statistics, const FileOptions& files,
-                             double total_seconds, bool good);
+                             Session& session, bool good);
 
 } // namespace terrane::cli

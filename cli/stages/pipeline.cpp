@@ -223,12 +223,10 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
     add_volume_options(command, settings.volume);
 }
 
-void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& inputs,
-                    const StageTimes& times) {
+void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& inputs) {
     if (arranged.extended) {
         add_statistics(statistics, *arranged.extended);
         add_constants(statistics, "extend", extension_constants());
-        statistics["seconds"]["extend"] = times.latest("extend");
     }
     if (arranged.choice) {
         add_statistics(statistics, *arranged.choice);
@@ -236,22 +234,18 @@ void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& in
     }
     if (arranged.sealed) {
         add_constants(statistics, "seal", seal_constants());
-        statistics["seconds"]["seal"] = times.latest("seal");
         add_statistics(statistics, *arranged.sealed, inputs);
     }
     add_statistics(statistics, arranged.exact);
-    add_arrangement_times(statistics, arranged.sealed ? "seal/arrange" : "arrange", times);
     if (arranged.cut) {
         add_statistics(statistics, *arranged.cut, inputs);
         add_constants(statistics, "volume_of_interest", boundary_constants());
-        statistics["seconds"]["volume_of_interest"] = times.latest("volume of interest");
     }
     if (arranged.merged) {
         add_statistics(statistics, *arranged.merged, inputs);
         add_constants(statistics, "small_blocks", small_block_constants());
-        statistics["seconds"]["small_blocks"] = times.latest("small blocks");
     }
-    add_statistics(statistics, arranged.rounded, times);
+    add_statistics(statistics, arranged.rounded);
 }
 
 Result<ArrangeWithinOptions> options_within(const ArrangeSettings& settings, const Inputs& inputs) {
@@ -292,7 +286,8 @@ Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settin
         if (!made) return made.error();
         boundary = std::move(made).value();
     }
-    if (const auto sound = examine(inputs, {boundary, settings.blocks}, statistics); !sound)
+    if (const auto sound = examine(inputs, {boundary, settings.blocks}, session, statistics);
+        !sound)
         return sound.error();
     session.begin("arrange", Phase::computing);
     auto arranged =
@@ -300,7 +295,7 @@ Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settin
     session.end_stage();
     if (!arranged) return arranged;
     inputs.labels = unique_labels(infos_of(arranged->surfaces));
-    add_statistics(statistics, *arranged, inputs, session.times());
+    add_statistics(statistics, *arranged, inputs);
     return arranged;
 }
 

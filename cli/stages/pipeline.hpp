@@ -50,8 +50,7 @@ Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settin
                                    Session& session, Json& statistics);
 
 /// Adds counts and times of all steps to `statistics`.
-void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& inputs,
-                    const StageTimes& times);
+void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& inputs);
 
 /// Reports the surfaces with their triangles, regions and areas, what was set aside, and the
 /// rounding.

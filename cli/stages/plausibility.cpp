@@ -30,20 +30,28 @@ Status report_doubts(const std::vector<PlausibilityWarning>& warnings,
         "--strict");
 }
 
-Status examine(const Inputs& inputs, const PlausibilityContext& context, Json& statistics) {
+Status examine(const Inputs& inputs, const PlausibilityContext& context, Session& session,
+               Json& statistics) {
+    session.begin("plausibility", Phase::computing);
     add_constants(statistics, "plausibility", plausibility_constants());
-    return report_doubts(find_doubts(inputs.surfaces, context), inputs.labels, inputs.strict,
-                         statistics);
+    auto sound = report_doubts(find_doubts(inputs.surfaces, context), inputs.labels, inputs.strict,
+                               statistics);
+    session.end_stage();
+    return sound;
 }
 
-Status examine(const Model& model, const Inputs& inputs, bool blocks, Json& statistics) {
+Status examine(const Model& model, const Inputs& inputs, bool blocks, Session& session,
+               Json& statistics) {
+    session.begin("plausibility", Phase::computing);
     const Json& said = statistics["warnings"];
     const bool open = std::ranges::any_of(said, [](const Json& warning) {
         return warning["about"] == name_of(Doubt::no_top) ||
                warning["about"] == name_of(Doubt::no_base);
     });
-    return report_doubts(find_model_doubts(model, blocks && !open), inputs.labels, inputs.strict,
-                         statistics);
+    auto sound = report_doubts(find_model_doubts(model, blocks && !open), inputs.labels,
+                               inputs.strict, statistics);
+    session.end_stage();
+    return sound;
 }
 
 } // namespace terrane::cli

@@ -18,10 +18,12 @@ Status report_doubts(const std::vector<PlausibilityWarning>& warnings,
                      const std::vector<std::string>& labels, bool strict, Json& statistics);
 
 /// Looks for mistakes in the inputs and reports them, before any work is done on them.
-Status examine(const Inputs& inputs, const PlausibilityContext& context, Json& statistics);
+Status examine(const Inputs& inputs, const PlausibilityContext& context, Session& session,
+               Json& statistics);
 
 /// Looks for mistakes that show once blocks are found. That there is no block is said only if
 /// `blocks` are wanted and no warning about a missing top or base has said so.
-Status examine(const Model& model, const Inputs& inputs, bool blocks, Json& statistics);
+Status examine(const Model& model, const Inputs& inputs, bool blocks, Session& session,
+               Json& statistics);
 
 } // namespace terrane::cli

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/io/page/contact_lines.hpp>
@@ -49,6 +50,7 @@ void Page::set_inputs(std::string unit, std::vector<std::string> files) {
 Status Page::add_file(const std::string& path) {
     return guarded("for the page", "page", [&]() -> Status {
         if (!wanted_) return Done{};
+        const StageTimer timer(run_, "page");
         if (path == "-") {
             inputs_.push_back({"standard input", nullptr, nullptr});
             return Done{};
@@ -69,6 +71,7 @@ Status Page::add_check(std::span<const Surface> surfaces, const CheckReport& rep
                        const Run& run) {
     return guarded("for the page", "page", [&]() -> Status {
         if (!wanted_) return Done{};
+        const StageTimer timer(run_, "page");
         add_mesh(SharedMesh(concatenate(surfaces)));
         add_flaws(findings_, report, surfaces);
         add_contact_lines(scene_, **mesh_, report.contacts);
@@ -81,12 +84,15 @@ Status Page::add_check(std::span<const Surface> surfaces, const CheckReport& rep
 
 Status Page::add_holes(std::span<const Surface> surfaces, const Run& run) {
     return guarded("for the page", "page", [&]() -> Status {
-        return wanted_ ? page::add_holes(findings_, surfaces, run) : Status(Done{});
+        if (!wanted_) return Done{};
+        const StageTimer timer(run_, "page");
+        return page::add_holes(findings_, surfaces, run);
     });
 }
 
 void Page::add_mesh(const SharedMesh& mesh) {
     if (!wanted_) return;
+    const StageTimer timer(run_, "page");
     describe(mesh->surfaces);
     scene_ = scene_of(*mesh);
     mesh_ = mesh;
@@ -94,6 +100,7 @@ void Page::add_mesh(const SharedMesh& mesh) {
 
 void Page::add_rounded(const SharedMesh& mesh, const RoundingReport& report) {
     if (!wanted_) return;
+    const StageTimer timer(run_, "page");
     add_mesh(mesh);
     add_contacts(findings_, *mesh, report, labels_);
     add_contact_lines(scene_, *mesh, report.contacts);
@@ -115,6 +122,7 @@ void Page::add_arranged(const Arranged& arranged) {
 
 void Page::add_improved(const SharedMesh& improved, const SharedMesh& before) {
     if (!wanted_) return;
+    const StageTimer timer(run_, "page");
     before_ = before;
     scene_ = scene_of(*improved);
     mesh_ = improved;
@@ -122,6 +130,7 @@ void Page::add_improved(const SharedMesh& improved, const SharedMesh& before) {
 
 void Page::add_model(const Model& model, const std::optional<LeakAdvice>& leaks) {
     if (!wanted_) return;
+    const StageTimer timer(run_, "page");
     describe(model.mesh->surfaces);
     scene_ = scene_of(model);
     mesh_ = model.mesh.mesh();
@@ -135,6 +144,7 @@ void Page::add_model(const Model& model, const std::optional<LeakAdvice>& leaks)
 
 void Page::add_tetrahedra(const FilledBlocks& filled) {
     if (!wanted_) return;
+    const StageTimer timer(run_, "page");
     page::add_tetrahedra(scene_, filled.tetrahedra, most_tetrahedra);
     add_worst_tetrahedra(findings_, filled.tetrahedra, filled.block_names);
     add_tetrahedra_plots(plots_, filled.report.shape);
@@ -148,6 +158,7 @@ void Page::add_tetrahedra(const FilledBlocks& filled) {
 
 void Page::add_filled(const FillWork& work) {
     if (!wanted_) return;
+    const StageTimer timer(run_, "page");
     std::vector<Surface> surfaces;
     for (const HoledSurface& s : work.surfaces) surfaces.push_back(s.filled);
     add_mesh(SharedMesh(concatenate(surfaces)));

@@ -3,9 +3,11 @@
 // The report page of a run: one HTML file with the model, what is wrong with it, and its numbers.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -52,7 +54,11 @@ Status check_pages();
 class Page {
 public:
     Page() = default; ///< no page is wanted
-    explicit Page(PageFacts facts) : wanted_(true), facts_(std::move(facts)) {}
+    /// `timing` is told how long the page took, as Run::timing is.
+    explicit Page(PageFacts facts, std::function<void(std::string_view, double)> timing = {}) :
+        wanted_(true), facts_(std::move(facts)) {
+        run_.timing = std::move(timing);
+    }
 
     [[nodiscard]] bool wanted() const { return wanted_; }
     /// Adds facts that are known only after the page was begun.
@@ -103,6 +109,7 @@ private:
     [[nodiscard]] Json content(Json statistics, Arrays& arrays);
 
     bool wanted_ = false;
+    Run run_; ///< its timing alone
     PageFacts facts_;
     std::vector<SurfaceInfo> surfaces_;
     std::vector<std::string> labels_; ///< per surface

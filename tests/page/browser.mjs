@@ -105,7 +105,7 @@ async function open(browser, name, options = {}) {
       camera: view.camera.position.toArray(), target: view.controls.target.toArray(), zoom: view.camera.zoom,
       perspective: view.viewpoint.isPerspective, scale: view.items[0]?.mesh.parent.scale.z, marked: view.marked,
       items: view.items.map((i) => ({
-        kind: i.kind, number: i.number, visible: i.mesh.visible, at: i.mesh.position.toArray(), centre: i.centre.toArray(),
+        kind: i.kind, number: i.numbers[0], visible: i.mesh.visible, at: i.mesh.position.toArray(), centre: i.centre.toArray(),
         colour: i.mesh.material.color.getHexString(), opacity: i.mesh.material.opacity, planes: i.mesh.material.clippingPlanes.map(
           (p) => [...p.normal.toArray(), p.constant]),
         edges: !!i.edges?.visible, cap: i.cap ? i.cut.area : 0,

@@ -27,9 +27,9 @@ export async function trySection(page, hasTetrahedra) {
       for (let i = 0; i < count; ++i) {
         view.cutAt({ axis: k, share: (i + 0.5) / count, flipped: false });
         for (const item of view.items.filter((i) => i.kind === "block"))
-          sum[item.number] = (sum[item.number] ?? 0) + item.cut.area * height / count;
+          sum[item.numbers[0]] = (sum[item.numbers[0]] ?? 0) + item.cut.area * height / count;
       }
-      return report.content.blocks.map((b) => [b.volume, sum[b.number] ?? 0, view.items.find((i) => i.kind === "block" && i.number === b.number)?.tetrahedra.length ?? 0]);
+      return report.content.blocks.map((b) => [b.volume, sum[b.number] ?? 0, view.items.find((i) => i.kind === "block" && i.numbers[0] === b.number)?.tetrahedra.length ?? 0]);
     }, [k, axis === "z" ? 100 : 25]);
     for (const [volume, sum, tetrahedra] of sums) {
       check(near(sum, volume, 0.02 * volume), "sections add up to the volume across " + axis, volume, sum);

@@ -25,6 +25,9 @@ inline std::vector<std::int32_t> as_cells(const std::vector<std::uint32_t>& numb
     return {numbers.begin(), numbers.end()};
 }
 
+/// Stands for the format in which all blocks are one file, and all interfaces another one.
+inline constexpr const char* together = "together";
+
 /// Makes files one after the other.
 class FolderFiles {
 public:
@@ -36,17 +39,15 @@ public:
         add_result();
         StructureExtras extras;
         extras.block_files.resize(s.blocks.size());
-        for (std::uint32_t b = 1; b < s.blocks.size(); ++b) {
-            if (s.blocks[b].interfaces.empty()) continue;
-            extras.block_files[b] = "blocks/block_" + std::to_string(b) + "." + part_format_;
-            add_part(extras.block_files[b], block_part(model_.mesh, model_.volumes, s, BlockId(b)));
-        }
-        for (std::uint32_t i = 0; i < s.interfaces.size(); ++i) {
-            extras.interface_files.push_back("interfaces/interface_" + std::to_string(i) + "." +
-                                             part_format_);
-            add_part(extras.interface_files[i],
-                     interface_part(model_.mesh, model_.volumes, s, InterfaceId(i)));
-        }
+        for (std::uint32_t b = 1; b < s.blocks.size(); ++b)
+            if (!s.blocks[b].interfaces.empty())
+                extras.block_files[b] = name("blocks", "/block_", b);
+        for (std::uint32_t i = 0; i < s.interfaces.size(); ++i)
+            extras.interface_files.push_back(name("interfaces", "/interface_", i));
+        if (part_format_ == together)
+            add_all_parts();
+        else
+            add_single_parts(extras);
         extras.exact_volumes = model_.exact_volumes;
         extras.exact_volumes.resize(s.blocks.size());
         extras.free_borders = model_.borders;
@@ -54,7 +55,39 @@ public:
         return std::move(files_);
     }
 
+    /// Returns the file of all blocks.
+    [[nodiscard]] std::string text_of(const MeshParts& blocks) {
+        add_part("blocks.vtp", blocks.all, {{"block", as_cells(blocks.part_of)}});
+        std::string text = std::move(files_.back().contents);
+        files_.pop_back();
+        return text;
+    }
+
 private:
+    [[nodiscard]] std::string name(const std::string& kind, const std::string& start,
+                                   std::size_t number) const {
+        if (part_format_ == together) return kind + ".vtp";
+        return kind + start + std::to_string(number) + "." + part_format_;
+    }
+
+    void add_single_parts(const StructureExtras& extras) {
+        const Structure& s = model_.structure;
+        const auto named = part_format_ == "vtp" ? PartSurfaces::own : PartSurfaces::all;
+        for (std::uint32_t b = 1; b < s.blocks.size(); ++b)
+            if (!extras.block_files[b].empty())
+                add_part(extras.block_files[b],
+                         block_part(model_.mesh, model_.volumes, s, BlockId(b), named));
+        for (std::uint32_t i = 0; i < s.interfaces.size(); ++i)
+            add_part(extras.interface_files[i],
+                     interface_part(model_.mesh, model_.volumes, s, InterfaceId(i), named));
+    }
+
+    void add_all_parts() {
+        const Structure& s = model_.structure;
+        files_.push_back({"blocks.vtp", text_of(block_parts(model_.mesh, model_.volumes, s))});
+        add_part("interfaces.vtp", interface_parts(model_.mesh, model_.volumes, s).all);
+    }
+
     void add(const std::string& name, const Mesh& mesh, const std::vector<CellArray>& cells) {
         WriteOptions options;
         if (name.ends_with("vtp")) options.cells = cells;
@@ -76,16 +109,17 @@ private:
              {"patch", as_cells(s.patch_of)}});
     }
 
-    void add_part(const std::string& name, const MeshPart& part) {
+    void add_part(const std::string& name, const MeshPart& part,
+                  std::vector<CellArray> cells = {}) {
         std::vector<std::uint32_t> interfaces, patches;
         for (const std::uint32_t t : part.triangles) {
             interfaces.push_back(model_.structure.interface_of[t]);
             patches.push_back(model_.structure.patch_of[t]);
         }
-        add(name, part.mesh,
-            {{"triangle", as_cells(part.triangles)},
-             {"interface", as_cells(interfaces)},
-             {"patch", as_cells(patches)}});
+        cells.push_back({"triangle", as_cells(part.triangles)});
+        cells.push_back({"interface", as_cells(interfaces)});
+        cells.push_back({"patch", as_cells(patches)});
+        add(name, part.mesh, cells);
     }
 
     const Model& model_;
@@ -93,7 +127,7 @@ private:
     std::vector<FolderFile> files_;
 };
 
-/// Returns the files of a folder with a model; parts are in this format.
+/// Returns the files of a folder with a model; parts are in this format, or `together`.
 inline std::vector<FolderFile> folder_of(const Model& model, const std::string& part_format) {
     return FolderFiles(model, part_format)();
 }

@@ -16,6 +16,24 @@ Point3 middle(const Point3& p, const Point3& q) {
     return {p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2};
 }
 
+/// Returns the least bound that is not nearer than a distance.
+double beyond(double distance) {
+    return std::nextafter(distance, HUGE_VAL);
+}
+
+BoxTree::Box box_of(const std::vector<Point3>& places, const std::vector<Triangle>& triangles) {
+    BoxTree::Box box{{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+    for (const Triangle& t : triangles)
+        for (const std::uint32_t v : t) {
+            const Point3& p = places[v];
+            box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y),
+                       std::min(box.low.z, p.z)};
+            box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y),
+                        std::max(box.high.z, p.z)};
+        }
+    return box;
+}
+
 } // namespace
 
 GapDistances::GapDistances(const Arrangement& a, SealDistances distances) :
@@ -24,12 +42,17 @@ GapDistances::GapDistances(const Arrangement& a, SealDistances distances) :
     std::vector<std::vector<Triangle>> triangles(a.surfaces.size());
     for (std::size_t t = 0; t < a.triangles.size(); ++t)
         for (const std::uint32_t s : a.surfaces_of[t]) triangles[s].push_back(a.triangles[t]);
-    for (auto& of_surface : triangles) trees_.emplace_back(places_, std::move(of_surface));
+    std::vector<BoxTree::Box> boxes;
+    for (auto& of_surface : triangles) {
+        boxes.push_back(box_of(places_, of_surface));
+        trees_.emplace_back(places_, std::move(of_surface));
+    }
+    boxes_ = BoxTree(std::move(boxes));
 }
 
 double GapDistances::bound(std::uint32_t surface, std::uint32_t other, double factor) const {
     const double distance = distances_.between(surface, other);
-    return distance > 0 ? std::nextafter(factor * distance, HUGE_VAL) : 0;
+    return distance > 0 ? beyond(factor * distance) : 0;
 }
 
 /// Measures the parts of an edge of which both ends and the middle have a nearest point.
@@ -95,7 +118,7 @@ std::optional<GapDistances::Near> GapDistances::nearest(const Point3& p, const B
                                                         double factor) const {
     std::optional<Near> best;
     double least = HUGE_VAL;
-    for (std::uint32_t s = 0; s < trees_.size(); ++s) {
+    for (const std::uint32_t s : boxes_.within(p, beyond(factor * distances_.largest()))) {
         if (std::binary_search(edge.own.begin(), edge.own.end(), s)) continue;
         const double most = std::min(least, bound(edge.surface, s, factor));
         if (!(most > 0)) continue;
@@ -110,7 +133,7 @@ std::optional<GapDistances::Near> GapDistances::nearest(const Point3& p, const B
 bool GapDistances::is_any_ahead(const Point3& p, const BorderEdge& edge, std::uint32_t except,
                                 double distance) const {
     const Point3 outward = outward_of(arrangement_, edge);
-    for (std::uint32_t s = 0; s < trees_.size(); ++s) {
+    for (const std::uint32_t s : boxes_.within(p, distance)) {
         if (s == except || std::binary_search(edge.own.begin(), edge.own.end(), s)) continue;
         const auto near = trees_[s].nearest(p, std::min(distance, bound(edge.surface, s)));
         if (near && dot(outward, minus(near->place, p)) > constants.least_ahead * near->distance)

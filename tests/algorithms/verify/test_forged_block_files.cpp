@@ -153,4 +153,67 @@ TEST_CASE("forged certificates of blocks: files") {
     }
 }
 
+TEST_CASE("forged certificates of blocks: all parts in two files") {
+    const Subject right = block_subject(nested(), block_folder::together);
+    REQUIRE(right.contents.size() == 4);
+    REQUIRE(judged(right) == "");
+    const auto output = [&](const std::string& name) {
+        for (std::size_t i = 0; i < right.contents.size(); ++i)
+            if (right.certificate["outputs"][i]["name"] == "model/" + name) return i;
+        FAIL(name);
+        return std::size_t(0);
+    };
+    const auto judged_with = [&](const std::string& name, const std::string& contents) {
+        Subject s = right;
+        s.contents[output(name)] = contents;
+        seal(s);
+        return judged(s);
+    };
+    const auto file = [&](const std::string& name) { return right.contents[output(name)]; };
+    SECTION("another file, one left out, or one there twice") {
+        CHECK(judged_with("blocks.vtp", file("interfaces.vtp")) == "R21");
+        CHECK(judged_with("interfaces.vtp", file("blocks.vtp")) == "R21");
+        CHECK(judged_with("interfaces.vtp", file("result.vtp")) == "R21");
+        for (std::size_t i = 0; i < right.contents.size(); ++i) {
+            Subject s = right;
+            s.certificate["outputs"].erase(i);
+            s.contents.erase(s.contents.begin() + static_cast<std::ptrdiff_t>(i));
+            CHECK(judged(s) == "R21");
+            s = right;
+            s.certificate["outputs"].push_back(Json(s.certificate["outputs"][i]));
+            s.contents.push_back(std::string(s.contents[i]));
+            CHECK(judged(s) == "R21");
+        }
+    }
+    SECTION("single files that model.json names") {
+        auto text = file("model.json");
+        const auto at = text.find("blocks.vtp");
+        REQUIRE(at != std::string::npos);
+        text.replace(at, 10, "blocks/block_1.vtp");
+        CHECK(judged_with("model.json", text) == "R21");
+    }
+    SECTION("blocks that are not those of the mesh") {
+        const Modelled m = modelled(nested());
+        const auto judged_after = [&](const auto& change) {
+            MeshParts parts = block_parts(m.model.mesh, m.model.volumes, m.model.structure);
+            change(parts);
+            block_folder::FolderFiles files(m.model, block_folder::together);
+            return judged_with("blocks.vtp", files.text_of(parts));
+        };
+        CHECK(judged_after([](MeshParts&) {}) == "");
+        CHECK(judged_after([](MeshParts& p) { ++p.part_of[0]; }) == "R21");
+        CHECK(judged_after([](MeshParts& p) { ++p.part_of.back(); }) == "R21");
+        CHECK(judged_after([](MeshParts& p) {
+                  std::swap(p.all.mesh.triangles[5][0], p.all.mesh.triangles[5][1]);
+              }) == "R21");
+        CHECK(judged_after([](MeshParts& p) {
+                  std::swap(p.all.mesh.triangles[0], p.all.mesh.triangles[1]);
+                  std::swap(p.all.triangles[0], p.all.triangles[1]);
+              }) == "R21");
+        CHECK(judged_after([](MeshParts& p) { p.all.mesh.vertices[3].x += 0x1p-40; }) == "R21");
+        CHECK(judged_after([](MeshParts& p) { p.all.mesh.surfaces_of.values[2] ^= 1; }) == "R21");
+        CHECK(judged_after([](MeshParts& p) { p.all.mesh.surfaces[0].name = "another"; }) == "R21");
+    }
+}
+
 } // namespace forged_block_files_test

@@ -3,14 +3,15 @@
 // What the view draws, and from how far away it must be seen.
 import { Vector3, type BufferGeometry, type Color, type LineSegments, type Mesh, type MeshLambertMaterial } from "three";
 import type { Axis, Cut } from "./caps";
-import type { Content, Part } from "./data";
 
-/** A surface or block as it is drawn. */
+/** A surface or block as it is drawn, or all those of a kind that are too many to be drawn one by one. */
 export interface Item {
   kind: "surface" | "block";
-  number: number;
+  numbers: number[]; ///< of its surfaces or blocks; the first alone, but for the rest of a kind
   filled: boolean; ///< of a surface: the triangles that fill its holes
   name: string;
+  area: number;   ///< as far as it is drawn as this item, before decimation
+  volume: number; ///< of blocks
   mesh: Mesh<BufferGeometry, MeshLambertMaterial>;
   geometry: BufferGeometry;      ///< all triangles; the mesh may have fewer while it turns
   coarse: Map<number, BufferGeometry>; ///< fewer triangles by level of `budgets`, made when they are needed
@@ -27,12 +28,16 @@ export interface Item {
 }
 export interface Pick { item: Item; place: [number, number, number]; point: Vector3; tetrahedron: number }
 export interface Section { axis: Axis; share: number; flipped: boolean }
-/** The area of a block, or of a surface as far as it is drawn as this item, before decimation. */
-export function areaOf(item: Item, content: Content): number {
-  const own = (part: Part) => item.kind === "block"
-    ? part.blocks !== null && part.blocks[0] !== part.blocks[1] && part.blocks.includes(item.number)
-    : part.filled === item.filled && part.surfaces.includes(item.number);
-  return content.parts.filter(own).reduce((sum, part) => sum + part.area, 0);
+
+/** Surfaces, and blocks, that are drawn and listed one by one, the largest; the rest is one item. */
+export const mostItems = 1000;
+
+/** Divides the numbers from `first` on into those of items of their own, by size, and the rest. */
+export function divided(first: number, sizes: number[], most = mostItems): { own: number[]; rest: number[] } {
+  const order = sizes.map((_, i) => i);
+  if (sizes.length > most) order.sort((a, b) => sizes[b] - sizes[a] || a - b);
+  const numbers = (list: number[]) => list.sort((a, b) => a - b).map((i) => i + first);
+  return { own: numbers(order.slice(0, most)), rest: numbers(order.slice(most)) };
 }
 
 export type ViewName = "perspective" | "top" | "north" | "east";

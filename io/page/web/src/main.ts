@@ -3,7 +3,6 @@
 // Puts the page together: the view with its controls on one side, tabs on the other.
 import "./page.css";
 import { readReport, type Content, type Finding, type Report, type RunInfo, type Table } from "./data";
-import { areaOf } from "./items";
 import { itemList, lineList } from "./lists";
 import { Plots } from "./plots";
 import { tableOf } from "./tables";
@@ -125,8 +124,8 @@ class Page {
     const panel = element("div", {}, controls(view));
     const of = (kind: Item["kind"]) => view.items.filter((item) => item.kind === kind);
     const choose = (item: Item) => this.choose(item);
-    if (of("block").length) panel.append(itemList("Blocks", of("block"), content, view, this.quantities, choose));
-    if (of("surface").length) panel.append(itemList("Surfaces", of("surface"), content, view, this.quantities, choose));
+    if (of("block").length) panel.append(itemList("Blocks", of("block"), view, this.quantities, choose));
+    if (of("surface").length) panel.append(itemList("Surfaces", of("surface"), view, this.quantities, choose));
     if (view.lines.length) panel.append(lineList(view, content, this.quantities));
     const { triangles, drawn, cell, tetrahedra_left_out: left } = content.view;
     if (cell > 0)
@@ -248,11 +247,11 @@ class Page {
     const extent = 2 * this.view.model.radius * this.view.model.unit;
     const rows: [string, Node | string][] = [];
     if (item.kind === "block") {
-      const block = this.content.blocks[item.number - 1];
-      rows.push([`Block ${item.number}`, named(block.name)], ["Volume", this.quantities.text(block.volume, "volume", 6)]);
+      const title = item.numbers.length === 1 ? `Block ${item.numbers[0]}` : "Blocks";
+      rows.push([title, named(item.name)], ["Volume", this.quantities.text(item.volume, "volume", 6)]);
       if (hit.tetrahedron >= 0) rows.push(["Tetrahedron", String(hit.tetrahedron)]);
     } else {
-      rows.push(["Surface", named(item.name)], ["Area", this.quantities.text(areaOf(item, this.content), "area", 6)]);
+      rows.push(["Surface", named(item.name)], ["Area", this.quantities.text(item.area, "area", 6)]);
     }
     hit.place.forEach((c, k) => rows.push(["xyz"[k], `${this.quantities.coordinate(c, extent)}${this.content.unit ? " " + this.content.unit : ""}`]));
     const distance = this.distance();

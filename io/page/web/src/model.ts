@@ -5,6 +5,15 @@
 import { BufferAttribute, BufferGeometry, Sphere, Vector3 } from "three";
 import type { Content, Part, Report } from "./data";
 
+function append<T>(lists: Map<number, T[]>, key: number, value: T): void {
+  const list = lists.get(key);
+  if (list) list.push(value);
+  else lists.set(key, [value]);
+}
+function areaOf(parts: Part[]): number {
+  return parts.reduce((sum, part) => sum + part.area, 0);
+}
+
 export class ModelGeometry {
   readonly vertices: Float32Array;
   readonly nodes: Float32Array;
@@ -18,6 +27,9 @@ export class ModelGeometry {
   private readonly regions: Uint32Array;
   private readonly position: BufferAttribute;
   private readonly content: Content;
+  private readonly partsOfSurface = new Map<number, Part[]>();
+  private readonly partsOfBlock = new Map<number, Part[]>(); ///< without parts that dangle in it
+  private readonly tetrahedraOfBlock = new Map<number, number[]>();
 
   constructor(report: Report) {
     this.content = report.content;
@@ -44,6 +56,11 @@ export class ModelGeometry {
     this.tetrahedra = report.array("tetrahedra");
     this.regions = report.array("regions");
     this.position = new BufferAttribute(this.vertices, 3);
+    for (const part of this.content.parts) {
+      for (const s of part.surfaces) append(this.partsOfSurface, s, part);
+      if (part.blocks && part.blocks[0] !== part.blocks[1]) for (const b of part.blocks) append(this.partsOfBlock, b, part);
+    }
+    this.regions.forEach((block, t) => append(this.tetrahedraOfBlock, block, t));
   }
 
   /** The place of a point in the input's coordinates. */
@@ -73,21 +90,24 @@ export class ModelGeometry {
     return index;
   }
 
-  surface(number: number, filled: boolean): BufferGeometry | null {
-    const parts = this.content.parts.filter((p) => p.filled === filled && p.surfaces.includes(number));
-    return parts.length ? this.geometry(this.indexOf(parts.map((part) => ({ part, turned: false })))) : null;
+  /** Surfaces, with their filled holes or without them; null if there are none. */
+  surfaces(numbers: number[], filled: boolean): { geometry: BufferGeometry; area: number } | null {
+    const parts = [...new Set(numbers.flatMap((s) => this.partsOfSurface.get(s) ?? []))].filter((p) => p.filled === filled);
+    if (parts.length === 0) return null;
+    return { geometry: this.geometry(this.indexOf(parts.map((part) => ({ part, turned: false })))), area: areaOf(parts) };
+  }
+  areaOfSurface(number: number): number {
+    return areaOf(this.partsOfSurface.get(number) ?? []);
   }
 
-  /** The closed boundary of a block, front side out. */
-  block(number: number): BufferGeometry {
-    const parts = this.content.parts.filter((p) => p.blocks && p.blocks[0] !== p.blocks[1] && p.blocks.includes(number));
-    return this.geometry(this.indexOf(parts.map((part) => ({ part, turned: part.blocks![0] === number }))));
+  /** The closed boundaries of blocks, front side out. */
+  blocks(numbers: number[]): { geometry: BufferGeometry; area: number } {
+    const parts = numbers.flatMap((b) => (this.partsOfBlock.get(b) ?? []).map((part) => ({ part, turned: part.blocks![0] === b })));
+    return { geometry: this.geometry(this.indexOf(parts)), area: areaOf(parts.map(({ part }) => part)) };
   }
 
-  tetrahedraOf(block: number): Uint32Array {
-    const chosen: number[] = [];
-    for (let t = 0; t < this.regions.length; ++t) if (this.regions[t] === block) chosen.push(t);
-    return Uint32Array.from(chosen);
+  tetrahedraOf(blocks: number[]): Uint32Array {
+    return Uint32Array.from(blocks.flatMap((b) => this.tetrahedraOfBlock.get(b) ?? []));
   }
 
   /** The ends of all segments of a kind of line, three coordinates each. */

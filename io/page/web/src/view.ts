@@ -12,7 +12,7 @@ import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeome
 import { cutBoundary, cutTetrahedra } from "./caps";
 import { colourOf, colourOfRole, lineColours } from "./colours";
 import type { Report } from "./data";
-import { areaOf, type Item, type Pick, type Section, type ViewName } from "./items";
+import { divided, type Item, type Pick, type Section, type ViewName } from "./items";
 import { ModelGeometry } from "./model";
 import { budgets, Pace } from "./pace";
 import { Viewpoint, type Bounds } from "./viewpoint";
@@ -23,6 +23,11 @@ const edgeOpacity = 0.28;
 
 /** The lines of a kind: wide ones, and thin ones that cost little while the view moves. */
 interface Lines { kind: string; object: LineSegments2; thin: LineSegments<BufferGeometry, LineBasicMaterial>; wanted: boolean }
+
+const colourOfRest = new Color("#9aa3ad");
+function moreOf(numbers: number[], what: string): string {
+  return `${numbers.length.toLocaleString("en")} more ${what}`;
+}
 
 export class View {
   readonly model: ModelGeometry;
@@ -80,23 +85,28 @@ export class View {
     const { x, y, z } = this.model.half;
     const filled = blocks.reduce((sum, b) => sum + b.volume / this.model.unit ** 3, 0) / (8 * x * y * z);
     const hasBlocks = filled > 0.15; // else blocks are accidents between surfaces
-    surfaces.forEach((surface, s) => {
-      for (const filled of [false, true]) {
-        const geometry = this.model.surface(s, filled);
-        if (!geometry) continue;
-        const colour = filled ? new Color("#e0763a") : colourOfRole(surface.role, s);
-        const name = filled ? `${surface.label}: filled` : surface.label;
-        this.addItem("surface", s, filled, name, geometry, colour, !hasBlocks && (surface.role !== "boundary"));
-      }
-    });
-    for (const block of blocks) {
-      const geometry = this.model.block(block.number);
-      if (geometry.index!.count > 0)
-        this.addItem("block", block.number, false, block.name, geometry, colourOf(block.number - 1), hasBlocks);
-    }
+    const ofSurfaces = divided(0, surfaces.map((_, s) => this.model.areaOfSurface(s)));
+    for (const s of ofSurfaces.own) this.addSurfaces([s], surfaces[s].label, colourOfRole(surfaces[s].role, s), !hasBlocks && surfaces[s].role !== "boundary");
+    if (ofSurfaces.rest.length) this.addSurfaces(ofSurfaces.rest, moreOf(ofSurfaces.rest, "surfaces"), colourOfRest, !hasBlocks);
+    const ofBlocks = divided(1, blocks.map((b) => b.volume));
+    for (const b of ofBlocks.own) this.addBlocks([b], blocks[b - 1].name, colourOf(b - 1), hasBlocks);
+    if (ofBlocks.rest.length) this.addBlocks(ofBlocks.rest, moreOf(ofBlocks.rest, "blocks"), colourOfRest, hasBlocks);
     if (!this.items.some((i) => i.visible)) for (const item of this.items) item.visible = true;
     for (const item of this.items) item.mesh.visible = item.visible;
     if (!hasBlocks) this.items.filter((i) => this.isLid(i)).forEach((i) => this.setOpacity(i, 0.45));
+  }
+
+  private addSurfaces(numbers: number[], label: string, own: Color, visible: boolean): void {
+    for (const filled of [false, true]) {
+      const drawn = this.model.surfaces(numbers, filled);
+      if (drawn) this.addItem({ kind: "surface", numbers, filled, name: filled ? `${label}: filled` : label, ...drawn, volume: 0 },
+        filled ? new Color("#e0763a") : own, visible);
+    }
+  }
+  private addBlocks(numbers: number[], name: string, colour: Color, visible: boolean): void {
+    const drawn = this.model.blocks(numbers);
+    const volume = numbers.reduce((sum, b) => sum + this.report.content.blocks[b - 1].volume, 0);
+    if (drawn.geometry.index!.count > 0) this.addItem({ kind: "block", numbers, filled: false, name, ...drawn, volume }, colour, visible);
   }
 
   /** Whether a surface lies above most of the others and hides them from above. */
@@ -114,8 +124,8 @@ export class View {
     return covered > 0.7 && below >= 0.6 * (this.report.content.surfaces.length - 1);
   }
 
-  private addItem(kind: Item["kind"], number: number, filled: boolean, name: string, geometry: BufferGeometry,
-    colour: Color, visible: boolean): void {
+  private addItem(what: Omit<Item, "mesh" | "coarse" | "edges" | "cap" | "capEdges" | "cut" | "centre" | "reach" | "visible" | "colour" | "opacity" | "tetrahedra">, colour: Color, visible: boolean): void {
+    const { kind, numbers, geometry } = what;
     const material = new MeshLambertMaterial({
       color: colour, flatShading: true, side: kind === "block" ? FrontSide : DoubleSide,
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
@@ -125,9 +135,9 @@ export class View {
     this.root.add(mesh);
     const centre = this.model.centre(geometry);
     this.items.push({
-      kind, number, filled, name, mesh, geometry, coarse: new Map(), edges: null, cap: null, capEdges: null, cut: null, centre,
+      ...what, mesh, coarse: new Map(), edges: null, cap: null, capEdges: null, cut: null, centre,
       reach: this.model.reach(geometry, centre), visible, colour: colour.clone(), opacity: 1,
-      tetrahedra: kind === "block" ? this.model.tetrahedraOf(number) : new Uint32Array(),
+      tetrahedra: kind === "block" ? this.model.tetrahedraOf(numbers) : new Uint32Array(),
     });
   }
 
@@ -357,7 +367,7 @@ export class View {
     this.renderer.setPixelRatio(level > 0 ? ratio / 2 : ratio);
     const simplify = shown.reduce((sum, i) => sum + i.geometry.index!.count / 3, 0) > budgets[level];
     if (simplify && !this.cells.has(level)) {
-      const area = shown.reduce((sum, i) => sum + areaOf(i, this.report.content), 0);
+      const area = shown.reduce((sum, i) => sum + i.area, 0);
       this.cells.set(level, Math.sqrt(2 * area / budgets[level])); // a vertex for each cell, two triangles for each vertex
     }
     for (const item of this.items) {
