@@ -11,12 +11,10 @@
 #include <utility>
 
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/mesh/surface_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
-#include <terrane/algorithms/structure/detail/surface_tree.hpp>
 
 namespace terrane {
-
-using namespace structure::detail;
 
 namespace {
 
@@ -32,7 +30,8 @@ struct Sample {
 
 /// Samples a border at its vertices and the midpoints of its edges; empty if there is no other
 /// surface.
-std::vector<Sample> samples_along(const Mesh& mesh, const ModelLine& line, SurfaceTree& tree) {
+std::vector<Sample> samples_along(const Mesh& mesh, const ModelLine& line,
+                                  const SurfaceTree& tree) {
     std::vector<Sample> samples;
     const auto add = [&](const Point3& p) {
         double bound = std::numeric_limits<double>::infinity();
@@ -55,7 +54,8 @@ std::vector<Sample> samples_along(const Mesh& mesh, const ModelLine& line, Surfa
     return samples;
 }
 
-std::vector<BorderGap> gaps_along(const Mesh& mesh, const ModelLine& line, SurfaceTree& tree) {
+std::vector<BorderGap> gaps_along(const Mesh& mesh, const ModelLine& line,
+                                  const SurfaceTree& tree) {
     const auto samples = samples_along(mesh, line, tree);
     std::map<std::pair<int, std::uint32_t>, BorderGap> gaps;
     for (std::size_t i = 0; i + 2 < samples.size(); i += 2) {
@@ -83,7 +83,7 @@ std::vector<BorderGap> gaps_along(const Mesh& mesh, const ModelLine& line, Surfa
 
 std::vector<FreeBorder> find_free_borders(const Mesh& mesh, const Structure& structure) {
     const StandardArithmetic guard;
-    SurfaceTree tree(mesh);
+    const SurfaceTree tree({mesh.vertices, mesh.triangles, mesh.surfaces_of});
     std::vector<FreeBorder> borders;
     for (std::uint32_t l = 0; l < structure.lines.size(); ++l) {
         const ModelLine& line = structure.lines[l];

@@ -62,7 +62,8 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
 
     const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
-    say(summary_stream(files), summary(inputs.value(), arranged.value()));
+    say(summary_stream(files),
+        session.timed("summary", [&] { return summary(inputs.value(), arranged.value()); }));
     page->add_arranged(*arranged);
     const Mesh& mesh = arranged.value().rounded.mesh;
     bool clean = arranged.value().rounded.report.clean;

@@ -221,7 +221,11 @@ private:
     }
     /// Prints what a stage did and adds it to the statistics.
     void ended(BuildStage stage, const Built& built) {
+        session_.begin("summary", Phase::computing);
+        add_stage(stage, built);
         session_.end_stage();
+    }
+    void add_stage(BuildStage stage, const Built& built) {
         switch (stage) {
         case BuildStage::preprocess:
             return preprocessed(built.preprocessed);

@@ -150,7 +150,7 @@ Result<FillOutcome> fill_and_write(const FillCommand& command, const std::vector
     if (const auto done = fill_holes(inputs.surfaces, chosen.value(), work, session.run()); !done)
         return done.error();
     session.end_stage();
-    say(summary_stream(command.files), filled_text(work));
+    say(summary_stream(command.files), session.timed("summary", [&] { return filled_text(work); }));
     const auto refused = refusals_text(work);
     print(stderr, refused);
     session.begin("check", Phase::computing);

@@ -187,7 +187,8 @@ Status simplify(const ImproveCommand& command, const Inputs& inputs, ImproveOpti
     const SimplifyReport& report = arranged.simplified->report;
     add_statistics(statistics, report, inputs);
     add_constants(statistics, "resolution", simplify_constants());
-    say(summary_stream(command.files), text_of(report, inputs));
+    say(summary_stream(command.files),
+        session.timed("summary", [&] { return text_of(report, inputs); }));
     return Done{};
 }
 
@@ -239,7 +240,8 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     if (!arranged) return arranged.error();
     if (!options.edge_length_of.empty()) // the boundary of a volume of interest added surfaces
         options.edge_length_of.resize(inputs.value().labels.size());
-    say(summary_stream(files), summary(inputs.value(), arranged.value()));
+    say(summary_stream(files),
+        session.timed("summary", [&] { return summary(inputs.value(), arranged.value()); }));
     page->add_arranged(*arranged);
     bool clean = arranged.value().rounded.report.clean;
     if (!clean) {
@@ -257,7 +259,9 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         session.end_stage();
         if (!measured) return measured.error();
         add_statistics(statistics, measured.value());
-        say(summary_stream(files), improve_text(measured.value(), inputs.value()));
+        say(summary_stream(files), session.timed("summary", [&] {
+            return improve_text(measured.value(), inputs.value());
+        }));
         page->add_improved(measured->improved.mesh, arranged->rounded.mesh);
         const Mesh& mesh = measured.value().improved.mesh;
         const auto narrow = stl_is_conforming(mesh, files, outputs.value(), session);

@@ -73,7 +73,8 @@ Result<ExitStatus> report_files(const ReportCommand& command, Session& session) 
 
     auto arranged = arrange_and_round(*inputs, command.settings, session, statistics);
     if (!arranged) return arranged.error();
-    say(summary_stream(files), summary(*inputs, *arranged));
+    say(summary_stream(files),
+        session.timed("summary", [&] { return summary(*inputs, *arranged); }));
     page->add_arranged(*arranged);
     const bool clean = arranged->rounded.report.clean;
     if (!clean) {
@@ -83,7 +84,8 @@ Result<ExitStatus> report_files(const ReportCommand& command, Session& session) 
         if (!model) return model.error();
         const auto leaks = judge_leaks(*arranged, *model, session);
         if (!leaks) return leaks.error();
-        say(summary_stream(files), model_text(*inputs, *model, *leaks));
+        say(summary_stream(files),
+            session.timed("summary", [&] { return model_text(*inputs, *model, *leaks); }));
         page->add_model(*model, *leaks);
         if (const auto sound = examine(*model, *inputs, false, session, statistics); !sound)
             return sound.error();

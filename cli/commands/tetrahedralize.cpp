@@ -208,7 +208,8 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
 
     auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
-    say(summary_stream(files), summary(inputs.value(), arranged.value()));
+    say(summary_stream(files),
+        session.timed("summary", [&] { return summary(inputs.value(), arranged.value()); }));
     page->add_arranged(*arranged);
     if (!arranged.value().rounded.report.clean) {
         print(stderr, offending_pairs(*inputs, *arranged) +
@@ -226,7 +227,8 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
     const auto filled = fill(model.value(), wishes.value(), session, statistics);
     if (!filled) return at_option(filled.error(), *files.app);
     page->add_tetrahedra(*filled);
-    say(summary_stream(files), filled_text(filled.value(), inputs->unit));
+    say(summary_stream(files),
+        session.timed("summary", [&] { return filled_text(filled.value(), inputs->unit); }));
     const bool good = filled->report.violations.empty();
     if (good) {
         const auto written = write_all(filled.value(), outputs.value(), files, session);

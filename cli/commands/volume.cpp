@@ -243,7 +243,8 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
 
     auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
     if (!arranged) return arranged.error();
-    say(summary_stream(files), summary(inputs.value(), arranged.value()));
+    say(summary_stream(files),
+        session.timed("summary", [&] { return summary(inputs.value(), arranged.value()); }));
     page->add_arranged(*arranged);
     const bool clean = arranged.value().rounded.report.clean;
     if (!clean) {
@@ -254,7 +255,8 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
         if (!model) return model.error();
         const auto leaks = judge_leaks(*arranged, *model, session);
         if (!leaks) return leaks.error();
-        say(summary_stream(files), model_text(*inputs, *model, *leaks));
+        say(summary_stream(files),
+            session.timed("summary", [&] { return model_text(*inputs, *model, *leaks); }));
         page->add_model(*model, *leaks);
         if (const auto sound = examine(*model, *inputs, true, session, statistics); !sound)
             return sound.error();

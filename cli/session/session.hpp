@@ -56,6 +56,15 @@ public:
     /// Ends the stage, and removes the progress line until the next one.
     void end_stage();
 
+    /// Returns what make() returns; the time that it takes counts for a stage.
+    template <class Make>
+    auto timed(std::string_view stage, const Make& make) {
+        begin(stage, Phase::computing);
+        auto made = make();
+        end_stage();
+        return made;
+    }
+
 private:
     void watch(const std::stop_token& over);
     void on_interrupt();

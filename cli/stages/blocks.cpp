@@ -153,8 +153,8 @@ Result<Model> find_model(const Arranged& arranged, const BlockNaming& naming, Se
     session.begin("volumes", Phase::computing);
     auto model =
         make_model(arranged.exact, arranged.rounded.conforming.value(), session.run(), naming);
-    session.end_stage();
     if (model) add_statistics(statistics, *model);
+    session.end_stage();
     return model;
 }
 

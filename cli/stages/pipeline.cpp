@@ -292,10 +292,11 @@ Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settin
     session.begin("arrange", Phase::computing);
     auto arranged =
         arrange_within(std::move(inputs.surfaces), std::move(boundary), *options, session.run());
+    if (arranged) {
+        inputs.labels = unique_labels(infos_of(arranged->surfaces));
+        add_statistics(statistics, *arranged, inputs);
+    }
     session.end_stage();
-    if (!arranged) return arranged;
-    inputs.labels = unique_labels(infos_of(arranged->surfaces));
-    add_statistics(statistics, *arranged, inputs);
     return arranged;
 }
 

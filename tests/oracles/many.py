@@ -26,7 +26,7 @@ WORTH_JUDGING = 1  # processor seconds: less is noise
 
 
 class Model:
-    """An OBJ file with one surface per object, and what must be found in it."""
+    """A file of surfaces, and what must be found in it."""
 
     def __init__(self):
         self.vertices, self.surfaces = [], []
@@ -37,16 +37,34 @@ class Model:
         self.surfaces.append((name, len(self.vertices), triangles))
         self.vertices += corners
 
-    def text(self, rng):
-        """The file, with axes in any order, sizes times a power of two, and surfaces in any order."""
+    def write(self, folder, rng):
+        """Writes the file, with axes in any order, sizes times a power of two, and surfaces in any order; returns its name."""
         axes = rng.sample(range(3), 3)
         scale = 2.0 ** rng.randint(-8, 8)
         self.volume *= scale**3
-        lines = ["v " + " ".join(repr(v[a] * scale) for a in axes) for v in self.vertices]
-        for name, first, triangles in rng.sample(self.surfaces, len(self.surfaces)):
+        self.surfaces = rng.sample(self.surfaces, len(self.surfaces))
+        places = [" ".join(repr(v[a] * scale) for a in axes) for v in self.vertices]
+        names = {name for name, _, _ in self.surfaces}
+        is_obj = len(names) == len(self.surfaces) and rng.random() < 0.5  # OBJ makes one surface of equal names
+        name, lines = ("in.obj", self.obj(places)) if is_obj else ("in.ts", self.gocad(places))
+        (folder / name).write_text("\n".join(lines) + "\n")
+        return name
+
+    def obj(self, places):
+        lines = ["v " + place for place in places]
+        for name, first, triangles in self.surfaces:
             lines.append("o " + name)
             lines += ["f " + " ".join(str(first + c + 1) for c in t) for t in triangles]
-        return "\n".join(lines) + "\n"
+        return lines
+
+    def gocad(self, places):
+        lines = []
+        for name, first, triangles in self.surfaces:
+            lines += ["GOCAD TSurf 1", "HEADER {", "name:" + name, "}", "TFACE"]
+            corners = sorted({c for t in triangles for c in t})
+            lines += [f"VRTX {c + 1} {places[first + c]}" for c in corners]
+            lines += ["TRGL " + " ".join(str(c + 1) for c in t) for t in triangles] + ["END"]
+        return lines
 
 
 def square(model, name, corners):
@@ -170,8 +188,7 @@ def run(terrane, folder, command):
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, statistics, written + len(done.stderr) + len(done.stdout)
 
 
-COMMANDS = {"arrange": ["arrange", "in.obj", "-o", "out.vtp"], "volume": ["volume", "in.obj", "-o", "out"],
-            "report": ["report", "in.obj", "-o", "out.html"]}
+COMMANDS = {"arrange": "out.vtp", "volume": "out", "report": "out.html"}
 
 
 def judge_result(name, model, statistics, folder):
@@ -197,8 +214,7 @@ def measure(terrane, family, n, seed, name):
     with tempfile.TemporaryDirectory() as place:
         folder = pathlib.Path(place)
         model = family(n, rng)
-        (folder / "in.obj").write_text(model.text(rng))
-        seconds, statistics, written = run(terrane, folder, COMMANDS[name])
+        seconds, statistics, written = run(terrane, folder, [name, model.write(folder, rng), "-o", COMMANDS[name]])
         if flaw := judge_result(name, model, statistics, folder):
             raise SystemExit(f"{family.__name__} {n} {seed}, {name}: {flaw}")
         return seconds, written

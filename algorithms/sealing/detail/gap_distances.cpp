@@ -21,33 +21,21 @@ double beyond(double distance) {
     return std::nextafter(distance, HUGE_VAL);
 }
 
-BoxTree::Box box_of(const std::vector<Point3>& places, const std::vector<Triangle>& triangles) {
-    BoxTree::Box box{{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
-    for (const Triangle& t : triangles)
-        for (const std::uint32_t v : t) {
-            const Point3& p = places[v];
-            box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y),
-                       std::min(box.low.z, p.z)};
-            box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y),
-                        std::max(box.high.z, p.z)};
-        }
-    return box;
+std::vector<Point3> places_of(const Arrangement& a) {
+    std::vector<Point3> places;
+    for (const PointIndex v : a.vertices) places.push_back(a.state->points.nearest(v));
+    return places;
 }
 
 } // namespace
 
 GapDistances::GapDistances(const Arrangement& a, SealDistances distances) :
-    arrangement_(a), distances_(std::move(distances)) {
-    for (const PointIndex v : a.vertices) places_.push_back(a.state->points.nearest(v));
+    arrangement_(a), distances_(std::move(distances)), places_(places_of(a)),
+    near_({places_, a.triangles, a.surfaces_of}) {
     std::vector<std::vector<Triangle>> triangles(a.surfaces.size());
     for (std::size_t t = 0; t < a.triangles.size(); ++t)
         for (const std::uint32_t s : a.surfaces_of[t]) triangles[s].push_back(a.triangles[t]);
-    std::vector<BoxTree::Box> boxes;
-    for (auto& of_surface : triangles) {
-        boxes.push_back(box_of(places_, of_surface));
-        trees_.emplace_back(places_, std::move(of_surface));
-    }
-    boxes_ = BoxTree(std::move(boxes));
+    for (auto& of_surface : triangles) trees_.emplace_back(places_, std::move(of_surface));
 }
 
 double GapDistances::bound(std::uint32_t surface, std::uint32_t other, double factor) const {
@@ -118,8 +106,7 @@ std::optional<GapDistances::Near> GapDistances::nearest(const Point3& p, const B
                                                         double factor) const {
     std::optional<Near> best;
     double least = HUGE_VAL;
-    for (const std::uint32_t s : boxes_.within(p, beyond(factor * distances_.largest()))) {
-        if (std::binary_search(edge.own.begin(), edge.own.end(), s)) continue;
+    for (const std::uint32_t s : near_.within(p, edge.own, beyond(factor * distances_.largest()))) {
         const double most = std::min(least, bound(edge.surface, s, factor));
         if (!(most > 0)) continue;
         if (const auto near = trees_[s].nearest(p, most)) {
@@ -133,8 +120,8 @@ std::optional<GapDistances::Near> GapDistances::nearest(const Point3& p, const B
 bool GapDistances::is_any_ahead(const Point3& p, const BorderEdge& edge, std::uint32_t except,
                                 double distance) const {
     const Point3 outward = outward_of(arrangement_, edge);
-    for (const std::uint32_t s : boxes_.within(p, distance)) {
-        if (s == except || std::binary_search(edge.own.begin(), edge.own.end(), s)) continue;
+    for (const std::uint32_t s : near_.within(p, edge.own, distance)) {
+        if (s == except) continue;
         const auto near = trees_[s].nearest(p, std::min(distance, bound(edge.surface, s)));
         if (near && dot(outward, minus(near->place, p)) > constants.least_ahead * near->distance)
             return true;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/mesh/box_tree.hpp>
+#include <terrane/algorithms/mesh/surface_tree.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/sealing/border_extension.hpp>
 #include <terrane/algorithms/sealing/detail/seal_distances.hpp>
@@ -68,9 +68,9 @@ private:
 
     const Arrangement& arrangement_;
     const SealDistances distances_;
-    std::vector<Point3> places_;
+    const std::vector<Point3> places_;
+    const SurfaceTree near_;
     std::vector<TriangleTree> trees_; ///< per surface
-    BoxTree boxes_{{}};               ///< of the surfaces
 };
 
 } // namespace terrane::sealing::detail

@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include <terrane/algorithms/core/no_index.hpp>
+#include <terrane/algorithms/volumes/detail/triangle_boxes.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane::volumes::detail {
@@ -55,13 +59,25 @@ public:
         hits_.push_back({line, triangle, height(triangle, lines_[line])});
     }
 
-    /// Finds the hits of the first `count` triangles.
-    void find_hits(std::uint32_t count, std::vector<LineHit>& out) const {
-        if (lines_.empty()) return;
-        for_each_near(count, [&](std::uint32_t triangle, std::uint32_t line) {
-            if (passes_through(triangle, lines_[line]))
-                out.push_back({lines_[line].name, triangle});
-        });
+    /// Finds the hits of all lines with triangles in these boxes.
+    void find_hits(const TriangleBoxes& boxes, std::vector<LineHit>& out) const {
+        for (const Line& line : lines_)
+            boxes.descend(along(line), HUGE_VAL, [&](std::uint32_t triangle) {
+                if (passes_through(triangle, line)) out.push_back({line.name, triangle});
+                return -HUGE_VAL;
+            });
+    }
+
+    /// Returns the lowest hit of a line with these triangles. Throws std::logic_error if there is none.
+    [[nodiscard]] Hit lowest_of(std::uint32_t line, std::span<const std::uint32_t> triangles,
+                                const TriangleBoxes& boxes) const;
+    /// Returns the hit that comes next below another one of the same line, if there is one.
+    [[nodiscard]] std::optional<Hit> next_below(const Hit& hit, const TriangleBoxes& boxes) const;
+    /// Returns the side of a triangle that faces the positive end of the axis.
+    [[nodiscard]] std::uint32_t upper_side(std::uint32_t triangle) const {
+        const Triangle& p = sheets_.planes[triangle];
+        const Sign s = sheets_.points.orient2d(upward_, axis_, p[0], p[1], p[2]);
+        return s == Sign::Positive ? front_of(triangle) : back_of(triangle);
     }
 
     template <class Join>
@@ -87,17 +103,11 @@ private:
     [[nodiscard]] Line inside(std::uint32_t triangle) const;
     [[nodiscard]] Sign turn(PointIndex a, PointIndex b, const Line& line) const;
     [[nodiscard]] bool passes_through(std::uint32_t triangle, const Line& line) const;
-    template <class Visit>
-    void for_each_near(std::uint32_t count, const Visit& visit) const;
+    [[nodiscard]] AxisLine along(const Line& line) const {
+        return {k_, line.about.radius == 0, line.about.u, line.about.v};
+    }
     [[nodiscard]] Interval height(std::uint32_t triangle, const Line& line) const;
     [[nodiscard]] bool below(const Hit& a, const Hit& b) const;
-
-    /// Returns the side of a triangle that faces the positive end of the axis.
-    [[nodiscard]] std::uint32_t upper_side(std::uint32_t triangle) const {
-        const Triangle& p = sheets_.planes[triangle];
-        const Sign s = sheets_.points.orient2d(upward_, axis_, p[0], p[1], p[2]);
-        return s == Sign::Positive ? front_of(triangle) : back_of(triangle);
-    }
 
     void check_all_hit() const {
         std::size_t seen = 0;
@@ -163,35 +173,30 @@ bool Bundle::passes_through(std::uint32_t triangle, const Line& line) const {
     return s != Sign::Zero && turn(b, c, line) == s && turn(c, a, line) == s;
 }
 
-/// Calls visit(triangle, line) for the first `count` triangles if the line passes through the box of
-/// the projected triangle. The lines are sorted by one coordinate, so that only a few are tested for
-/// a small triangle.
-template <class Visit>
-void Bundle::for_each_near(std::uint32_t count, const Visit& visit) const {
-    const unsigned u = (k_ + 1) % 3, v = (k_ + 2) % 3;
-    const auto n = static_cast<std::uint32_t>(lines_.size());
-    std::vector<std::uint32_t> by_u(n);
-    for (std::uint32_t i = 0; i < n; ++i) by_u[i] = i;
-    // Lines without doubles are near every triangle.
-    const auto everywhere = std::stable_partition(
-        by_u.begin(), by_u.end(), [&](std::uint32_t i) { return lines_[i].about.radius == 0; });
-    std::sort(by_u.begin(), everywhere, [&](std::uint32_t i, std::uint32_t j) {
-        return std::pair(lines_[i].about.u, i) < std::pair(lines_[j].about.u, j);
-    });
-    for (std::uint32_t t = 0; t < count; ++t) {
-        std::array<double, 2> low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
-        for (unsigned c = 0; c < 3; ++c) {
-            const Enclosure e = sheets_.points.enclosure(point(t, c));
-            low = {std::min(low[0], e.low[u]), std::min(low[1], e.low[v])};
-            high = {std::max(high[0], e.high[u]), std::max(high[1], e.high[v])};
-        }
-        for (auto i = std::partition_point(
-                 by_u.begin(), everywhere,
-                 [&](std::uint32_t line) { return lines_[line].about.u < low[0]; });
-             i != everywhere && lines_[*i].about.u <= high[0]; ++i)
-            if (lines_[*i].about.v >= low[1] && lines_[*i].about.v <= high[1]) visit(t, *i);
-        for (auto i = everywhere; i != by_u.end(); ++i) visit(t, *i);
+Hit Bundle::lowest_of(std::uint32_t line, std::span<const std::uint32_t> triangles,
+                      const TriangleBoxes& boxes) const {
+    std::optional<Hit> lowest;
+    const AxisLine about = along(lines_[line]);
+    for (const std::uint32_t triangle : triangles) {
+        if (!boxes.is_near(triangle, about) || !passes_through(triangle, lines_[line])) continue;
+        const Hit hit{line, triangle, height(triangle, lines_[line])};
+        if (!lowest || below(hit, *lowest)) lowest = hit;
     }
+    if (!lowest) throw std::logic_error("a line misses its own triangle");
+    return *lowest;
+}
+
+std::optional<Hit> Bundle::next_below(const Hit& hit, const TriangleBoxes& boxes) const {
+    const Line& line = lines_[hit.line];
+    std::optional<Hit> best;
+    boxes.descend(along(line), hit.height.sup(), [&](std::uint32_t triangle) {
+        if (triangle != hit.triangle && passes_through(triangle, line)) {
+            const Hit found{hit.line, triangle, height(triangle, line)};
+            if (below(found, hit) && (!best || below(*best, found))) best = found;
+        }
+        return best ? best->height.inf() : -HUGE_VAL;
+    });
+    return best;
 }
 
 /// Encloses the height at which the line meets the plane of a triangle, from n (x - a) = 0.
@@ -272,10 +277,18 @@ public:
         }
     }
 
-    [[nodiscard]] std::vector<LineHit> hits(std::uint32_t count) const {
+    [[nodiscard]] std::vector<LineHit> hits(const TriangleBoxes& boxes) const {
         std::vector<LineHit> found;
-        for (const Bundle& bundle : bundles_) bundle.find_hits(count, found);
+        for (const Bundle& bundle : bundles_) bundle.find_hits(boxes, found);
         return found;
+    }
+
+    /// Returns the bundle of a line; its number there is line_in_bundle().
+    [[nodiscard]] const Bundle& bundle_of(std::uint32_t line) const {
+        return bundles_[places_[line][0]];
+    }
+    [[nodiscard]] std::uint32_t line_in_bundle(std::uint32_t line) const {
+        return places_[line][1];
     }
 
     template <class Join>
@@ -293,12 +306,128 @@ private:
         places_; ///< per line: its bundle, and its place there
 };
 
+/// Joins the outer shells of all components with those on the same volume. Components are gathered in
+/// groups whose outer shells are known to be on one volume. A group is settled when these are joined with
+/// the outside, or with the shell of the component around that volume.
+class Nesting {
+public:
+    Nesting(const TriangleComplex& sheets, DisjointSets& sides) :
+        sheets_(sheets), sides_(sides), shells_(sides), component_of_(sheets.triangles.size()) {
+        find_components();
+    }
+
+    void operator()() {
+        if (through_.empty()) return;
+        const UpwardRounding guard;
+        const Bundles bundles(guard, sheets_, through_);
+        TriangleBoxes boxes(sheets_, count());
+        if (through_.size() > 1) boxes.build_tree();
+        DisjointSets groups(through_.size());
+        std::vector<bool> settled(through_.size(), false); // by a component of the group
+        for (auto open = own_; open.size() > 0; open = unsettled(groups, settled)) {
+            std::vector<Start> starts;
+            for (std::size_t g = 0; g < open.size(); ++g) {
+                const std::uint32_t line = groups.find(component_of_[open[g].front()]);
+                const Bundle& bundle = bundles.bundle_of(line);
+                starts.push_back({&bundle, line,
+                                  bundle.lowest_of(bundles.line_in_bundle(line), open[g], boxes)});
+            }
+            if (outer_.empty()) find_outer(starts);
+            for (const Start& start : starts) step(start, boxes, groups, settled);
+        }
+    }
+
+private:
+    [[nodiscard]] std::uint32_t count() const {
+        return static_cast<std::uint32_t>(sheets_.triangles.size());
+    }
+    /// Where the way down from a group begins.
+    struct Start {
+        const Bundle* bundle;
+        std::uint32_t line; ///< that of a component of the group
+        Hit lowest;         ///< of the group with that line
+    };
+
+    /// Numbers the components by their lowest triangles.
+    void find_components() {
+        DisjointSets joined =
+            sides_; // in addition, the front and the back of a triangle are joined
+        for (std::uint32_t t = 0; t < count(); ++t) joined.join(front_of(t), back_of(t));
+        for (std::uint32_t t = 0; t < count(); ++t) {
+            const std::uint32_t first = joined.find(front_of(t)) / 2;
+            if (first == t) {
+                component_of_[t] = static_cast<std::uint32_t>(through_.size());
+                through_.push_back(t);
+            } else {
+                component_of_[t] = component_of_[first];
+            }
+        }
+        std::vector<std::uint32_t> all(through_.size());
+        std::iota(all.begin(), all.end(), 0U);
+        own_ = gathered(all);
+    }
+
+    /// Lists the triangles of each group; group_of[c] is that of a component, or no_index.
+    [[nodiscard]] IndexLists<std::uint32_t>
+    gathered(const std::vector<std::uint32_t>& group_of) const {
+        std::vector<std::uint32_t> triangles;
+        for (std::uint32_t t = 0; t < count(); ++t)
+            if (group_of[component_of_[t]] != no_index) triangles.push_back(t);
+        const auto group = [&](std::uint32_t t) { return group_of[component_of_[t]]; };
+        std::ranges::stable_sort(triangles, {}, group);
+        IndexLists<std::uint32_t> lists;
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            if (i > 0 && group(triangles[i]) != group(triangles[i - 1])) lists.close();
+            lists.values.push_back(triangles[i]);
+        }
+        if (!triangles.empty()) lists.close();
+        return lists;
+    }
+    [[nodiscard]] IndexLists<std::uint32_t> unsettled(DisjointSets& groups,
+                                                      const std::vector<bool>& settled) const {
+        std::vector<bool> is_settled(through_.size(), false);
+        for (std::uint32_t c = 0; c < through_.size(); ++c)
+            if (settled[c]) is_settled[groups.find(c)] = true;
+        std::vector<std::uint32_t> group_of;
+        for (std::uint32_t c = 0; c < through_.size(); ++c)
+            group_of.push_back(is_settled[groups.find(c)] ? no_index : groups.find(c));
+        return gathered(group_of);
+    }
+
+    void find_outer(const std::vector<Start>& starts) {
+        for (const Start& s : starts)
+            outer_.push_back(shells_.find(opposite(s.bundle->upper_side(s.lowest.triangle))));
+    }
+
+    /// Joins a group with what is next below it.
+    void step(const Start& start, const TriangleBoxes& boxes, DisjointSets& groups,
+              std::vector<bool>& settled) {
+        const auto next = start.bundle->next_below(start.lowest, boxes);
+        const std::uint32_t upper = next ? start.bundle->upper_side(next->triangle) : 2 * count();
+        sides_.join(opposite(start.bundle->upper_side(start.lowest.triangle)), upper);
+        if (next && shells_.find(upper) == outer_[component_of_[next->triangle]])
+            groups.join(start.line, component_of_[next->triangle]);
+        else
+            settled[start.line] = true;
+    }
+
+    const TriangleComplex& sheets_;
+    DisjointSets& sides_;
+    DisjointSets shells_;                     ///< as they were before any were joined
+    std::vector<std::uint32_t> component_of_; ///< per triangle
+    std::vector<std::uint32_t> through_;      ///< per component: its lowest triangle
+    IndexLists<std::uint32_t> own_;           ///< per component: its triangles
+    std::vector<std::uint32_t> outer_;        ///< per component: its outer shell
+};
+
 } // namespace
 
 std::vector<LineHit> find_line_hits(const TriangleComplex& sheets,
                                     std::span<const std::uint32_t> through, std::uint32_t count) {
     const UpwardRounding guard;
-    return Bundles(guard, sheets, through).hits(count);
+    TriangleBoxes boxes(sheets, count);
+    boxes.build_tree();
+    return Bundles(guard, sheets, through).hits(boxes);
 }
 
 void join_along_lines(const TriangleComplex& sheets, std::span<const std::uint32_t> through,
@@ -310,18 +439,7 @@ void join_along_lines(const TriangleComplex& sheets, std::span<const std::uint32
 }
 
 void join_nested(const TriangleComplex& sheets, DisjointSets& sides) {
-    const auto count = static_cast<std::uint32_t>(sheets.triangles.size());
-    DisjointSets components =
-        sides; // in addition to the shells, the front and the back of a triangle are joined
-    for (std::uint32_t t = 0; t < count; ++t) components.join(front_of(t), back_of(t));
-    std::vector<std::uint32_t> lowest; // triangle of each component
-    for (std::uint32_t t = 0; t < count; ++t)
-        if (components.find(front_of(t)) == front_of(t)) lowest.push_back(t);
-    const UpwardRounding guard;
-    Bundles bundles(guard, sheets, lowest);
-    bundles.join_along(
-        bundles.hits(count), [&](std::uint32_t a, std::uint32_t b) { sides.join(a, b); },
-        2 * count);
+    Nesting(sheets, sides)();
 }
 
 } // namespace terrane::volumes::detail

@@ -7,7 +7,9 @@
 // the components inside it and by one shell of the component around it, if any: statements (1) and
 // (2) of docs/explanation/shell-nesting.md. For each component a line along an axis passes through
 // the inside of one of its triangles, shifted by (epsilon, epsilon^2) so that it meets no edge.
-// Sides between consecutive hits are joined; this joins all shells of a volume: statement (3).
+// join_nested goes down each line, from the lowest side of its component to what is next below:
+// statement (4). Where hits of lines come from several blocks of space, sides between all consecutive
+// hits are joined: statement (3). Either joins all shells of a volume.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +24,9 @@ namespace terrane::volumes::detail {
 
 /// Joins the shells of the same volume; element 2 * triangles of `sides` stands for the outside.
 /// The other elements come from join_round_edges. The result is exact, without randomness.
-/// Cost: for each axis in use a pass over all triangles, with a search among the lines (one per
-/// component) for each triangle; exact arithmetic only where filters fail. Throws std::logic_error
-/// if triangles overlap.
+/// Cost: O(n log n) for a tree of boxes if there are several components, and for each of them a search
+/// in the tree and, a logarithmic number of times at most, a pass over its triangles; exact arithmetic
+/// only where filters fail. Throws std::logic_error if triangles overlap.
 void join_nested(const TriangleComplex& sheets, DisjointSets& sides);
 
 /// A line, by its place in a list of triangles through whose insides the lines pass, and a triangle

@@ -12,11 +12,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <terrane/algorithms/mesh/surface_tree.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
-#include <terrane/algorithms/structure/detail/surface_tree.hpp>
 
 using namespace terrane;
-using namespace terrane::structure::detail;
 
 namespace {
 
@@ -72,13 +71,15 @@ std::optional<NearestSurface> by_looking_at_all(const Mesh& mesh, const Point3& 
     return NearestSurface{std::get<1>(best), std::get<2>(best)};
 }
 
-/// Looks from each vertex for the nearest other surface; returns how many nodes that took for one.
+/// Looks from the first corner of each triangle for the nearest other surface; returns how many nodes
+/// that took for one.
 double visits_per_search(const Mesh& mesh) {
-    SurfaceTree tree(mesh);
+    const SurfaceTree tree({mesh.vertices, mesh.triangles, mesh.surfaces_of});
+    std::size_t visits = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        for (const std::uint32_t v : mesh.triangles[t])
-            static_cast<void>(tree.nearest(mesh.vertices[v], mesh.surfaces_of[t], infinity));
-    return static_cast<double>(tree.visits()) / static_cast<double>(3 * mesh.triangles.size());
+        static_cast<void>(tree.nearest(mesh.vertices[mesh.triangles[t][0]], mesh.surfaces_of[t],
+                                       infinity, &visits));
+    return static_cast<double>(visits) / static_cast<double>(mesh.triangles.size());
 }
 
 } // namespace
@@ -86,7 +87,7 @@ double visits_per_search(const Mesh& mesh) {
 TEST_CASE("surface tree: it finds what a look at each triangle finds", "[borders]") {
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
         const Mesh mesh = lattice_mesh(1 + seed % 60, 1 + std::uint32_t(seed) % 9, seed);
-        SurfaceTree tree(mesh);
+        const SurfaceTree tree({mesh.vertices, mesh.triangles, mesh.surfaces_of});
         std::mt19937_64 random(seed);
         std::uniform_int_distribution<int> place(-2, 16);
         for (int k = 0; k < 20; ++k) {
@@ -102,6 +103,16 @@ TEST_CASE("surface tree: it finds what a look at each triangle finds", "[borders
             if (!found) continue;
             CHECK(found->surface == expected->surface);
             CHECK(found->distance == expected->distance);
+            std::vector<std::uint32_t> near;
+            for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
+                std::vector<std::uint32_t> others;
+                for (std::uint32_t o = 0; o < mesh.surfaces.size(); ++o)
+                    if (o != s) others.push_back(o);
+                if (std::ranges::count(but, s) == 0 && by_looking_at_all(mesh, p, others, 2))
+                    near.push_back(s);
+            }
+            const auto all = tree.within(p, but, 2);
+            CHECK(std::ranges::includes(all, near));
         }
     }
 }

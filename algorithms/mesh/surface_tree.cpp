@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/structure/detail/surface_tree.hpp>
+#include <terrane/algorithms/mesh/surface_tree.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,10 @@
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 
-namespace terrane::structure::detail {
+namespace terrane {
 namespace {
 
-constexpr std::uint32_t most_in_leaf = 4;
+constexpr std::uint32_t most_in_a_leaf_of_surfaces = 4;
 constexpr std::uint32_t no_surface = UINT32_MAX;
 
 /// Returns the first surface that is not listed, or no_surface. Both lists are ascending.
@@ -47,10 +47,12 @@ struct SurfaceTree::Best {
     }
 };
 
-SurfaceTree::SurfaceTree(const Mesh& mesh) : mesh_(mesh) {
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-        if (!mesh.surfaces_of[t].empty()) order_.push_back(t);
+SurfaceTree::SurfaceTree(const TrianglesOfSurfaces& all) : all_(all) {
+    for (std::uint32_t t = 0; t < all.triangles.size(); ++t)
+        if (!all.surfaces_of[t].empty()) order_.push_back(t);
     if (!order_.empty()) add_node(0, static_cast<std::uint32_t>(order_.size()));
+    for (std::uint32_t n = 0; n < nodes_.size(); ++n) // nodes are added on the way
+        if (nodes_[n].last - nodes_[n].first > most_in_a_leaf_of_surfaces) split(n);
 }
 
 void SurfaceTree::Node::name(std::uint32_t surface) {
@@ -72,25 +74,29 @@ void SurfaceTree::add_node(std::uint32_t first, std::uint32_t last) {
     BoxOfTriangles box;
     Node node{{}, {}, first, last, no_surface};
     for (std::uint32_t i = first; i < last; ++i) {
-        for (const std::uint32_t v : mesh_.triangles[order_[i]]) box.add(mesh_.vertices[v]);
-        for (const std::uint32_t s : mesh_.surfaces_of[order_[i]]) node.name(s);
+        for (const std::uint32_t v : all_.triangles[order_[i]]) box.add(all_.points[v]);
+        for (const std::uint32_t s : all_.surfaces_of[order_[i]]) node.name(s);
     }
     node.low = box.low;
     node.high = box.high;
     nodes_.push_back(node);
 }
 
+/// Splits a node at the median along the axis on which the middles of its triangles spread most.
 void SurfaceTree::split(std::uint32_t node) {
     const std::uint32_t first = nodes_[node].first, last = nodes_[node].last;
-    const Point3 size = minus(nodes_[node].high, nodes_[node].low);
+    const auto middle = [&](std::uint32_t t) {
+        const auto& [i, j, k] = all_.triangles[t];
+        const Point3 &a = all_.points[i], &b = all_.points[j], &c = all_.points[k];
+        return Point3{a.x + b.x + c.x, a.y + b.y + c.y, a.z + b.z + c.z};
+    };
+    BoxOfTriangles middles;
+    for (std::uint32_t i = first; i < last; ++i) middles.add(middle(order_[i]));
+    const Point3 size = minus(middles.high, middles.low);
     const auto longest = size.x >= size.y && size.x >= size.z ? &Point3::x
                          : size.y >= size.z                   ? &Point3::y
                                                               : &Point3::z;
-    const auto key = [&](std::uint32_t t) {
-        double sum = 0;
-        for (const std::uint32_t v : mesh_.triangles[t]) sum += mesh_.vertices[v].*longest;
-        return std::pair(sum, t);
-    };
+    const auto key = [&](std::uint32_t t) { return std::pair(middle(t).*longest, t); };
     const std::uint32_t half = first + (last - first) / 2;
     std::nth_element(order_.begin() + first, order_.begin() + half, order_.begin() + last,
                      [&](std::uint32_t t, std::uint32_t u) { return key(t) < key(u); });
@@ -99,23 +105,27 @@ void SurfaceTree::split(std::uint32_t node) {
     add_node(half, last);
 }
 
-void SurfaceTree::visit(const Point3& p, std::span<const std::uint32_t> but, std::uint32_t triangle,
-                        Best& best) const {
-    const std::uint32_t surface = first_but(mesh_.surfaces_of[triangle], but);
-    if (surface == no_surface) return;
-    const auto& [i, j, k] = mesh_.triangles[triangle];
-    const Point3 &a = mesh_.vertices[i], &b = mesh_.vertices[j], &c = mesh_.vertices[k];
+std::array<double, 2> SurfaceTree::distances(const Point3& p, std::uint32_t triangle) const {
+    const auto& [i, j, k] = all_.triangles[triangle];
+    const Point3 &a = all_.points[i], &b = all_.points[j], &c = all_.points[k];
     BoxOfTriangles box;
     for (const Point3& corner : {a, b, c}) box.add(corner);
     const double distance = distance_to_triangle(p, a, b, c);
-    const double least = std::max(distance, distance_to_box(p, box.low, box.high));
-    if (std::tie(least, surface, distance) >= std::tie(best.least, best.surface, best.distance))
-        return;
-    best = {least, surface, distance};
+    return {distance, std::max(distance, distance_to_box(p, box.low, box.high))};
 }
 
-std::optional<NearestSurface>
-SurfaceTree::nearest(const Point3& p, std::span<const std::uint32_t> but, double bound) {
+void SurfaceTree::visit(const Point3& p, std::span<const std::uint32_t> but, std::uint32_t triangle,
+                        Best& best) const {
+    const std::uint32_t surface = first_but(all_.surfaces_of[triangle], but);
+    if (surface == no_surface) return;
+    const auto [distance, least] = distances(p, triangle);
+    if (std::tie(least, surface, distance) < std::tie(best.least, best.surface, best.distance))
+        best = {least, surface, distance};
+}
+
+std::optional<NearestSurface> SurfaceTree::nearest(const Point3& p,
+                                                   std::span<const std::uint32_t> but, double bound,
+                                                   std::size_t* visits) const {
     if (nodes_.empty()) return std::nullopt;
     Best best{bound, 0}; // surface 0: what is found must be nearer than the bound
     struct Open {
@@ -130,14 +140,13 @@ SurfaceTree::nearest(const Point3& p, std::span<const std::uint32_t> but, double
     while (!stack.empty()) {
         const Open next = stack.back();
         stack.pop_back();
-        ++visits_;
+        if (visits != nullptr) ++*visits;
         if (!best.admits(next.distance, next.least) || nodes_[next.node].is_of(but)) continue;
-        if (nodes_[next.node].last - nodes_[next.node].first <= most_in_leaf) {
+        if (nodes_[next.node].last - nodes_[next.node].first <= most_in_a_leaf_of_surfaces) {
             for (std::uint32_t i = nodes_[next.node].first; i < nodes_[next.node].last; ++i)
                 visit(p, but, order_[i], best);
             continue;
         }
-        if (nodes_[next.node].children == 0) split(next.node);
         Open first = opened(nodes_[next.node].children),
              second = opened(nodes_[next.node].children + 1);
         if (std::tie(second.distance, second.least) < std::tie(first.distance, first.least))
@@ -149,4 +158,28 @@ SurfaceTree::nearest(const Point3& p, std::span<const std::uint32_t> but, double
     return NearestSurface{best.surface, best.distance};
 }
 
-} // namespace terrane::structure::detail
+std::vector<std::uint32_t> SurfaceTree::within(const Point3& p, std::span<const std::uint32_t> but,
+                                               double bound) const {
+    constexpr double about = 1 + 1e-9; // distances are rounded
+    std::vector<std::uint32_t> found, open;
+    if (!nodes_.empty()) open.push_back(0);
+    while (!open.empty()) {
+        const Node& node = nodes_[open.back()];
+        open.pop_back();
+        if (distance_to_box(p, node.low, node.high) > about * bound || node.is_of(but)) continue;
+        if (node.children > 0) {
+            open.insert(open.end(), {node.children, node.children + 1});
+            continue;
+        }
+        for (std::uint32_t i = node.first; i < node.last; ++i) {
+            if (distances(p, order_[i])[0] > about * bound) continue;
+            for (const std::uint32_t s : all_.surfaces_of[order_[i]])
+                if (!std::binary_search(but.begin(), but.end(), s)) found.push_back(s);
+        }
+    }
+    std::ranges::sort(found);
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+}
+
+} // namespace terrane
