@@ -201,6 +201,4 @@ TEST_CASE("cli: each second of a run counts for a stage", "[cli][once]") {
     expect_sum(folder, "volume " + parts + " -o out --parts obj --certificate out.json");
     expect_sum(folder, "improve " + vertices + " -o out.vtp");
     expect_sum(folder, "tetrahedralize " + parts + " -o out.vtu --blocks-only");
-    expect_sum(folder, "layer " + vertices + " -o out.vtp");
-    expect_sum(folder, "fill " + vertices + " -o out.vtp");
 }

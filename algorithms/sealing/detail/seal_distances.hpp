@@ -19,6 +19,7 @@ public:
 
     /// Returns the distance for two surfaces, or for parts of one. It is the same in either order.
     [[nodiscard]] double between(std::uint32_t surface, std::uint32_t other) const;
+    [[nodiscard]] bool has_exceptions() const { return !of_surface_.empty() || !of_pair_.empty(); }
     /// Returns the largest distance that some pair of surfaces can have.
     [[nodiscard]] double largest() const { return largest_; }
 
