@@ -438,6 +438,15 @@ def pieces():
     yield "no_piece", b"\1" + names
 
 
+def kept():
+    """Projects, and changes of what they keep (kept.cpp)."""
+    for kind in range(4):
+        yield f"same_{kind}", bytes([kind])
+        yield f"sibling_{kind}", bytes([kind, 1, (kind + 1) % 4])
+        for how in range(8):
+            yield f"changed_{kind}_{how}", bytes([kind, 0, (kind + how) % 2, 2]) + 2 * bytes([how, 1, 9 * how, 77, 3, 128])
+
+
 def base64_block(form, *values):
     """A block of binary data in VTK's XML formats, with its length before it."""
     data = struct.pack(form, *values)
@@ -495,7 +504,8 @@ def main():
                "forge_sealed": forge_sealed,
                "arrange": soups, "rounding": soups, "crowded": crowded, "regions": soups,
                "blocks": soups, "known": soups,
-               "volumes": soups, "tetrahedra": soups, "pieces": pieces}
+               "volumes": soups, "tetrahedra": soups, "pieces": pieces,
+               "kept": kept}
     seeds = {t: dict(make()) for t, make in targets.items()}
     for fmt, files in (FILES | other_programs()).items():
         seeds["read_" + fmt] = {n: f if isinstance(f, bytes) else f.encode()

@@ -249,7 +249,10 @@ private:
         if (const auto kept = found(BuildStage::improve, key)) {
             auto improved = improved_from(*kept, rounded(), options, run_);
             if (!improved) return improved.error();
-            if ((built_.improved = std::move(*improved))) return taken(BuildStage::improve);
+            if ((built_.improved = std::move(*improved))) {
+                if (auto good = check_resolution(); !good) return good;
+                return taken(BuildStage::improve);
+            }
         }
         auto improved = improve_and_measure(rounded(), options, run_);
         if (!improved) return improved.error();

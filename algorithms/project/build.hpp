@@ -82,9 +82,9 @@ struct BuildObserver {
 };
 
 /// Keeps results of stages that take long, `improve` and `tetrahedra`, for another call of build()
-/// with the same inputs. A result is bytes under a key, a hash of all that decides it. What is
-/// found is not trusted: a mesh is proven conforming again, tetrahedra are checked again, and what
-/// fails is made anew.
+/// with the same inputs. A result is bytes under a key, a hash of all that decides it. A store must find
+/// only what build() kept under this key, unchanged: what measures say is believed. Whatever the bytes are,
+/// a mesh that is taken is proven conforming again, and tetrahedra are checked again; what fails is made anew.
 struct StageStore {
     /// Returns what was kept under a key; none if nothing was.
     std::function<std::optional<std::string>(BuildStage, const std::string& key)> find{};

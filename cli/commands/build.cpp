@@ -71,7 +71,11 @@ public:
         project_(project),
         page_(std::move(page)), page_files_(std::move(files)), source_(command.project),
         folder_(project.folder), strict_(command.strict), session_(session) {
-        if (command.resume && !folder_.empty()) kept_.emplace(folder_);
+        if (!command.resume || folder_.empty()) return;
+        if (const auto key = UserKey::read_or_make())
+            kept_.emplace(folder_, *key);
+        else
+            warn(key.error().message() + "; --resume neither keeps stages nor takes any");
     }
 
     Result<ExitStatus> operator()() {

@@ -220,7 +220,7 @@ Status check_project_files(const CLI::App& command, const Project& project) {
         outputs.push_back({"key folder", project.folder, false, true});
     if (auto sound = check_outputs(outputs); !sound) return sound;
     if (!project.folder.empty() && command.get_option("--resume")->count() > 0)
-        outputs.push_back({"--resume", KeptStages(project.folder).folder()});
+        outputs.push_back({"--resume", stages_folder(project.folder)});
     if (auto sound = check_inputs_stay(outputs, inputs); !sound) return sound;
     if (FileSet::current() != nullptr)
         for (const NamedFile& in : inputs) FileSet::current()->keep(in.path);

@@ -10,18 +10,25 @@
 #include <string_view>
 
 #include <terrane/algorithms/project/build.hpp>
+#include <terrane/cli/stages/user_key.hpp>
 
 namespace terrane::cli {
 
 /// Returns the name of a stage, as `build` prints it.
 std::string_view name_of(BuildStage stage);
 
-/// The folder of kept results. It is made when the first stage is kept. Each file has a line with
-/// the version of the program, the key of the result and the hash of its bytes, then these bytes.
+/// Returns where results of stages are kept: "RESULTS.stages" beside the folder of results.
+std::filesystem::path stages_folder(const std::filesystem::path& results);
+
+/// The folder of kept results. It is made when the first stage is kept. Each file has a line with the
+/// format, the version of the program, the stage, the key of the result, the number and the hash of its
+/// bytes, and the code of all this by the user's key; then these bytes. What has no such line, or
+/// another one than the stage that is looked for, is not taken.
 class KeptStages {
 public:
-    /// Keeps them beside the folder `results`, in "RESULTS.stages".
-    explicit KeptStages(const std::filesystem::path& results);
+    /// Keeps them beside the folder `results`.
+    KeptStages(const std::filesystem::path& results, const UserKey& key) :
+        folder_(stages_folder(results)), key_(key) {}
 
     /// Returns callbacks for build(); this object must outlive them.
     [[nodiscard]] StageStore store();
@@ -37,6 +44,7 @@ private:
     void keep(BuildStage stage, const std::string& key, const std::string& bytes) const;
 
     std::filesystem::path folder_;
+    UserKey key_;
 };
 
 } // namespace terrane::cli

@@ -63,8 +63,9 @@ public:
     /// Runs a line of the shell, in which $T is the program, $D is tests/data, and
     /// $K SIGNAL MOMENT COMMAND interrupts a command (tests/support/interrupted.py).
     [[nodiscard]] Outcome shell(const std::string& line) const {
-        const auto command = "cd '" + path_.string() + "' && T='" + test_support::program() +
-                             "' && D='" + test_support::test_data() +
+        const auto command = "cd '" + path_.string() +
+                             "' && export XDG_STATE_HOME=\"$PWD/io/state\" && T='" +
+                             test_support::program() + "' && D='" + test_support::test_data() +
                              "' && K=\"$D/../support/interrupted.py\" && { " + line +
                              " ; } >io/out 2>io/err </dev/null";
         const int code = std::system(command.c_str());

@@ -5,7 +5,9 @@
 // order of this machine, as they are kept for it alone.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -33,6 +35,19 @@ template <>
 inline constexpr bool is_flat<Point3> = true;
 template <class T, std::size_t N>
 inline constexpr bool is_flat<std::array<T, N>> = is_flat<T>;
+
+/// Tells whether all numbers of a flat object are finite.
+template <class T>
+bool is_finite(const T& object) {
+    if constexpr (std::same_as<T, Point3>)
+        return is_finite(std::array{object.x, object.y, object.z});
+    else if constexpr (std::is_floating_point_v<T>)
+        return std::isfinite(object);
+    else if constexpr (requires { object.begin(); })
+        return std::ranges::all_of(object, [](const auto& part) { return is_finite(part); });
+    else
+        return true;
+}
 
 /// Appends objects to a text of bytes.
 class ByteWriter {
@@ -76,7 +91,8 @@ private:
     }
 };
 
-/// Takes objects from bytes, in the order in which they were appended.
+/// Takes objects from bytes, in the order in which they were appended. Any bytes may come: memory is
+/// linear in their number, lists of lists have ascending offsets, and all numbers are finite.
 class ByteReader {
 public:
     explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
@@ -107,11 +123,14 @@ private:
     }
     template <class T>
     void take(std::vector<T>& list) {
-        list.resize(taken_count(is_flat<T> ? sizeof(T) : 1));
-        if constexpr (is_flat<T>)
+        if constexpr (is_flat<T>) {
+            list.resize(taken_count(sizeof(T)));
             take_bytes(std::span(list));
-        else
-            for (T& object : list) take(object);
+        } else {
+            list.clear(); // objects are larger than their bytes: none is made that can't be there
+            for (std::size_t left = taken_count(1); left > 0 && good_; --left)
+                take(list.emplace_back());
+        }
     }
     template <class T>
     void take(IndexLists<T>& lists) {
@@ -140,6 +159,7 @@ private:
         if (!good_) return;
         std::memcpy(flat.data(), rest_.data(), flat.size_bytes());
         rest_.remove_prefix(flat.size_bytes());
+        good_ = std::ranges::all_of(flat, [](const T& object) { return is_finite(object); });
     }
 
     std::string_view rest_;

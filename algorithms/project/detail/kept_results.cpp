@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace terrane::project::detail {
 namespace {
 
 /// To be raised where the same inputs and options make another result than before.
-constexpr std::uint32_t generation = 1;
+constexpr std::uint32_t generation = 2;
 
 } // namespace
 
@@ -82,11 +83,13 @@ static void fields(auto& archive, Is<NamedConstant> auto& c) {
 
 namespace {
 
-/// Writes or reads all but the mesh of an improvement.
-void rest_of(auto& archive, Is<ImprovedAndMeasured> auto& i) {
+/// Writes or reads what is new about an improvement: the surfaces are those of the mesh before, and no
+/// triangle has parents.
+void parts_of(auto& archive, Is<Mesh> auto& mesh, Is<ImprovedAndMeasured> auto& i) {
     auto& m = i.improved;
-    archive(m.volumes, m.volumes_before, m.volume_before, m.near_of, m.report, i.deviations,
-            i.bounds_back);
+    archive(mesh.vertices, mesh.triangles, mesh.surfaces_of, mesh.regions_of,
+            mesh.intersection_edges, m.volumes, m.volumes_before, m.volume_before, m.near_of,
+            m.report, i.deviations, i.bounds_back);
 }
 
 bool all_below(const std::vector<std::uint32_t>& numbers, std::size_t limit) {
@@ -101,31 +104,50 @@ bool belong_to(const Volumes& volumes, const Mesh& mesh) {
            });
 }
 
+/// Tells whether these may be the edges of a mesh: sorted, unique, and between vertices.
+bool are_edges(const std::vector<Edge>& edges, std::size_t vertices) {
+    return std::ranges::adjacent_find(edges, std::greater_equal<>()) == edges.end() &&
+           std::ranges::all_of(
+               edges, [vertices](const Edge& e) { return e[0] < e[1] && e[1] < vertices; });
+}
+
+/// Tells whether each triangle has surfaces, and regions that the mesh before has, if any.
+bool have_surfaces(const Mesh& mesh, const Mesh& before) {
+    const auto& of = mesh.surfaces_of;
+    if (of.size() != mesh.triangles.size() || !all_below(of.values, before.surfaces.size()))
+        return false;
+    for (std::size_t t = 0; t < of.size(); ++t)
+        if (of[t].empty() ||
+            std::ranges::adjacent_find(of[t], std::greater_equal<>()) != of[t].end())
+            return false;
+    if (mesh.regions_of.size() == 0) return mesh.regions_of.values.empty();
+    const auto& regions = before.regions_of.values;
+    const std::size_t count =
+        regions.empty() ? 0 : 1 + std::size_t{*std::ranges::max_element(regions)};
+    return mesh.regions_of.offsets == of.offsets && all_below(mesh.regions_of.values, count);
+}
+
+bool is_triangle_of(std::uint32_t worst, const Mesh& mesh) {
+    return worst < mesh.triangles.size() || worst == UINT32_MAX;
+}
+
 /// Tells whether an improvement may be one of this mesh: all lists have the right lengths, and all
-/// numbers are of something that is there.
+/// numbers are of something that is there. Corners of triangles are left to the proof.
 bool may_come_from(const Mesh& before, const Mesh& mesh, const ImprovedAndMeasured& kept) {
     const Improved& made = kept.improved;
-    const std::size_t triangles = mesh.triangles.size(), surfaces = before.surfaces.size();
-    const auto is_list = [&](const IndexLists<std::uint32_t>& lists) {
-        return lists.size() == triangles || lists.size() == 0;
-    };
-    const auto edges_are_good = [&](const Edge& e) {
-        return std::max(e[0], e[1]) < mesh.vertices.size();
-    };
-    const std::size_t worst = made.report.after.worst;
-    return mesh.surfaces == before.surfaces && mesh.surfaces_of.size() == triangles &&
-           is_list(mesh.regions_of) && is_list(mesh.parents_of) &&
-           all_below(mesh.surfaces_of.values, surfaces) &&
-           std::all_of(mesh.intersection_edges.begin(), mesh.intersection_edges.end(),
-                       edges_are_good) &&
+    const ImproveReport& report = made.report;
+    const std::size_t surfaces = before.surfaces.size();
+    const std::size_t volumes = report.sides_kept ? made.volumes.measures.size() : 0;
+    return have_surfaces(mesh, before) &&
+           are_edges(mesh.intersection_edges, mesh.vertices.size()) &&
            belong_to(made.volumes, mesh) && belong_to(made.volumes_before, before) &&
+           made.volume_before.size() == volumes &&
            all_below(made.volume_before, made.volumes_before.measures.size()) &&
-           (made.volume_before.empty() ||
-            made.volume_before.size() == made.volumes.measures.size()) &&
-           made.near_of.size() == triangles && all_below(made.near_of, before.triangles.size()) &&
-           (worst < triangles || worst == UINT32_MAX) &&
-           made.report.worst_cause <= WorstCause::rounds &&
-           made.report.bound_of.size() == surfaces && kept.deviations.size() == surfaces &&
+           made.near_of.size() == mesh.triangles.size() &&
+           all_below(made.near_of, before.triangles.size()) &&
+           is_triangle_of(report.before.worst, before) &&
+           is_triangle_of(report.after.worst, mesh) && report.worst_cause <= WorstCause::rounds &&
+           report.bound_of.size() == surfaces && kept.deviations.size() == surfaces &&
            kept.bounds_back.size() == surfaces;
 }
 
@@ -143,8 +165,7 @@ std::string key_of(const ConformingMesh& mesh, const ImproveOptions& options) {
 
 std::string bytes_of(const ImprovedAndMeasured& improved) {
     ByteWriter writer;
-    writer(*improved.improved.mesh);
-    rest_of(writer, improved);
+    parts_of(writer, *improved.improved.mesh, improved);
     return std::move(writer.bytes);
 }
 
@@ -155,14 +176,12 @@ Result<std::optional<ImprovedAndMeasured>> improved_from(std::string_view bytes,
     ByteReader reader(bytes);
     Mesh mesh;
     ImprovedAndMeasured kept;
-    reader(mesh);
-    rest_of(reader, kept);
+    parts_of(reader, mesh, kept);
     if (!reader.complete() || !may_come_from(*before, mesh, kept)) return {std::nullopt};
+    mesh.surfaces = before->surfaces;
     std::vector<std::uint32_t> labels;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (mesh.surfaces_of[t].empty()) return {std::nullopt};
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         labels.push_back(mesh.surfaces_of[t][0]);
-    }
     auto proven = prove_conforming(std::move(mesh), labels, options.check, run);
     if (!proven) {
         if (is_external(proven.error().code)) return proven.error();
@@ -181,6 +200,7 @@ std::string key_of(const Model& model, const TetrahedraRequest& request) {
     for (const ModelBlock& block : model.structure.blocks) all(block.name);
     for (const auto& wanted : {o.edge_length, o.radius_edge_ratio, o.max_volume})
         all(wanted.value_or(-1));
+    all(o.time_limit); // which decides who makes them, where another mesher comes next
     return key_of(all);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Results of stages as bytes, and the keys under which they are kept. A key is a hash of all that
-// decides the result. Bytes are not trusted: what they hold is proven again, or checked as if a
-// mesher had just made it.
+// decides the result. Any bytes may come: sizes, indices and numbers are checked, a mesh is proven
+// again, and tetrahedra are checked as if a mesher had just made them.
 #pragma once
 
 #include <optional>
@@ -37,7 +37,8 @@ std::string key_of(const Model& model, const TetrahedraRequest& request);
 /// Returns the bytes of tetrahedra.
 std::string bytes_of(const TetrahedralMesh& mesh);
 
-/// Takes tetrahedra from bytes; none if the bytes are none. Nothing is checked but lengths of lists.
+/// Takes tetrahedra from bytes; none if the bytes are none. Nothing is checked but lengths of lists and
+/// that numbers are finite: check_tetrahedra() comes before any use.
 std::optional<TetrahedralMesh> tetrahedra_from(std::string_view bytes);
 
 } // namespace terrane::project::detail

@@ -283,8 +283,7 @@ private:
 class Loosener {
 public:
     Loosener(const LoosenInput& input, const Run& run) :
-        input_(input), run_(run), mesh_(*input.improved.improved.mesh),
-        corners_(corners_at(mesh_, input.made)) {
+        input_(input), run_(run), mesh_(*input.improved.improved.mesh) {
         if (input.arranged.simplified)
             room_ = std::make_unique<RoomOfResolution>(input, run);
         else
@@ -299,6 +298,7 @@ public:
         auto sound = improve(steps, still);
         if (!sound) return sound.error();
         if (!*sound) return std::optional<Loosened>();
+        corners_ = corners_at(mesh_, input_.made);
         vertex_at_ = vertices_at_nodes(still.tetrahedra);
         steps.angles = false;
         steps.shapes = true;
