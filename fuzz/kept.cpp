@@ -26,14 +26,21 @@ using Kept = std::map<BuildStage, std::string>;
 Project project_of(unsigned kind) {
     Project project;
     project.improve = ProjectImprove{};
-    project.improve->edge_length = 2;
-    if (kind == 1) project.improve->resolution = 0.1;
+    project.improve->edge_length = 5;
+    if (kind == 1) project.improve->resolution = 1;
 #ifdef TERRANE_HAS_TETGEN
     if (kind > 0) project.outputs.tetrahedra = {"vtu"};
     if (kind == 2) project.tetrahedra.refine_bad = 1;
     if (kind == 3) project.tetrahedra.move_vertices = false;
 #endif
     return project;
+}
+
+/// Returns a box in four sectors, or, to be simplified, in two.
+std::vector<Surface> surfaces_of(const Project& project) {
+    auto surfaces = test_support::sectors();
+    surfaces.resize(project.improve->resolution ? 2 : 3);
+    return surfaces;
 }
 
 /// Builds a project from what was kept, whatever the keys; keeps nothing if `made` is null.
@@ -48,7 +55,7 @@ Result<Built> built(const Project& project, const Kept& kept, Kept* made) {
             [&](BuildStage stage, const std::string&, const std::string& bytes) {
                 if (made != nullptr) made->try_emplace(stage, bytes);
             }};
-    return build(project, {.surfaces = test_support::sectors()}, {}, {}, store);
+    return build(project, {.surfaces = surfaces_of(project)}, {}, {}, store);
 }
 
 /// Returns what a project keeps; it is built once.
