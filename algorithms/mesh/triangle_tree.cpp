@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 
@@ -35,15 +36,14 @@ Point3 nearest_on_segment(const Point3& p, const Point3& a, const Point3& b) {
     return {a.x + t * d.x, a.y + t * d.y, a.z + t * d.z};
 }
 
-} // namespace
-
-double distance_to_box(const Point3& p, const Point3& low, const Point3& high) {
+double direct_distance_to_box(const Point3& p, const Point3& low, const Point3& high) {
     const auto beyond = [](double x, double l, double h) { return std::max({l - x, 0.0, x - h}); };
     return length(
         {beyond(p.x, low.x, high.x), beyond(p.y, low.y, high.y), beyond(p.z, low.z, high.z)});
 }
 
-double distance_to_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
+double direct_distance_to_triangle(const Point3& p, const Point3& a, const Point3& b,
+                                   const Point3& c) {
     const Point3 n = cross(minus(b, a), minus(c, a));
     const auto inside = [&](const Point3& from, const Point3& to) {
         return dot(cross(minus(to, from), minus(p, from)), n) >= 0;
@@ -55,12 +55,34 @@ double distance_to_triangle(const Point3& p, const Point3& a, const Point3& b, c
         {distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
 }
 
+} // namespace
+
+double distance_to_box(const Point3& p, const Point3& low, const Point3& high) {
+    return measure(1, direct_distance_to_box, p, low, high);
+}
+
+double distance_to_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
+    return measure(1, direct_distance_to_triangle, p, a, b, c);
+}
+
 Point3 nearest_on_triangle(const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
     const Point3 n = cross(minus(b, a), minus(c, a));
     const auto inside = [&](const Point3& from, const Point3& to) {
         return dot(cross(minus(to, from), minus(p, from)), n) >= 0;
     };
     const double square = dot(n, n);
+    if (!std::isfinite(square)) { // too large for squares of areas
+        const auto by = [](const Point3& q, int exponent) {
+            return Point3{std::ldexp(q.x, exponent), std::ldexp(q.y, exponent),
+                          std::ldexp(q.z, exponent)};
+        };
+        double size = 0;
+        for (const Point3& q : {p, a, b, c})
+            size = std::max({size, std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)});
+        const int to_one = -std::ilogb(size);
+        return by(nearest_on_triangle(by(p, to_one), by(a, to_one), by(b, to_one), by(c, to_one)),
+                  -to_one);
+    }
     if (square > 0 && inside(a, b) && inside(b, c) && inside(c, a)) {
         const double f = dot(minus(p, a), n) / square;
         return {p.x - f * n.x, p.y - f * n.y, p.z - f * n.z};

@@ -14,6 +14,7 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 
@@ -29,7 +30,7 @@ Point3 weighted(const Corners& t, double a, double b, double c) {
 }
 
 double apart(const Point3& a, const Point3& b) {
-    return std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
+    return distance_between(a, b);
 }
 
 Corners corners_of(const Surface& s, const Triangle& t) {

@@ -242,17 +242,18 @@ std::vector<double> sampled(const Surface& from, const TriangleTree& tree, const
     return largest;
 }
 
-} // namespace
-
-double measured_distance(const Surface& from, const Surface& to, const Run& run) {
-    const StandardArithmetic guard;
-    if (from.triangles.empty()) return 0;
-    if (to.triangles.empty()) return anywhere;
-    const TriangleTree tree(to.vertices, to.triangles);
+/// Returns the largest absolute value of a coordinate.
+double size_of(const Surface& from, const Surface& to) {
     double size = 0;
     for (const auto* points : {&from.vertices, &to.vertices})
         for (const Point3& p : *points)
             size = std::max({size, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    return size;
+}
+
+/// Measures surfaces whose largest coordinate has this size; squares must neither overflow nor underflow.
+double distance_in_range(const Surface& from, const Surface& to, double size, const Run& run) {
+    const TriangleTree tree(to.vertices, to.triangles);
     const double rounding = 256 * std::numeric_limits<double>::epsilon() * size;
     std::vector<double> found = sampled(from, tree, run);
     // The triangles with the largest samples come first, so that others need fewer parts.
@@ -280,6 +281,27 @@ double measured_distance(const Surface& from, const Surface& to, const Run& run)
         report_part(run, "measure", sampling_share, 1, done + count, order.size());
     }
     return least;
+}
+
+Surface scaled(Surface surface, int exponent) {
+    for (Point3& p : surface.vertices)
+        p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
+    return surface;
+}
+
+} // namespace
+
+double measured_distance(const Surface& from, const Surface& to, const Run& run) {
+    const StandardArithmetic guard;
+    if (from.triangles.empty()) return 0;
+    if (to.triangles.empty()) return anywhere;
+    const double size = size_of(from, to);
+    constexpr double least = 0x1p-300, most = 0x1p+300; // in between, scaling changes no digit
+    if (size == 0 || (size > least && size < most)) return distance_in_range(from, to, size, run);
+    const int exponent = std::ilogb(size);
+    return std::ldexp(distance_in_range(scaled(from, -exponent), scaled(to, -exponent),
+                                        std::ldexp(size, -exponent), run),
+                      exponent);
 }
 
 } // namespace terrane

@@ -9,14 +9,11 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 
 namespace terrane {
 namespace {
-
-double distance(const Point3& a, const Point3& b) {
-    return std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
-}
 
 /// Computes the angle opposite to the first of three sides.
 double angle_opposite(double a, double b, double c) {
@@ -30,7 +27,8 @@ double angle_opposite(double a, double b, double c) {
 
 /// Computes the least and the largest angle: those opposite to the shortest and the longest side.
 std::pair<double, double> extreme_angles(const Point3& a, const Point3& b, const Point3& c) {
-    std::array<double, 3> sides{distance(b, c), distance(c, a), distance(a, b)};
+    std::array<double, 3> sides{distance_between(b, c), distance_between(c, a),
+                                distance_between(a, b)};
     std::sort(sides.begin(), sides.end());
     return {angle_opposite(sides[0], sides[1], sides[2]),
             angle_opposite(sides[2], sides[0], sides[1])};
@@ -42,7 +40,7 @@ std::vector<double> edge_lengths(std::span<const Point3> vertices,
     lengths.reserve(triangles.size() * 2);
     group_edges(triangles, vertices.size(), run)
         .for_each([&](std::uint32_t low, std::uint32_t high, auto) {
-            lengths.push_back(distance(vertices[low], vertices[high]));
+            lengths.push_back(distance_between(vertices[low], vertices[high]));
         });
     return lengths;
 }
@@ -69,7 +67,8 @@ double quality_of(const Point3& first, const Point3& second, const Point3& third
 }
 
 std::array<double, 3> angles_of(const Point3& a, const Point3& b, const Point3& c) {
-    const double la = distance(b, c), lb = distance(c, a), lc = distance(a, b);
+    const double la = distance_between(b, c), lb = distance_between(c, a),
+                 lc = distance_between(a, b);
     return {angle_opposite(la, lb, lc), angle_opposite(lb, lc, la), angle_opposite(lc, la, lb)};
 }
 

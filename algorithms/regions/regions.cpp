@@ -14,13 +14,13 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
 
 namespace terrane {
 namespace {
 
-double area_of(std::span<const Point3> v, const Triangle& t) {
-    const Point3 &a = v[t[0]], &b = v[t[1]], &c = v[t[2]];
+double area_of_corners(const Point3& a, const Point3& b, const Point3& c) {
     const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
     const double wx = c.x - a.x, wy = c.y - a.y, wz = c.z - a.z;
     const double x = uy * wz - uz * wy, y = uz * wx - ux * wz, z = ux * wy - uy * wx;
@@ -30,6 +30,10 @@ double area_of(std::span<const Point3> v, const Triangle& t) {
     const bool in_range = squared > std::numeric_limits<double>::min() * 0x1p+100 &&
                           squared <= std::numeric_limits<double>::max();
     return 0.5 * (in_range ? std::sqrt(squared) : std::hypot(x, y, z));
+}
+
+double area_of(std::span<const Point3> v, const Triangle& t) {
+    return measure(2, area_of_corners, v[t[0]], v[t[1]], v[t[2]]);
 }
 
 /// Joins triangles across edges. A slot stands for a triangle in one of its surfaces.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/mesh/surface_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 
@@ -37,7 +38,7 @@ std::vector<Sample> samples_along(const Mesh& mesh, const ModelLine& line,
         double bound = std::numeric_limits<double>::infinity();
         if (!samples.empty()) { // the triangle inequality, but for rounding
             const auto& [before, nearest] = samples.back();
-            bound = 1.001 * (nearest.distance + length(minus(p, before)));
+            bound = 1.001 * (nearest.distance + length_between(before, p));
         }
         auto found = tree.nearest(p, line.surfaces, bound);
         if (!found && !samples.empty())
@@ -49,7 +50,7 @@ std::vector<Sample> samples_along(const Mesh& mesh, const ModelLine& line,
         add(p);
         if (i + 1 == line.vertices.size()) break;
         const Point3& q = mesh.vertices[line.vertices[i + 1]];
-        add({p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2});
+        add(middle_of(p, q));
     }
     return samples;
 }
@@ -68,7 +69,7 @@ std::vector<BorderGap> gaps_along(const Mesh& mesh, const ModelLine& line,
         const int decade = decade_of(distance);
         const BorderGap fresh{SurfaceId(surface), decade, 0, distance, distance, far.place};
         BorderGap& gap = gaps.try_emplace({decade, surface}, fresh).first->second;
-        gap.length += std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
+        gap.length += distance_between(q, p);
         gap.least = std::min(gap.least, distance);
         if (distance <= gap.largest) continue;
         gap.largest = distance;

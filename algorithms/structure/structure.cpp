@@ -12,6 +12,7 @@
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>
 #include <terrane/algorithms/structure/build_structure.hpp>
 #include <terrane/algorithms/structure/detail/parts.hpp>
@@ -138,8 +139,7 @@ private:
             ModelPatch& patch = out_.patches[i];
             for (const std::uint32_t t : patch.triangles) {
                 out_.patch_of[t] = i;
-                const Point3 n = area_vector(mesh_, t);
-                patch.area += std::hypot(n.x, n.y, n.z) / 2;
+                patch.area += triangle_area(mesh_, t);
             }
             ModelInterface& interface = out_.interfaces[patch.interface];
             interface.patches.push_back(i);
@@ -173,6 +173,11 @@ Point3 area_vector(const Mesh& mesh, std::uint32_t triangle) {
     const Point3 &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
     const Point3 u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
     return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+}
+
+double triangle_area(const Mesh& mesh, std::uint32_t triangle) {
+    const auto& [i, j, k] = mesh.triangles[triangle];
+    return area_between(mesh.vertices[i], mesh.vertices[j], mesh.vertices[k]);
 }
 
 } // namespace structure::detail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/tetrahedra/sharpest_angle.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -10,9 +11,18 @@
 namespace terrane {
 namespace {
 
+/// Returns q - p times a power of two by which squares of it are doubles.
+Point3 direction(const Point3& p, const Point3& q) {
+    const Point3 d = minus(q, p);
+    const double size = std::max({std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)});
+    if (!(size > 0) || !std::isfinite(size)) return d;
+    const int to_one = -std::ilogb(size);
+    return {std::ldexp(d.x, to_one), std::ldexp(d.y, to_one), std::ldexp(d.z, to_one)};
+}
+
 /// Returns the direction away from the edge p q in the plane of the triangle p q r.
 Point3 away(const Point3& p, const Point3& q, const Point3& r) {
-    const Point3 e = minus(q, p), d = minus(r, p);
+    const Point3 e = direction(p, q), d = direction(p, r);
     const double share = dot(d, e) / dot(e, e);
     return {d.x - share * e.x, d.y - share * e.y, d.z - share * e.z};
 }
@@ -38,7 +48,7 @@ std::optional<SharpAngle> sharpest_angle(const Mesh& mesh) {
             for (std::size_t i = 0; i < directions.size(); ++i)
                 for (std::size_t j = i + 1; j < directions.size(); ++j) {
                     const double angle = degrees_between(directions[i], directions[j]);
-                    if (sharpest && !(angle < sharpest->degrees)) continue;
+                    if (std::isnan(angle) || (sharpest && angle >= sharpest->degrees)) continue;
                     sharpest = {
                         angle,
                         {p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2}};

@@ -15,6 +15,7 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
@@ -121,8 +122,7 @@ std::array<std::vector<double>, 3> planes_of(const Arrangement& a,
 // ---- Report
 
 double area_of(std::span<const Point3> places, const Triangle& t) {
-    const Point3 n = cross(minus(places[t[1]], places[t[0]]), minus(places[t[2]], places[t[0]]));
-    return std::hypot(n.x, n.y, n.z) / 2;
+    return area_between(places[t[0]], places[t[1]], places[t[2]]);
 }
 
 std::vector<Point3> places_of(const Arrangement& a) {
@@ -202,7 +202,7 @@ std::vector<OpenBorder> open_borders(const Arrangement& a, std::span<const std::
             const Point3 &p = places[open[i][0]], &q = places[open[i][1]];
             const auto [it, fresh] =
                 by_set.emplace(sets.find(i), OpenBorder{SurfaceId(surface), 0, std::min(p, q)});
-            it->second.length += std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
+            it->second.length += distance_between(q, p);
             it->second.place = std::min({it->second.place, p, q});
         }
         for (const auto& [set, border] : by_set) borders.push_back(border);

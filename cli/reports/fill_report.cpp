@@ -14,6 +14,7 @@
 #include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 #include <terrane/cli/reports/fill_map.hpp>
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/quantities.hpp>
 #include <terrane/cli/session/styles.hpp>
 
 namespace terrane::cli {
@@ -57,11 +58,13 @@ std::string holes_table(const FillWork& work) {
         "\n";
     for (const NumberedHole& hole : work.holes) {
         const BorderLoop& loop = loop_of(work, hole);
-        text += fmt::format("{:>6}  {:<10} {:>8} {:>12.6g} {:>12.6g} {:>10.4g} {:>10.4g}  "
-                            "({:.8g}, {:.8g}, {:.6g}) {}\n",
-                            hole.number, name_of_kind(loop), loop.vertices.size(), loop.length,
-                            loop.area, loop.width, loop.fault_throw, loop.centre.x, loop.centre.y,
-                            loop.centre.z, work.surfaces[hole.task].label);
+        text += fmt::format("{:>6}  {:<10} {:>8} {:>12} {:>12} {:>10} {:>10}  "
+                            "({}, {}, {}) {}\n",
+                            hole.number, name_of_kind(loop), loop.vertices.size(),
+                            figure(loop.length, 6), figure(loop.area, 6), figure(loop.width, 4),
+                            figure(loop.fault_throw, 4), figure(loop.centre.x, 8),
+                            figure(loop.centre.y, 8), figure(loop.centre.z, 6),
+                            work.surfaces[hole.task].label);
     }
     return text;
 }
@@ -77,13 +80,14 @@ std::string filled_text(const FillWork& work) {
         points += r.interpolated;
         area += r.area;
         if (shown++ >= most_holes) continue;
-        text += fmt::format("hole {}: {} and area {:.6g} invented, {}, from {}\n  {}\n",
-                            hole.number, counted(r.interpolated, "point"), r.area, error_text(r),
+        text += fmt::format("hole {}: {} and area {} invented, {}, from {}\n  {}\n", hole.number,
+                            counted(r.interpolated, "point"), figure(r.area, 6), error_text(r),
                             counted(r.data, "point"), r.model);
     }
     if (shown > most_holes) text += fmt::format("and {} more\n", shown - most_holes);
-    text += fmt::format("filled {} of {}: {} and area {:.6g} invented\n", filled,
-                        counted(work.holes.size(), "hole"), counted(points, "point"), area);
+    text +=
+        fmt::format("filled {} of {}: {} and area {} invented\n", filled,
+                    counted(work.holes.size(), "hole"), counted(points, "point"), figure(area, 6));
     return text;
 }
 

@@ -19,10 +19,10 @@ namespace terrane::cli {
 namespace {
 
 std::string quality_row(const char* name, const QualityReport& q) {
-    return fmt::format(
-        "  {:<7} {:>9}  {:.4f}  {:.4f}  {:>6.2f}  {:>8.3f}  {:>8.3f}  {:.4g}, {:.4g}, {:.4g}\n",
-        name, q.triangles, q.q.mean, q.q.min, 100 * q.share_above_08, q.smallest_angle.min,
-        q.largest_angle.max, q.edge_length.min, q.edge_length.mean, q.edge_length.max);
+    return fmt::format("  {:<7} {:>9}  {:.4f}  {:.4f}  {:>6.2f}  {:>8.3f}  {:>8.3f}  {}, {}, {}\n",
+                       name, q.triangles, q.q.mean, q.q.min, 100 * q.share_above_08,
+                       q.smallest_angle.min, q.largest_angle.max, figure(q.edge_length.min, 4),
+                       figure(q.edge_length.mean, 4), figure(q.edge_length.max, 4));
 }
 
 std::string worst_text(const Improved& improved) {

@@ -151,9 +151,10 @@ std::string text_of(const SealAdvice& advice, const Inputs& inputs) {
     text += fmt::format("  {:>10}  {:>6}  {:>5}  {:>7}  {:>9}  {:>10}  {:>10}\n", "distance",
                         "blocks", "small", "changes", "triangles", "along", "left open");
     for (const SealTrial& t : advice.trials)
-        text += fmt::format("  {:>10}  {:>6}  {:>5}  {:>7}  {:>9}  {:>10.4g}  {:>10.4g}\n",
-                            t.distance == 0 ? "none" : fmt::format("{}", t.distance), t.blocks,
-                            t.small, t.changes, t.triangles, t.length, t.left);
+        text +=
+            fmt::format("  {:>10}  {:>6}  {:>5}  {:>7}  {:>9}  {:>10}  {:>10}\n",
+                        t.distance == 0 ? "none" : fmt::format("{}", t.distance), t.blocks, t.small,
+                        t.changes, t.triangles, figure(t.length, 4), figure(t.left, 4));
     return text + fmt::format("small: below {}, see --min-volume auto; triangles: added or "
                               "removed; along: the borders that change\n",
                               quantities.volume(advice.small_volume, 3));

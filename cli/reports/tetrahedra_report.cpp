@@ -54,8 +54,9 @@ std::string dihedral_text(const TetrahedraShape& shape) {
 
 std::string radius_edge_text(const TetrahedraShape& shape) {
     auto text =
-        fmt::format("ratio of circumradius to shortest edge {:.3g} to {:.4g}, mean {:.3g}\n",
-                    shape.radius_edge.least, shape.radius_edge.largest, shape.radius_edge.mean);
+        fmt::format("ratio of circumradius to shortest edge {} to {}, mean {}\n",
+                    figure(shape.radius_edge.least, 3), figure(shape.radius_edge.largest, 4),
+                    figure(shape.radius_edge.mean, 3));
     const auto& counts = shape.radius_edge_histogram;
     for (std::size_t i = 0; i < counts.size(); ++i) {
         if (counts[i] == 0) continue;

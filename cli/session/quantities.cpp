@@ -28,6 +28,12 @@ std::string powered(const std::string& unit, int dimension) {
 
 } // namespace
 
+std::string figure(double value, int digits) {
+    if (std::isnan(value)) return "?";
+    if (std::isinf(value)) return value > 0 ? "> 1.8e308" : "< -1.8e308";
+    return fmt::format("{:.{}g}", value, digits);
+}
+
 std::string Quantities::length(double value, int digits) const {
     return with_unit(value, digits, 1);
 }
@@ -35,7 +41,7 @@ std::string Quantities::length(double value, int digits) const {
 std::string Quantities::lengths(double from, double to, int digits) const {
     const bool far = unit_ == "m" && std::abs(to) >= least_in_kilometres[1];
     const double scale = far ? 1e-3 : 1;
-    return fmt::format("{:.{}g} to {:.{}g}{}", from * scale, digits, to * scale, digits,
+    return fmt::format("{} to {}{}", figure(from * scale, digits), figure(to * scale, digits),
                        unit_.empty() ? ""
                        : far         ? " km"
                                      : " " + unit_);
@@ -50,7 +56,7 @@ std::string Quantities::volume(double value, int digits) const {
 }
 
 std::string Quantities::with_unit(double value, int digits, int dimension) const {
-    if (unit_.empty()) return fmt::format("{:.{}g}", value, digits);
+    if (unit_.empty() || !std::isfinite(value)) return figure(value, digits);
     if (unit_ != "m" || std::abs(value) < least_in_kilometres[static_cast<std::size_t>(dimension)])
         return fmt::format("{:.{}g} {}", value, digits_without_exponent(value, digits),
                            powered(unit_, dimension));

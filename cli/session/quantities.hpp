@@ -8,6 +8,9 @@
 
 namespace terrane::cli {
 
+/// Writes a number with so many significant digits: "> 1.8e308" beyond the largest double, "?" for what is no number.
+std::string figure(double value, int digits);
+
 /// Writes numbers with a unit. From 10 km on, 0.1 square kilometres and 0.1 cubic kilometres,
 /// metres become kilometres. Without a unit the number stands alone.
 class Quantities {

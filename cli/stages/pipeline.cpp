@@ -19,6 +19,7 @@
 #include <terrane/cli/reports/merge_report.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/quantities.hpp>
 #include <terrane/cli/session/styles.hpp>
 #include <terrane/cli/session/text_width.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
@@ -48,7 +49,7 @@ std::vector<SurfaceTally> tally(const RoundedMesh& rounded) {
 std::string areas_text(const std::vector<double>& areas) {
     std::string text;
     for (std::size_t i = 0; i < std::min(areas.size(), most_areas); ++i)
-        text += fmt::format("{}{:.4g}", i > 0 ? ", " : "", areas[i]);
+        text += fmt::format("{}{}", i > 0 ? ", " : "", figure(areas[i], 4));
     return areas.size() > most_areas ? text + ", ..." : text;
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
 #include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
@@ -19,17 +20,13 @@ namespace {
 
 constexpr std::size_t worst_listed = 20;
 
-double distance(const Point3& a, const Point3& b) {
-    return std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
-}
-
 double longest_edge(const std::array<Point3, 3>& t) {
-    return std::max({distance(t[0], t[1]), distance(t[1], t[2]), distance(t[2], t[0])});
+    return std::max(
+        {distance_between(t[0], t[1]), distance_between(t[1], t[2]), distance_between(t[2], t[0])});
 }
 
 Point3 centre_of(const std::array<Point3, 3>& t) {
-    return {(t[0].x + t[1].x + t[2].x) / 3, (t[0].y + t[1].y + t[2].y) / 3,
-            (t[0].z + t[1].z + t[2].z) / 3};
+    return terrane::centre_of(t[0], t[1], t[2]);
 }
 
 std::array<Point3, 3> corners_of(const std::vector<Point3>& vertices, const Triangle& t) {
@@ -216,7 +213,8 @@ void add_thin_blocks(Findings& findings, const Model& model) {
     lengths.reserve(3 * mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) {
         const auto c = corners_of(mesh.vertices, t);
-        for (std::size_t i = 0; i < 3; ++i) lengths.push_back(distance(c[i], c[(i + 1) % 3]));
+        for (std::size_t i = 0; i < 3; ++i)
+            lengths.push_back(distance_between(c[i], c[(i + 1) % 3]));
     }
     const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
     std::nth_element(lengths.begin(), middle, lengths.end());
@@ -276,7 +274,7 @@ void add_worst_tetrahedra(Findings& findings, const TetrahedralMesh& mesh,
              fmt::format("least dihedral angle, in block {}{}", region,
                          region < block_names.size() ? ", " + block_names[region] : ""),
              -least[t], "angle", centre,
-             4 * std::max(longest_edge({c[0], c[1], c[2]}), distance(c[0], c[3]))});
+             4 * std::max(longest_edge({c[0], c[1], c[2]}), distance_between(c[0], c[3]))});
     }
 }
 

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
 
 namespace terrane::page {
@@ -29,7 +30,7 @@ Measured measured(const Mesh& mesh) {
         const auto angles = angles_of(a, b, c);
         result.angles.push_back(std::min({angles[0], angles[1], angles[2]}));
         const auto edge = [&](const Point3& p, const Point3& r) {
-            result.edges.push_back(std::hypot(r.x - p.x, r.y - p.y, r.z - p.z));
+            result.edges.push_back(distance_between(p, r));
         };
         edge(a, b);
         edge(b, c);

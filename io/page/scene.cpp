@@ -7,21 +7,17 @@
 #include <utility>
 
 #include <terrane/algorithms/mesh/edges.hpp>
-#include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/mesh/measure.hpp>
 
 namespace terrane::page {
 namespace {
 
 double area_of(const std::vector<Point3>& vertices, const Triangle& t) {
-    const Point3 &a = vertices[t[0]], &b = vertices[t[1]], &c = vertices[t[2]];
-    const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
-    const double vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
-    return std::hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx) / 2;
+    return area_between(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
 }
 
 double length_of(const std::vector<Point3>& vertices, const Edge& e) {
-    const Point3 &a = vertices[e[0]], &b = vertices[e[1]];
-    return std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
+    return distance_between(vertices[e[0]], vertices[e[1]]);
 }
 
 /// Adds one line that consists of all these edges, unless there are none.

@@ -15,6 +15,12 @@ namespace {
 /// Coordinates are stored in 24 bits, which single precision holds exactly.
 constexpr double most_steps = (1U << 24U) - 1;
 
+/// Returns (to - from) / by, even where the difference is beyond the largest double.
+double quotient(double from, double to, double by) {
+    const double difference = to - from;
+    return std::isfinite(difference) ? difference / by : to / by - from / by;
+}
+
 /// The box round all points.
 struct Bounds {
     Point3 least{HUGE_VAL, HUGE_VAL, HUGE_VAL}, largest{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -26,9 +32,10 @@ struct Bounds {
                        std::max(largest.z, p.z)};
         }
     }
-    /// Returns the longest edge; 0 without points.
-    [[nodiscard]] double extent() const {
-        return std::max({largest.x - least.x, largest.y - least.y, largest.z - least.z, 0.0});
+    /// Returns a share of the longest edge; 0 without points.
+    [[nodiscard]] double extent_by(double parts) const {
+        return std::max({quotient(least.x, largest.x, parts), quotient(least.y, largest.y, parts),
+                         quotient(least.z, largest.z, parts), 0.0});
     }
 };
 
@@ -39,7 +46,7 @@ std::vector<std::uint32_t> first_in_cell(const std::vector<Point3>& vertices, co
     std::vector<std::uint32_t> result(vertices.size());
     for (std::uint32_t v = 0; v < vertices.size(); ++v) {
         const auto along = [&](double x, double least) {
-            return static_cast<std::uint64_t>((x - least) / cell) & 0x1fffffU;
+            return static_cast<std::uint64_t>(quotient(least, x, cell)) & 0x1fffffU;
         };
         const std::uint64_t key = along(vertices[v].x, box.least.x) << 42U |
                                   along(vertices[v].y, box.least.y) << 21U |
@@ -112,7 +119,8 @@ Json points_packed(const std::vector<Point3>& points, const Bounds& box, double 
     std::vector<std::uint32_t> values;
     values.reserve(3 * points.size());
     const auto steps = [&](double x, double least) {
-        return static_cast<std::uint32_t>(std::lround(std::min((x - least) / step, most_steps)));
+        return static_cast<std::uint32_t>(
+            std::lround(std::min(quotient(least, x, step), most_steps)));
     };
     for (const Point3& p : points)
         values.insert(values.end(),
@@ -137,7 +145,7 @@ void decimate(Scene& scene, std::size_t most) {
     double area = 0;
     for (const ScenePart& part : scene.parts) area += part.area;
     // About two triangles remain for each cell that a surface goes through.
-    double cell = std::max(std::sqrt(area / static_cast<double>(most)), box.extent() / 2e6);
+    double cell = std::max(std::sqrt(area / static_cast<double>(most)), box.extent_by(2e6));
     auto first = first_in_cell(scene.vertices, box, cell);
     while (left_after(scene, first) > most) {
         cell *= 1.25;
@@ -153,7 +161,10 @@ Json packed(Scene scene, Arrays& arrays) {
     box.add(scene.vertices);
     box.add(scene.nodes);
     if (scene.vertices.empty() && scene.nodes.empty()) box = {{0, 0, 0}, {0, 0, 0}};
-    const double step = box.extent() > 0 ? box.extent() / most_steps : 1;
+    const double step =
+        box.extent_by(1) > 0 // a share of the least numbers may be 0
+            ? std::max(box.extent_by(most_steps), std::numeric_limits<double>::denorm_min())
+            : 1;
     Json json;
     json["parts"] = Json::array();
     for (const ScenePart& part : scene.parts)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -163,7 +164,8 @@ void split_filled(Scene& scene, const FillWork& work) {
         double filled = 0;
         for (const NumberedHole& hole : work.holes)
             if (hole.report && hole.task == part.surfaces.front()) filled += hole.report->area;
-        parts.push_back({part.surfaces, std::nullopt, part.first, given, area - filled});
+        parts.push_back({part.surfaces, std::nullopt, part.first, given,
+                         std::isfinite(area) ? area - filled : area});
         if (given < part.count)
             parts.push_back({part.surfaces, std::nullopt, part.first + given, part.count - given,
                              filled, true});

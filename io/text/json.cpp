@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/text/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -164,6 +166,11 @@ private:
         text += '\n';
         text.append(static_cast<std::size_t>(indent_) * static_cast<std::size_t>(level), ' ');
     }
+    /// JSON has no infinity: the largest double stands for what is beyond it.
+    static double in_range(double value) {
+        constexpr double largest = std::numeric_limits<double>::max();
+        return std::isnan(value) ? value : std::clamp(value, -largest, largest);
+    }
     // Values without others in them need no memory to be destroyed.
     void quote(const std::string& string) {
         using Other = nlohmann::json;
@@ -175,7 +182,7 @@ private:
         else if (json.is_boolean())
             text += json.get<bool>() ? "true" : "false";
         else if (!json.is_number_integer())
-            text += nlohmann::json(json.get<double>()).dump();
+            text += nlohmann::json(in_range(json.get<double>())).dump();
         else if (json.get<double>() < 0)
             text += std::to_string(json.get<std::int64_t>());
         else

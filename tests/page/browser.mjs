@@ -68,6 +68,19 @@ function strangeSurfaces() {
   writeFileSync(join(work, "strange.ts"), strangeNames.map(surface).join(""));
 }
 
+const beyondDoubles = ["huge", "largest", "least", "mixed"];
+
+/** Writes surfaces whose extents, areas and volumes are beyond the largest double, or below the least. */
+function extremeSurfaces() {
+  const surfaces = (large, small) => {
+    const at = [-large, large], box = at.flatMap((x) => at.flatMap((y) => at.map((z) => `v ${x} ${y} ${z}\n`))).join("");
+    const faces = ["1 2 4 3", "5 7 8 6", "1 5 6 2", "3 4 8 7", "1 3 7 5", "2 6 8 4"].map((f) => `f ${f}\n`).join("");
+    return `o box\n${box}${faces}o fault\nv ${small} -${large} -${large}\nv ${small} ${large} 0\nv ${small} 0 ${large / 2}\nf 9 10 11\n`;
+  };
+  for (const [name, large, small] of [["huge", 1e300, 5], ["largest", 1.7e308, 1e307], ["least", 1e-320, 0], ["mixed", 1e308, 1e-320]])
+    writeFileSync(join(work, `${name}.obj`), surfaces(large, small));
+}
+
 function makePages() {
   holedGrid();
   strangeSurfaces();
@@ -76,9 +89,9 @@ function makePages() {
   check(run("report", model("modelA2.ml"), "-o", "modelA2.html") === 0, "modelA2 is made");
   check(run("report", join(data, "arch-platform/faults.ts"), join(data, "arch-platform/mnt.ts"), "-o", "faults.html") === 0, "faults are made");
   check(run("fill", "top.asc", "-o", "top.vtp", "--report", "filled.html") === 0, "the horizon is filled");
-  writeFileSync(join(work, "huge.obj"), "v 1e300 0 0\nv -1e300 0 0\nv 0 1e300 5\nf 1 2 3\n");
+  extremeSurfaces();
   writeFileSync(join(work, "point.obj"), "v 5 5 5\nv 5 5 5\nv 5 5 5\nf 1 2 3\n");
-  check(run("check", "huge.obj", "--report", "huge.html") === 0, "coordinates beyond single precision are shown");
+  for (const name of beyondDoubles) check(run("report", `${name}.obj`, "-o", `${name}.html`) === 0, `${name} coordinates are shown`);
   check(run("check", "point.obj", "--report", "point.html") === 1, "a model without extent is shown");
   check(run("check", "strange.ts", "--report", "strange.html") === 0, "strange names are shown");
 }
@@ -204,12 +217,17 @@ async function strange(browser) {
 
 /** A model that single precision cannot hold, and one without any extent. */
 async function extremes(browser) {
-  for (const name of ["huge", "point"]) {
+  for (const name of [...beyondDoubles, "point"]) {
     const { context, page } = await open(browser, name);
     const { drawn } = await picture(page);
     check(name === "point" || drawn > 0.05, "the canvas is not blank", drawn);
     const s = await state(page);
     check([...s.camera, ...s.target].every(Number.isFinite), "the camera is somewhere", s.camera);
+    for (const tab of await page.getByRole("tab").all()) {
+      await tab.click();
+      const text = await page.evaluate(() => document.body.innerText);
+      check(!/NaN|undefined|Infinity|null/.test(text), "all numbers are written", text.match(/.{0,40}(NaN|undefined|Infinity|null)/)?.[0]);
+    }
     await context.close();
   }
 }

@@ -7,8 +7,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 
 namespace terrane::plausibility::detail {
@@ -22,9 +24,12 @@ struct Extent {
 
     [[nodiscard]] bool empty() const { return low[0] > high[0]; }
     [[nodiscard]] double size(std::size_t axis) const { return high[axis] - low[axis]; }
-    [[nodiscard]] double middle(std::size_t axis) const { return (low[axis] + high[axis]) / 2; }
+    [[nodiscard]] double middle(std::size_t axis) const {
+        return std::midpoint(low[axis], high[axis]);
+    }
     [[nodiscard]] double diagonal() const {
-        return empty() ? 0 : std::hypot(size(0), size(1), size(2));
+        return empty() ? 0
+                       : distance_between({low[0], low[1], low[2]}, {high[0], high[1], high[2]});
     }
 
     void add(const Point3& p) {
@@ -69,7 +74,7 @@ inline double gap_between(const Extent& a, const Extent& b) {
     std::array<double, 3> gap{};
     for (std::size_t i = 0; i < 3; ++i)
         gap[i] = std::max({0.0, a.low[i] - b.high[i], b.low[i] - a.high[i]});
-    return std::hypot(gap[0], gap[1], gap[2]);
+    return distance_between({}, {gap[0], gap[1], gap[2]});
 }
 
 } // namespace terrane::plausibility::detail

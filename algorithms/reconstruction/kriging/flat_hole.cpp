@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/reconstruction/holes/flatness.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/data.hpp>
@@ -154,12 +155,8 @@ bool is_too_flat(const FlatFilling& flat, const HeightSource& source, double mes
 
 double area_of(const Surface& s) {
     double sum = 0;
-    for (const Triangle& t : s.triangles) {
-        const Point3 &a = s.vertices[t[0]], &b = s.vertices[t[1]], &c = s.vertices[t[2]];
-        const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
-        const double vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
-        sum += std::hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx) / 2;
-    }
+    for (const Triangle& t : s.triangles)
+        sum += area_between(s.vertices[t[0]], s.vertices[t[1]], s.vertices[t[2]]);
     return sum;
 }
 

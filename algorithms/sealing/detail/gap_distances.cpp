@@ -6,15 +6,12 @@
 #include <utility>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/sealing/detail/constants.hpp>
 
 namespace terrane::sealing::detail {
 namespace {
-
-Point3 middle(const Point3& p, const Point3& q) {
-    return {p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2, p.z + (q.z - p.z) / 2};
-}
 
 /// Returns the least bound that is not nearer than a distance.
 double beyond(double distance) {
@@ -49,15 +46,15 @@ std::optional<Gap> GapDistances::measured(const BorderEdge& edge, const Nearest&
     Gap gap{edge, 0, -1, {}, 0};
     for (const Edge& part : edge.open) {
         const Point3 &p = places_[part[0]], &q = places_[part[1]];
-        Gap here{{}, length(minus(q, p)), -1, {}, 0};
+        Gap here{{}, length_between(p, q), -1, {}, 0};
         bool is_near = true;
-        for (const Point3& at : {p, middle(p, q), q}) {
+        for (const Point3& at : {p, middle_of(p, q), q}) {
             const std::optional<Near> near = find(at);
             if (!near) {
                 is_near = false;
                 break;
             }
-            const double d = length(minus(near->place, at));
+            const double d = length_between(at, near->place);
             if (d <= here.largest) continue;
             here.largest = d;
             here.place = at;
@@ -86,13 +83,13 @@ std::optional<Gap> GapDistances::part_gap_at(const BorderEdge& edge) const {
     Gap gap{edge, 0, -1, {}, 0};
     const Point3 outward = outward_of(arrangement_, edge);
     for (const Edge& part : edge.open) {
-        const Point3 &p = places_[part[0]], &q = places_[part[1]], at = middle(p, q);
+        const Point3 &p = places_[part[0]], &q = places_[part[1]], at = middle_of(p, q);
         const auto near = nearest(at, edge);
         if (!near || (nearest(p, edge) && nearest(q, edge))) continue;
         const Point3 way = minus(near->place, at);
-        const double d = length(way);
+        const double d = length_between(at, near->place);
         if (dot(outward, way) < constants.least_ahead * d) continue;
-        gap.length += length(minus(q, p));
+        gap.length += length_between(p, q);
         if (d <= gap.largest) continue;
         gap.largest = d;
         gap.place = at;

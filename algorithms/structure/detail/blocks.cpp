@@ -30,7 +30,7 @@ void add_shares(const Mesh& mesh, const Volumes& volumes, const ModelInterface& 
     for (const std::uint32_t t : interface.triangles) {
         const Point3 n = area_vector(mesh, t);
         const Point3 reversed{-n.x, -n.y, -n.z};
-        const double area = std::hypot(n.x, n.y, n.z) / 2;
+        const double area = triangle_area(mesh, t);
         const auto [front, back] = volumes.of_sides[t];
         for (const std::uint32_t s : interface.surfaces) {
             shares[front][s][position_of(reversed)] += area;

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/structure/detail/parts.hpp>
 
 namespace terrane {
@@ -123,8 +124,7 @@ private:
     }
 
     [[nodiscard]] double distance(std::uint32_t v, std::uint32_t w) const {
-        const Point3 &p = mesh_.vertices[v], &q = mesh_.vertices[w];
-        return std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
+        return distance_between(mesh_.vertices[w], mesh_.vertices[v]);
     }
 
     /// All edges of a line have the same patches, so one edge determines its kind.

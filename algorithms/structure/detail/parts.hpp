@@ -25,4 +25,7 @@ void add_blocks(const Mesh& mesh, const Volumes& volumes, Structure& structure);
 /// Returns twice the area times the unit normal on the front side.
 Point3 area_vector(const Mesh& mesh, std::uint32_t triangle);
 
+/// Returns the area of a triangle.
+double triangle_area(const Mesh& mesh, std::uint32_t triangle);
+
 } // namespace terrane::structure::detail

@@ -175,18 +175,29 @@ double diagonal_of(std::span<const Point3> points, std::span<const std::uint32_t
 
 void measure_loop(const Soup& soup, const TracedLoop& traced, BorderLoop& loop) {
     const auto n = traced.vertices.size();
-    const Point3& origin = soup.points[traced.vertices[0]];
+    // Products of the largest and of the smallest doubles are none. A power of two changes no digit.
+    double largest = 0;
+    for (const auto v : traced.vertices)
+        for (const double c : {soup.points[v].x, soup.points[v].y, soup.points[v].z})
+            largest = std::max(largest, std::fabs(c));
+    const int scale = largest > 0 ? std::ilogb(largest) : 0;
+    const auto scaled = [](const Point3& p, int by) {
+        return Point3{std::ldexp(p.x, by), std::ldexp(p.y, by), std::ldexp(p.z, by)};
+    };
+    const auto at = [&](std::size_t i) { return scaled(soup.points[traced.vertices[i]], -scale); };
+    const Point3 origin = at(0);
     Point3 area{}, centre{};
+    double sum = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        const Point3 a = minus(soup.points[traced.vertices[i]], origin);
-        const Point3 b = minus(soup.points[traced.vertices[(i + 1) % n]], origin);
+        const Point3 a = minus(at(i), origin), b = minus(at((i + 1) % n), origin);
         const double length = length_of(minus(b, a));
-        loop.length += length;
+        sum += length;
         area = plus(area, cross(a, b), 0.5);
         centre = plus(plus(centre, a, length / 2), b, length / 2);
     }
-    loop.area = length_of(area);
-    loop.centre = plus(origin, centre, 1 / loop.length);
+    loop.length = std::ldexp(sum, scale);
+    loop.area = std::ldexp(length_of(area), 2 * scale);
+    loop.centre = scaled(sum > 0 ? plus(origin, centre, 1 / sum) : origin, scale);
 }
 
 bool is_fault_gap(const Soup& soup, const TracedLoop& traced, const GapRule& rule,

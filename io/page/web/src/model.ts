@@ -38,8 +38,9 @@ export class ModelGeometry {
     const size = [0, 0, 0];
     for (const list of [packed.vertices, packed.nodes])
       for (let i = 0; i < list.length; ++i) if (list[i] > size[i % 3]) size[i % 3] = list[i];
-    const extent = Math.max(...size) * step;
-    this.unit = extent > 1e8 || (extent < 1e-3 && extent > 0) ? extent / 1000 : 1; // single precision ends
+    const most = Math.max(...size), extent = most * step;
+    this.unit = extent > 1e8 || (extent < 1e-3 && extent > 0) // single precision ends
+      ? Math.max(step * (most / 1000), Number.MIN_VALUE) : 1;
     const centre = size.map((s) => Math.round(s / 2));
     const relative = (list: Uint32Array) => {
       const result = new Float32Array(list.length);

@@ -8,7 +8,8 @@ export class Quantities {
 
   /** Writes a value of a measure with its unit: "length", "area", "volume", "angle", or none. */
   text(value: number | null, measure: string, digits = 4): string {
-    if (value === null || !Number.isFinite(value)) return "–";
+    if (value === null) return "–";
+    if (isBeyond(value)) return plain(value, digits);
     if (measure === "count") return value.toLocaleString("en");
     if (measure === "angle") return `${plain(value, digits)}°`;
     const power = { length: 1, area: 2, volume: 3 }[measure] ?? 0;
@@ -30,7 +31,8 @@ export class Quantities {
     return power > 0 && this.unit ? `${label} (${this.unit}${sup(power)})` : label;
   }
   /** Writes a coordinate with all digits that mean something in a model of this extent. */
-  coordinate(value: number, extent: number): string {
+  coordinate(value: number | null, extent: number): string {
+    if (value === null) return "?";
     const decimals = Math.max(0, Math.min(9, 5 - Math.floor(Math.log10(Math.max(extent, 1e-9)))));
     return value.toFixed(decimals);
   }
@@ -40,7 +42,14 @@ function sup(power: number): string {
   return ["", "", "²", "³"][power];
 }
 
-export function plain(value: number, digits: number): string {
+/** Tells whether a value is no number, or beyond the largest one, which stands for all larger ones. */
+function isBeyond(value: number): boolean {
+  return !(Math.abs(value) < Number.MAX_VALUE);
+}
+
+export function plain(value: number | null, digits: number): string {
+  if (value === null || Number.isNaN(value)) return "?";
+  if (isBeyond(value)) return value > 0 ? "> 1.8e308" : "< -1.8e308";
   if (value === 0) return "0";
   const size = Math.abs(value);
   if (size >= 1e7 || size < 1e-4) return value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e");
