@@ -105,10 +105,12 @@ Surface walls_on(std::span<const Surface> layers) {
     }
     sort_unique(edges);
     const double room = std::max(high - low, 1.0);
-    Surface walls{"walls", Role::unknown, {}, {}};
+    constexpr double most = std::numeric_limits<double>::max();
+    const std::array<double, 2> ends{std::max(low - room, -most), std::min(high + room, most)};
+    Surface walls{"vertical faces on the free borders of the layers", Role::unknown, {}, {}};
     for (const auto& e : edges) {
         const auto first = static_cast<std::uint32_t>(walls.vertices.size());
-        for (const double z : {low - room, high + room}) {
+        for (const double z : ends) {
             walls.vertices.push_back({e[0], e[1], z});
             walls.vertices.push_back({e[2], e[3], z});
         }

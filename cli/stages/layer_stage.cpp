@@ -9,6 +9,7 @@
 
 #include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/session/quantities.hpp>
 #include <terrane/cli/session/styles.hpp>
 
 namespace terrane::cli {
@@ -16,10 +17,11 @@ namespace {
 
 std::string line_of(const std::string& label, const LayerReport& r) {
     if (r.dropped == 0) return fmt::format("  {}: nothing to replace\n", label);
-    auto text = fmt::format("  {}: {} in {} replaced by {} of harder ones; area {:.6g} by {:.6g}; "
-                            "moved by {:.4g} at most\n",
-                            label, counted(r.dropped, "triangle"), counted(r.parts, "part"),
-                            r.taken, r.dropped_area, r.taken_area, r.largest_move);
+    auto text =
+        fmt::format("  {}: {} in {} replaced by {} of harder ones; area {} by {}; "
+                    "moved by {:.4g} at most\n",
+                    label, counted(r.dropped, "triangle"), counted(r.parts, "part"), r.taken,
+                    figure(r.dropped_area, 6), figure(r.taken_area, 6), r.largest_move);
     if (r.step_length > 0)
         text += fmt::format("  {}: harder ones end over or under it, which leaves steps along "
                             "{:.4g}\n",

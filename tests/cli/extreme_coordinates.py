@@ -63,7 +63,7 @@ def commands(large):
     yield "improve m.obj -o out.vtp --stats s.json --report out.html"
     yield "tetrahedralize m.obj -o out.vtu --stats s.json --report out.html"
     yield "fill m.obj -o out.ts --stats s.json --report out.html"
-    yield "layer m.obj --order top=1,base=2 -o out.ts --stats s.json --report out.html"
+    yield "layer m.obj --layer top=1 --layer base=2 -o out.ts --stats s.json --report out.html"
     yield "convert m.obj -o out.vtp"
     yield "convert m.obj -o out.off"
 
@@ -84,7 +84,7 @@ def contents_of(page):
 
 
 def flaws_in(folder, printed):
-    yield from (line for line in printed.splitlines() if NO_NUMBER.search(line))
+    yield from (line for line in printed.splitlines() if NO_NUMBER.search(line) or "not finite" in line)
     for path in sorted(p for p in folder.rglob("*") if p.is_file()):
         if path.name in ("m.obj", "model.json"):  # in which an infinite number is null
             continue

@@ -13,13 +13,13 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 
 namespace terrane::layers::detail {
 
 double LayerResolver::area(std::uint32_t t) const {
-    const Point3 n = cross(minus(corner(t, 1), corner(t, 0)), minus(corner(t, 2), corner(t, 0)));
-    return std::hypot(n.x, n.y, n.z) / 2;
+    return area_between(corner(t, 0), corner(t, 1), corner(t, 2));
 }
 
 std::string LayerResolver::place(std::uint32_t t) const {
