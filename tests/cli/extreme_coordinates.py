@@ -84,7 +84,7 @@ def contents_of(page):
 
 
 def flaws_in(folder, printed):
-    yield from (line for line in printed.splitlines() if NO_NUMBER.search(line) or "not finite" in line)
+    yield from (line for line in printed.splitlines() if NO_NUMBER.search(line) or "coordinate is not finite" in line)
     for path in sorted(p for p in folder.rglob("*") if p.is_file()):
         if path.name in ("m.obj", "model.json"):  # in which an infinite number is null
             continue
