@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/distribution/local_supersteps.hpp>
 
-#include <cstdio>
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -12,37 +12,27 @@
 
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/distribution/detail/unnamed_file.hpp>
 
 namespace terrane::distribution {
 
+using detail::FreeSpace;
+using detail::UnnamedFile;
+
 namespace {
 
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
-Error not_written(const std::filesystem::path& path) {
-    return {ErrorCode::write_failed, "a file for what does not fit into memory cannot be written",
-            path.string()};
-}
-Error not_read(const std::filesystem::path& path) {
-    return {ErrorCode::cannot_open, "a file for what does not fit into memory cannot be read",
-            path.string()};
-}
+constexpr std::uint64_t nowhere = UINT64_MAX;
 
 /// What precedes the bytes of a message in a file.
 struct MessageHead {
     std::uint64_t from = 0, channel = 0, size = 0;
+    std::uint64_t before = nowhere; ///< where the message before to the same block is
 };
 
-bool write_bytes(std::FILE* file, const void* bytes, std::size_t size) {
-    return size == 0 || std::fwrite(bytes, 1, size, file) == size;
-}
-
-bool read_bytes(std::FILE* file, void* bytes, std::size_t size) {
-    return size == 0 || std::fread(bytes, 1, size, file) == size;
-}
+/// Where the state of a block is.
+struct SavedState {
+    std::uint64_t at = 0, size = 0; ///< size 0: it was never saved
+};
 
 /// Returns an error if a stop is requested.
 Status go_on(const Run& run) {
@@ -59,89 +49,143 @@ void give_memory_back() {
 
 } // namespace
 
-LocalSupersteps::LocalSupersteps(LocalOptions options, const Run& run) :
-    options_(std::move(options)), run_(run) {
-    for (std::uint32_t b = 0; b < options_.blocks; ++b) {
-        Block& block = blocks_.emplace_back();
-        block.index = b;
-        block.count = static_cast<std::uint32_t>(options_.blocks);
+/// States and messages on the disk.
+struct LocalSupersteps::Spool {
+    /// The messages of one parity: all are read in a step, in which none is added.
+    struct Messages {
+        UnnamedFile file;
+        std::vector<std::uint64_t> last; ///< per block: where its last one is
+        std::uint64_t end = 0;
+
+        Messages(UnnamedFile made, std::size_t blocks) :
+            file(std::move(made)), last(blocks, nowhere) {}
+
+        [[nodiscard]] bool add(std::size_t to, std::size_t from, std::size_t channel,
+                               const Bytes& bytes) {
+            const MessageHead head{from, channel, bytes.size(), last[to]};
+            last[to] = end;
+            return file.write(&head, sizeof head, end) &&
+                   file.write(bytes.data(), bytes.size(), end);
+        }
+        [[nodiscard]] bool take(std::size_t to, Inbox& in) const {
+            for (std::uint64_t at = last[to]; at != nowhere;) {
+                MessageHead head;
+                if (!file.read(&head, sizeof head, at)) return false;
+                Bytes& bytes = in.bytes(head.from, head.channel);
+                bytes.resize(head.size);
+                if (!file.read(bytes.data(), bytes.size(), at)) return false;
+                at = head.before;
+            }
+            return true;
+        }
+        [[nodiscard]] bool clear() {
+            end = 0;
+            last.assign(last.size(), nowhere);
+            return file.clear();
+        }
+    };
+
+    std::filesystem::path folder;
+    UnnamedFile states;
+    FreeSpace free;                   ///< of `states`
+    std::vector<SavedState> saved;    ///< per block
+    std::array<Messages, 2> messages; ///< by parity
+
+    [[nodiscard]] Error not_written() const {
+        return {ErrorCode::write_failed,
+                "what does not fit into memory cannot be written to the disk", folder.string()};
     }
-    is_saved_.assign(options_.blocks, false);
-    if (!spools()) inboxes_.assign(2, std::vector<Inbox>(options_.blocks, Inbox(options_.blocks)));
-}
-
-LocalSupersteps::~LocalSupersteps() {
-    if (!spools()) return;
-    std::error_code ignored;
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-        std::filesystem::remove(state_file(b), ignored);
-        for (const unsigned parity : {0U, 1U})
-            std::filesystem::remove(message_file(b, parity), ignored);
+    [[nodiscard]] Error not_read() const {
+        return {ErrorCode::cannot_open,
+                "what does not fit into memory cannot be read from the disk", folder.string()};
     }
+
+    static Result<std::unique_ptr<Spool>> create(const LocalOptions& options);
+    [[nodiscard]] bool load(std::size_t index, Block& block) const;
+    [[nodiscard]] bool save(std::size_t index, Block& block);
+};
+
+Result<std::unique_ptr<LocalSupersteps::Spool>>
+LocalSupersteps::Spool::create(const LocalOptions& options) {
+    auto states = UnnamedFile::create(options.spool), even = UnnamedFile::create(options.spool),
+         odd = UnnamedFile::create(options.spool);
+    for (const auto* made : {&states, &even, &odd})
+        if (!*made) return made->error();
+    return std::unique_ptr<Spool>(new Spool{
+        options.spool,
+        std::move(*states),
+        {},
+        std::vector<SavedState>(options.blocks),
+        {Messages(std::move(*even), options.blocks), Messages(std::move(*odd), options.blocks)}});
 }
 
-std::filesystem::path LocalSupersteps::state_file(std::size_t index) const {
-    return options_.spool / ("state_" + std::to_string(index));
-}
-
-std::filesystem::path LocalSupersteps::message_file(std::size_t index, unsigned parity) const {
-    return options_.spool / ("messages_" + std::to_string(parity) + "_" + std::to_string(index));
-}
-
-/// Reads a block from its file, unless it was never saved. Who requests a stop may remove the files
-/// at once, so that what was read counts only if no stop is requested afterwards.
-Status LocalSupersteps::load(std::size_t index) {
-    if (!is_saved_[index]) return go_on(run_);
-    const auto path = state_file(index);
-    const File file(std::fopen(path.c_str(), "rb"));
-    bool good = file != nullptr;
-    blocks_[index].for_each_array([&](auto& array) {
+bool LocalSupersteps::Spool::load(std::size_t index, Block& block) const {
+    if (saved[index].size == 0) return true;
+    std::uint64_t at = saved[index].at;
+    bool good = true;
+    block.for_each_array([&](auto& array) {
         std::uint64_t size = 0;
-        good = good && read_bytes(file.get(), &size, sizeof size);
+        good = good && states.read(&size, sizeof size, at);
         if (!good) return;
         array.resize(size);
-        good = read_bytes(file.get(), array.data(), size * sizeof(array[0]));
+        good = states.read(array.data(), size * sizeof(array[0]), at);
     });
+    return good;
+}
+
+bool LocalSupersteps::Spool::save(std::size_t index, Block& block) {
+    SavedState& state = saved[index];
+    free.give_back(state.at, state.size);
+    state.size = block.size();
+    block.for_each_array([&](const auto&) { state.size += sizeof(std::uint64_t); });
+    std::uint64_t at = state.at = free.take(state.size);
+    bool good = true;
+    block.for_each_array([&](auto& array) {
+        const std::uint64_t size = array.size();
+        good = good && states.write(&size, sizeof size, at) &&
+               states.write(array.data(), size * sizeof(array[0]), at);
+        release(array);
+    });
+    return good;
+}
+
+LocalSupersteps::LocalSupersteps(const LocalOptions& options, const Run& run) : run_(run) {
+    for (std::uint32_t b = 0; b < options.blocks; ++b) {
+        Block& block = blocks_.emplace_back();
+        block.index = b;
+        block.count = static_cast<std::uint32_t>(options.blocks);
+    }
+    if (options.spool.empty()) {
+        inboxes_.assign(2, std::vector<Inbox>(options.blocks, Inbox(options.blocks)));
+        return;
+    }
+    auto spool = Spool::create(options);
+    if (spool)
+        spool_ = std::move(*spool);
+    else
+        ready_ = spool.error();
+}
+
+LocalSupersteps::~LocalSupersteps() = default;
+
+/// Reads a block from the disk, unless it was never saved.
+Status LocalSupersteps::load(std::size_t index) {
+    if (!ready_) return ready_;
     if (auto done = go_on(run_); !done) return done;
-    if (!good) return not_read(path);
+    if (spool_ && !spool_->load(index, blocks_[index])) return spool_->not_read();
     return Done{};
 }
 
 Status LocalSupersteps::save(std::size_t index) {
-    if (!spools()) return Done{};
-    const auto path = state_file(index);
-    File file(std::fopen(path.c_str(), "wb"));
-    if (!file) return not_written(path);
-    bool good = true;
-    blocks_[index].for_each_array([&](auto& array) {
-        const std::uint64_t size = array.size();
-        good = good && write_bytes(file.get(), &size, sizeof size) &&
-               write_bytes(file.get(), array.data(), size * sizeof(array[0]));
-        release(array);
-    });
-    good = std::fclose(file.release()) == 0 && good;
-    if (!good) return not_written(path);
-    is_saved_[index] = true;
+    if (spool_ && !spool_->save(index, blocks_[index])) return spool_->not_written();
     return Done{};
 }
 
 Status LocalSupersteps::take_messages(std::size_t index, Inbox& in) {
-    if (!spools()) {
+    if (!spool_)
         std::swap(in, inboxes_[parity_][index]);
-        return Done{};
-    }
-    const auto path = message_file(index, parity_);
-    {
-        const File file(std::fopen(path.c_str(), "rb"));
-        if (!file) return Done{}; // no block sent anything
-        for (MessageHead head; read_bytes(file.get(), &head, sizeof head);) {
-            Bytes& bytes = in.bytes(head.from, head.channel);
-            bytes.resize(head.size);
-            if (!read_bytes(file.get(), bytes.data(), head.size)) return not_read(path);
-        }
-    }
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
+    else if (!spool_->messages[parity_].take(index, in))
+        return spool_->not_read();
     return Done{};
 }
 
@@ -154,24 +198,13 @@ Status LocalSupersteps::deliver(std::size_t index, Outbox& out) {
             ++blocks_[index].work.messages;
             blocks_[index].work.bytes += size;
         }
-        if (!spools()) {
-            for (std::size_t c = 0; c < channels; ++c)
-                inboxes_[1 - parity_][to].bytes(index, c) = std::move(out.bytes(to, c));
-            continue;
-        }
-        const auto path = message_file(to, 1 - parity_);
-        File file(std::fopen(path.c_str(), "ab"));
-        if (!file) return not_written(path);
-        bool good = true;
         for (std::size_t c = 0; c < channels; ++c) {
-            const Bytes bytes = std::exchange(out.bytes(to, c), {});
-            if (bytes.empty()) continue;
-            const MessageHead head{index, c, bytes.size()};
-            good = good && write_bytes(file.get(), &head, sizeof head) &&
-                   write_bytes(file.get(), bytes.data(), bytes.size());
+            Bytes bytes = std::exchange(out.bytes(to, c), {});
+            if (!spool_)
+                inboxes_[1 - parity_][to].bytes(index, c) = std::move(bytes);
+            else if (!bytes.empty() && !spool_->messages[1 - parity_].add(to, index, c, bytes))
+                return spool_->not_written();
         }
-        good = std::fclose(file.release()) == 0 && good;
-        if (!good) return not_written(path);
     }
     return Done{};
 }
@@ -182,7 +215,6 @@ Status LocalSupersteps::step_of(std::size_t index, const Step& work) {
         Inbox in(blocks());
         Outbox out(blocks());
         if (auto done = take_messages(index, in); !done) return done;
-        if (auto done = go_on(run_); !done) return done; // else messages may be missing
         Block& block = blocks_[index];
         const std::size_t before = block.size() + in.size();
         if (auto done = work(block, in, out); !done) return done;
@@ -196,10 +228,11 @@ Status LocalSupersteps::step_of(std::size_t index, const Step& work) {
 
 Status LocalSupersteps::step(std::string_view, const Step& work) {
     std::vector<Status> done(blocks(), Done{});
-    if (spools() || run_.threads <= 1) {
+    if (spool_ || run_.threads <= 1) {
         for (std::size_t b = 0; b < blocks(); ++b)
             if (done[b] = step_of(b, work); !done[b]) return done[b];
-        if (spools()) give_memory_back();
+        if (spool_ && !spool_->messages[parity_].clear()) return spool_->not_written();
+        if (spool_) give_memory_back();
     } else {
         with_threads(run_, [&] {
             for_each_index(blocks(), [&](std::size_t b) { done[b] = step_of(b, work); });

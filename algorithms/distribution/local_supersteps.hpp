@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Runs all blocks in this process: several at a time in memory, or one after the other, with states and
-// messages in files meanwhile.
+// messages on the disk meanwhile, in files without names, so that nothing is left of them.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include <terrane/algorithms/core/run.hpp>
@@ -15,37 +16,39 @@ namespace terrane::distribution {
 /// Options of LocalSupersteps.
 struct LocalOptions {
     std::size_t blocks = 1;
-    std::filesystem::path spool{}; ///< folder for states and messages; empty: they stay in memory
+    std::filesystem::path
+        spool{}; ///< folder on whose disk states and messages are; empty: they stay in
+                 ///< memory
 };
 
 /// All blocks in one process. With a spool only one block is in memory at a time, with its messages.
-/// Errors of step(): those of the work, out_of_memory, write_failed (the disk is full).
+/// Errors: those of the work, out_of_memory, cannot_open (no file can be made in the folder), write_failed
+/// (the disk is full).
 class LocalSupersteps final : public Supersteps {
 public:
-    LocalSupersteps(LocalOptions options, const Run& run);
+    LocalSupersteps(const LocalOptions& options, const Run& run);
     ~LocalSupersteps() override;
 
-    [[nodiscard]] std::size_t blocks() const override { return options_.blocks; }
+    [[nodiscard]] std::size_t blocks() const override { return blocks_.size(); }
     Status step(std::string_view name, const Step& work) override;
     Result<Bytes> relay(const Turn& turn) override;
     Status visit(const std::function<Status(Block&)>& visit) override;
 
 private:
+    struct Spool;
+
     Status step_of(std::size_t index, const Step& work);
     Status load(std::size_t index);
     Status save(std::size_t index);
     Status take_messages(std::size_t index, Inbox& in);
     Status deliver(std::size_t index, Outbox& out);
-    [[nodiscard]] std::filesystem::path state_file(std::size_t index) const;
-    [[nodiscard]] std::filesystem::path message_file(std::size_t index, unsigned parity) const;
-    [[nodiscard]] bool spools() const { return !options_.spool.empty(); }
 
-    LocalOptions options_;
     const Run& run_;
     unsigned parity_ = 0;
     std::vector<Block> blocks_;
-    std::vector<bool> is_saved_;              ///< per block; never without a spool
     std::vector<std::vector<Inbox>> inboxes_; ///< by parity, then by block; without a spool
+    Status ready_ = Done{};
+    std::unique_ptr<Spool> spool_; ///< null: without a spool, or it is not ready
 };
 
 } // namespace terrane::distribution

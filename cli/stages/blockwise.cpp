@@ -9,7 +9,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
 #include <terrane/algorithms/distribution/local_supersteps.hpp>
@@ -17,7 +16,6 @@
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/reports/distribution_report.hpp>
 #include <terrane/cli/stages/block_volumes.hpp>
-#include <terrane/io/atomic/file_set.hpp>
 #include <terrane/io/meshes/pvtp_output.hpp>
 
 namespace terrane::cli {
@@ -28,35 +26,6 @@ using namespace distribution;
 namespace {
 
 constexpr auto memory_option = "--memory";
-
-/// A folder for what does not fit into memory, removed at the end, also after an interrupt.
-class Spool {
-public:
-    explicit Spool(const fs::path& output) {
-        const fs::path parent = output.has_parent_path() ? output.parent_path() : fs::path(".");
-        path_ = parent / fmt::format(".{}.{}.blocks", output.filename().string(), ::getpid());
-        made_ = make_temporary(path_, path_, [&] { return fs::create_directory(path_, failed_); });
-    }
-    ~Spool() {
-        if (made_) discard_temporary(path_);
-    }
-    Spool(const Spool&) = delete;
-    Spool& operator=(const Spool&) = delete;
-
-    [[nodiscard]] const fs::path& path() const { return path_; }
-    [[nodiscard]] Status state() const {
-        if (made_) return Done{};
-        return Error{ErrorCode::cannot_open,
-                     "no folder can be made beside the output for what does not fit into memory: " +
-                         failed_.message(),
-                     path_.string()};
-    }
-
-private:
-    fs::path path_;
-    std::error_code failed_;
-    bool made_ = false;
-};
 
 /// Refuses options that arrangements in blocks do not have.
 Status check_alone(const CLI::App& command) {
@@ -229,11 +198,10 @@ Result<ExitStatus> arrange_blockwise(const FileOptions& files, const BlockwiseOp
                                      Session& session) {
     if (const auto sound = check_alone(*files.app); !sound) return sound.error();
     if (const auto sound = check_outputs(files); !sound) return sound.error();
-    const Spool spool(files.outputs.front());
-    if (!spool.state()) return spool.state().error();
     const std::uint64_t memory = *bytes_of_size(options.memory);
     const std::size_t count = blocks_for(files, memory);
-    LocalSupersteps blocks({count, spool.path()}, session.run());
+    const fs::path beside = fs::path(files.outputs.front()).parent_path();
+    LocalSupersteps blocks({count, beside.empty() ? "." : beside}, session.run());
     session.begin("arrange in blocks", Phase::computing);
     const auto read = [&](std::size_t file) -> Result<std::vector<Surface>> {
         FileOptions one = files;

@@ -210,47 +210,85 @@ TEST_CASE("distribution: pieces that do not fit together are refused", "[distrib
     CHECK_FALSE(join(report.vertices, report.triangles, wild));
 }
 
-TEST_CASE("distribution: after a stop, no block is used whose file may have been removed") {
+TEST_CASE("distribution: after a stop no further block is visited", "[distribution]") {
     const test_support::TemporaryFolder folder;
-    std::stop_source source;
-    Run run;
-    run.stop = source.get_token();
-    LocalSupersteps blocks({3, folder.path()}, run);
-    REQUIRE(blocks.visit([](Block&) { return Done{}; })); // all are saved
-    unsigned visited = 0;
-    const auto done = blocks.visit([&](Block&) -> Status {
-        ++visited;
-        source.request_stop(); // as a second signal does, which then removes all temporary files
-        for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
-            std::filesystem::remove(entry.path());
-        return Done{};
-    });
-    REQUIRE_FALSE(done);
-    CHECK(done.error().code == ErrorCode::interrupted);
-    CHECK(visited == 1);
-    CHECK_FALSE(blocks.relay([&](Block&, Bytes) {
-        ++visited;
-        return Bytes{};
-    }));
-    CHECK_FALSE(blocks.step("any", [&](Block&, Inbox&, Outbox&) -> Status {
-        ++visited;
-        return Done{};
-    }));
-    CHECK(visited == 1);
+    for (const std::filesystem::path& spool : {std::filesystem::path(), folder.path()}) {
+        std::stop_source source;
+        Run run;
+        run.stop = source.get_token();
+        LocalSupersteps blocks({3, spool}, run);
+        REQUIRE(blocks.visit([](Block&) { return Done{}; }));
+        unsigned visited = 0;
+        const auto done = blocks.visit([&](Block&) -> Status {
+            ++visited;
+            source.request_stop();
+            return Done{};
+        });
+        REQUIRE_FALSE(done);
+        CHECK(done.error().code == ErrorCode::interrupted);
+        CHECK_FALSE(blocks.relay([&](Block&, Bytes) {
+            ++visited;
+            return Bytes{};
+        }));
+        CHECK_FALSE(blocks.step("any", [&](Block&, Inbox&, Outbox&) -> Status {
+            ++visited;
+            return Done{};
+        }));
+        CHECK(visited == 1);
+    }
 }
 
-TEST_CASE("distribution: a block whose file is missing is an error, not a new block") {
+TEST_CASE("distribution: what is on the disk has no name, and few files are open",
+          "[distribution]") {
+    const test_support::TemporaryFolder folder;
+    const std::filesystem::path open_files("/proc/self/fd");
+    const std::size_t before = test_support::entries(open_files);
+    const Run run;
+    {
+        constexpr std::uint32_t count = 600;
+        LocalSupersteps blocks({count, folder.path()}, run);
+        const auto send = [&](Block& b, Inbox&, Outbox& out) -> Status {
+            b.names.assign(b.index, 'x');
+            for (const std::uint32_t to : {b.index, count - 1 - b.index})
+                out.put(to, b.index % channels, b.index);
+            CHECK(test_support::entries(folder.path()) == 0);
+            CHECK(test_support::entries(open_files) <= before + 3);
+            return Done{};
+        };
+        std::size_t received = 0;
+        const auto receive = [&](Block& b, Inbox& in, Outbox&) -> Status {
+            CHECK(b.names.size() == b.index);
+            for (std::size_t c = 0; c < channels; ++c)
+                in.take<std::uint32_t>(c, [&](std::uint32_t from, std::uint32_t sent) {
+                    CHECK(from == sent);
+                    CHECK((from == b.index || from == count - 1 - b.index));
+                    ++received;
+                });
+            return Done{};
+        };
+        for (std::size_t round = 0; round < 2; ++round) {
+            REQUIRE(blocks.step("send", send));
+            REQUIRE(blocks.step("receive", receive));
+        }
+        CHECK(received == 4 * count);
+    }
+    CHECK(test_support::entries(open_files) == before);
+}
+
+TEST_CASE("distribution: without a folder for what is on the disk, no step is done",
+          "[distribution]") {
     const test_support::TemporaryFolder folder;
     const Run run;
-    LocalSupersteps blocks({2, folder.path()}, run);
-    REQUIRE(blocks.visit([](Block&) { return Done{}; }));
-    std::filesystem::remove(folder / "state_1");
-    unsigned visited = 0;
-    const auto done = blocks.visit([&](Block&) -> Status {
-        ++visited;
+    LocalSupersteps blocks({2, folder / "missing"}, run);
+    bool visited = false;
+    const auto visit = [&](Block&) -> Status {
+        visited = true;
         return Done{};
-    });
+    };
+    const auto done = blocks.visit(visit);
     REQUIRE_FALSE(done);
     CHECK(done.error().code == ErrorCode::cannot_open);
-    CHECK(visited == 1);
+    CHECK(done.error().place == (folder / "missing").string());
+    CHECK_FALSE(blocks.step("any", [&](Block& b, Inbox&, Outbox&) { return visit(b); }));
+    CHECK_FALSE(visited);
 }
