@@ -2,9 +2,12 @@
 //
 // terrane-mpi: one arrangement on many machines. Each process runs this program; the first one speaks.
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -15,12 +18,15 @@
 
 #include <terrane/algorithms/core/process_memory.hpp>
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
+#include <terrane/cli/mpi/agreement.hpp>
 #include <terrane/cli/mpi/mpi_supersteps.hpp>
 #include <terrane/cli/options/command_table.hpp>
 #include <terrane/cli/options/manual.hpp>
+#include <terrane/cli/options/output_options.hpp>
 #include <terrane/cli/reports/distribution_report.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/session.hpp>
+#include <terrane/cli/session/terminal.hpp>
 #include <terrane/cli/stages/block_volumes.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/file_set.hpp>
@@ -76,6 +82,7 @@ Status check_command(const MpiCommand& command, MpiSupersteps& blocks) {
 
 Result<ExitStatus> arrange_files(const MpiCommand& command, MpiSupersteps& blocks, const Run& run) {
     if (auto sound = check_command(command, blocks); !sound) return sound.error();
+    if (auto same = check_same_files(command.inputs); !same) return same.error();
     const auto read = [&](std::size_t file) { return read_surfaces(command.inputs[file]); };
     const DistributedOptions options{command.inputs.size(), command.digest};
     auto report = arrange_in_blocks(blocks, read, options, run);
@@ -133,9 +140,10 @@ void declare(CLI::App& program, MpiCommand& command) {
         "Find the volumes that the surfaces enclose, and tell those beside each triangle");
     arrange->add_option("--stats", command.stats, "Write counts of work and messages as JSON")
         ->type_name("FILE.json");
+    add_output_options(*arrange);
 }
 
-/// Prints the manual page. MPI is not started for it.
+/// Prints the manual page.
 ExitStatus print_manual() {
     CLI::App program;
     MpiCommand command;
@@ -143,12 +151,25 @@ ExitStatus print_manual() {
     print(stdout, manual_of_command(command_table(program).front(), program.get_name(),
                                     {TERRANE_VERSION, program.get_description(),
                                      program.get_footer(), program.get_name()}));
-    return ExitStatus::done;
+    return finish(ExitStatus::done);
+}
+
+bool is_manual(std::span<char* const> words) {
+    return words.size() == 2 && std::string_view(words[1]) == "manual";
+}
+
+/// Tells whether a launcher started this process, and perhaps others, which wait until all have started MPI.
+bool is_launched() {
+    return std::getenv("PMIX_RANK") != nullptr || std::getenv("PMI_RANK") != nullptr;
 }
 
 ExitStatus run_command(int argc, char** argv) {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    const std::span words(argv, static_cast<std::size_t>(argc));
+    const auto same = check_same_command(words.subspan(1));
+    if (!same) return rank == 0 ? fail(same.error()) : status_of(same.error().code);
+    if (is_manual(words)) return rank == 0 ? print_manual() : ExitStatus::done;
     CLI::App program;
     MpiCommand command;
     declare(program, command);
@@ -163,10 +184,11 @@ ExitStatus run_command(int argc, char** argv) {
         }
         return is_asked ? ExitStatus::done : ExitStatus::bad_input;
     }
+    set_output(output_settings(program));
     Session session(1);
     MpiSupersteps blocks(session.run());
     const auto status = arrange_files(command, blocks, session.run());
-    if (status) return *status;
+    if (status) return rank == 0 ? finish(*status) : *status;
     return rank == 0 ? fail(status.error()) : status_of(status.error().code);
 }
 
@@ -175,9 +197,13 @@ ExitStatus run_command(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     using namespace terrane::cli;
+    occupy_closed_streams();
+    std::signal(SIGPIPE, SIG_IGN); // a closed pipe is a write that fails
+    std::signal(SIGXFSZ, SIG_IGN); // so is a file beyond the limit of sizes
     terrane::keep_freed_memory();
     terrane::throw_on_gmp_out_of_memory();
-    if (argc == 2 && std::string_view(argv[1]) == "manual") return static_cast<int>(print_manual());
+    if (is_manual({argv, std::size_t(argc)}) && !is_launched())
+        return static_cast<int>(print_manual());
     int threads = 0;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads);
     try {

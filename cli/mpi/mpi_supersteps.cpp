@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <climits>
 #include <cstdint>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include <mpi.h>
 
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/cli/mpi/agreement.hpp>
 
 namespace terrane::cli {
 
@@ -24,14 +23,6 @@ constexpr std::size_t longest = std::size_t{1} << 30;
 
 int as_int(std::size_t n) {
     return static_cast<int>(n);
-}
-
-std::string broadcast(std::string text, int from) {
-    std::uint64_t size = text.size();
-    MPI_Bcast(&size, 1, MPI_UINT64_T, from, MPI_COMM_WORLD);
-    text.resize(size);
-    MPI_Bcast(text.data(), as_int(size), MPI_CHAR, from, MPI_COMM_WORLD);
-    return text;
 }
 
 /// Calls `transfer(at, size, tag)` for parts of bytes that MPI can count.
@@ -51,20 +42,6 @@ MpiSupersteps::MpiSupersteps(const Run& run) : run_(run), inbox_(0) {
     block_.index = static_cast<std::uint32_t>(rank);
     block_.count = static_cast<std::uint32_t>(size);
     inbox_ = Inbox(count_);
-}
-
-Status MpiSupersteps::agreed(const Status& own) const {
-    const int here = own ? INT_MAX : static_cast<int>(block_.index);
-    int first = INT_MAX;
-    MPI_Allreduce(&here, &first, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
-    if (first == INT_MAX) return Done{};
-    Error error = own ? Error{} : own.error();
-    int code = static_cast<int>(error.code);
-    MPI_Bcast(&code, 1, MPI_INT, first, MPI_COMM_WORLD);
-    error.code = static_cast<ErrorCode>(code);
-    error.sentence = broadcast(error.sentence, first);
-    error.place = broadcast(error.place, first);
-    return error;
 }
 
 Status MpiSupersteps::step(std::string_view, const Step& work) {
@@ -149,7 +126,8 @@ Result<Bytes> MpiSupersteps::relay(const Turn& turn) {
 }
 
 Status MpiSupersteps::visit(const std::function<Status(Block&)>& visit) {
-    return agreed(visit(block_));
+    return agreed(
+        guarded("for a block of the arrangement", "arrange", [&] { return visit(block_); }));
 }
 
 } // namespace terrane::cli

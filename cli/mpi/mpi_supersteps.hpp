@@ -22,8 +22,6 @@ public:
     [[nodiscard]] bool is_first() const { return block_.index == 0; }
 
 private:
-    /// Returns the error of the lowest rank that has one, in all ranks.
-    [[nodiscard]] Status agreed(const Status& own) const;
     Status exchange(distribution::Outbox& out);
 
     const Run& run_;

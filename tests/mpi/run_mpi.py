@@ -9,6 +9,7 @@ With --all, which takes minutes, all certified cases are compared, not some.
 import argparse
 import json
 import os
+import shutil
 import subprocess
 import tempfile
 from pathlib import Path
@@ -115,6 +116,96 @@ def check_failures(arguments, folder: Path, work: Path):
     assert names_in(work) == before, names_in(work)
 
 
+def check_one_unlike_the_others(arguments, folder: Path, work: Path):
+    """One process that was started otherwise, or fails where others don't, ends all with one message and no file."""
+    good = inputs_of(folder)[0].read_text()
+    for place in (work, work / "other"):
+        place.mkdir(exist_ok=True)
+        (place / "in.obj").write_text(good)
+    (work / "other/less.obj").write_text(good[:-9])
+    (work / "less.obj").write_text(good)
+    changed = good[0] + "%" + good[2:]  # as long as the other
+    (work / "other/changed.obj").write_text(changed)
+    (work / "changed.obj").write_text(good)
+    (work / "missing.obj").write_text(good)
+    program = arguments.terrane_mpi
+    before = names_in(work)
+
+    def expect(sentence, one, inputs="in.obj", status=2):
+        line = f"'{program}' arrange {inputs} -o x.pvtp"
+        script = f'if [ "$OMPI_COMM_WORLD_RANK" = 1 ]; then {one.format(program=program, line=line)}; else exec {line}; fi'
+        done = run([arguments.mpirun, "-n", 3, "sh", "-c", script], cwd=work)
+        lines = [text for text in done.stderr.splitlines() if text.startswith("terrane")]
+        assert done.returncode == status, (one, done.returncode, done.stderr)
+        assert len(lines) == (1 if sentence else 0) and sentence in "".join(lines), (one, done.stderr)
+        assert names_in(work) == before, (one, names_in(work))
+        assert names_in(work / "other") == sorted(["in.obj", "less.obj", "changed.obj"]), names_in(work / "other")
+
+    version = run([program, "--version"]).stdout.split()[1]
+    otherwise = f"process 1 was started as terrane-mpi {version} "
+    for words in ("arrange in.obj -o y.pvtp", "arrange in.obj -o x.pvtp --digest", "arrange in.obj -o x.pvtp --rounds 0",
+                  "arrange", "--help", "--version", "manual", ""):
+        expect((otherwise + words).strip(), "exec '{program}' " + words)
+    file = "process 1 does not see the same file as process 0"
+    for name in ("less.obj", "changed.obj", "missing.obj"):
+        expect(f"{name}: {file}", "cd other; exec {line}", name)
+    expect("cannot be written", "cd other; exec {line}")  # where the first process makes no folder
+    expect("", "exec sh -c 'kill -9 $$'", status=137)
+    expect("", "exit 5", status=5)
+    if not os.access("/dev/full", os.W_OK):
+        return
+    full = run([arguments.mpirun, "-n", 2, "sh", "-c", f"exec '{program}' manual > /dev/full"], cwd=work)
+    assert full.returncode == 2, (full.returncode, full.stderr)
+
+
+def check_killed(arguments, work: Path):
+    """A process that is killed at work ends all. Nothing is left, or all is there."""
+    n = 120
+    lines = [f"v {i} {k} {(i * k) % 7}" for i in range(n) for k in range(n)]
+    lines += [f"v {i} {n / 2} {k / 9}" for i in range(n) for k in range(n)]
+    for name, first in (("a", 1), ("b", 1 + n * n)):
+        lines.append(f"o {name}")
+        for i in range(n - 1):
+            for k in range(n - 1):
+                a = first + i * n + k
+                lines += [f"f {a} {a + n} {a + 1}", f"f {a + n} {a + n + 1} {a + 1}"]
+    (work / "in.obj").write_text("\n".join(lines) + "\n")
+    killed = 0
+    for rank in (0, 1, 2):
+        for seconds in (0, 0.05, 0.1, 0.2, 0.4):
+            # It blocks SIGTERM, and not SIGSEGV, once MPI has started and all have agreed on what to do. Before,
+            # mpirun itself can fail to end.
+            script = (f'if [ "$OMPI_COMM_WORLD_RANK" = {rank} ]; then (until ! [ -e /proc/$$ ] || '
+                      "grep -Eq '^SigBlk:.*[4-7][0-389ab][0-9a-f]{2}$' /proc/$$/status; do sleep 0.01; done; "
+                      f"sleep {seconds}; kill -9 $$) & fi; "
+                      f"exec '{arguments.terrane_mpi}' arrange in.obj -o x.pvtp")
+            done = run([arguments.mpirun, "-n", 3, "sh", "-c", script], cwd=work)
+            left = names_in(work)
+            where = (rank, seconds, done.returncode, done.stderr, left)
+            complete = ["in.obj", "x.pvtp", "x_pieces"]
+            if done.returncode == 0:
+                assert left == complete, where
+                (work / "x.pvtp").unlink()
+                shutil.rmtree(work / "x_pieces")
+                continue
+            killed += 1
+            # The last process names the results; it may have been killed just then.
+            assert left in (["in.obj"], complete) or rank == 2, where
+            for name in left[:]:
+                assert name in complete or name.startswith(".x"), where
+                if name != "in.obj":
+                    shutil.rmtree(work / name) if (work / name).is_dir() else (work / name).unlink()
+    print(f"{killed} of 15 runs were killed")
+
+
+def check_quiet(arguments, folder: Path, work: Path):
+    line = [arguments.mpirun, "-n", 2, arguments.terrane_mpi, "arrange", *inputs_of(folder), "-o"]
+    assert "wrote" in run([*line, work / "loud.pvtp"]).stdout
+    done = run([*line, work / "quiet.pvtp", "--quiet"])
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", ""), done
+    assert (work / "quiet.pvtp").exists()
+
+
 def check_pieces(arguments, folder: Path, work: Path):
     """Names of pieces are data: none leaves the folder, and what does not fit is refused."""
     pieces = work / "p.pvtp"
@@ -145,13 +236,16 @@ def main():
         parser.add_argument(name, required=True, type=Path)
     parser.add_argument("--all", action="store_true")
     arguments = parser.parse_args()
+    arguments.terrane_mpi = arguments.terrane_mpi.resolve()  # some processes start in another folder
     cases = sorted(path.parent.name for path in arguments.certified.glob("*/expected.json")) if arguments.all else CASES
     for name in cases:
         with tempfile.TemporaryDirectory() as work:
             check_case(arguments, arguments.certified / name, Path(work))
-    for check in (check_failures, check_pieces):
+    for check in (check_failures, check_one_unlike_the_others, check_quiet, check_pieces):
         with tempfile.TemporaryDirectory() as work:
             check(arguments, arguments.certified / "horizons_and_fault", Path(work))
+    with tempfile.TemporaryDirectory() as work:
+        check_killed(arguments, Path(work))
     print(f"{len(cases)} cases with {', '.join(map(str, RANKS))} processes: as in one")
 
 
