@@ -92,6 +92,8 @@ struct Work {
     std::uint64_t constructed = 0;   ///< points that it constructs
     std::uint64_t triangles = 0;     ///< of the result
     std::uint64_t rounded_pairs = 0; ///< pairs of triangles of doubles that it tests
+    std::uint64_t near_boxes = 0;    ///< boxes that it compares to find triangles near what is in
+                                     ///< the way of a mesh of doubles
     std::uint64_t messages = 0;      ///< to other blocks, not empty
     std::uint64_t bytes = 0;         ///< in these
     std::uint64_t memory = 0;        ///< most bytes of its state and its messages in any step

@@ -94,7 +94,7 @@ Result<std::string> digest_of(Supersteps& blocks) {
 constexpr std::uint64_t Work::*counts[] = {
     &Work::homes,         &Work::faces,      &Work::owned,       &Work::candidates, &Work::improper,
     &Work::divided,       &Work::predicates, &Work::constructed, &Work::triangles,  &Work::messages,
-    &Work::rounded_pairs, &Work::bytes,      &Work::memory};
+    &Work::rounded_pairs, &Work::near_boxes, &Work::bytes,       &Work::memory};
 
 } // namespace
 

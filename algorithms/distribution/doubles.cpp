@@ -4,10 +4,13 @@
 // moved do, as the exact ones did. Each pair is tested in the block with the lowest corner of the
 // common part of their boxes.
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
-#include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/distribution/detail/edges.hpp>
 #include <terrane/algorithms/distribution/detail/steps.hpp>
@@ -84,15 +87,44 @@ struct Unclean {
     }
 };
 
-/// Finds points at the same place, which become one, and triangles without area.
-void find_collapsed(DoubleSoup& soup, Unclean& unclean) {
+/// Names corners by the first points at their places, and keeps one triangle of each with the same corners.
+/// It is dirty if any of them is.
+void leave_one_of_each(DoubleSoup& soup, const std::vector<std::uint32_t>& first) {
+    struct Named {
+        Triangle corners{};
+        std::uint32_t triangle = 0;
+        auto operator<=>(const Named&) const = default;
+    };
+    std::vector<Named> all;
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+        Triangle& c = soup.triangles[t];
+        for (std::uint32_t& p : c) p = first[p];
+        if (collinear(soup.points[c[0]], soup.points[c[1]], soup.points[c[2]])) continue;
+        all.push_back({c, t});
+        std::sort(all.back().corners.begin(), all.back().corners.end());
+    }
+    std::sort(all.begin(), all.end());
+    std::vector<Triangle> kept;
+    std::vector<std::uint32_t> dirty;
+    for (std::size_t k = 0, end = 0; k < all.size(); k = end) {
+        bool is_dirty = false;
+        for (; end < all.size() && all[end].corners == all[k].corners; ++end)
+            is_dirty |= std::binary_search(soup.dirty.begin(), soup.dirty.end(), all[end].triangle);
+        if (is_dirty) dirty.push_back(static_cast<std::uint32_t>(kept.size()));
+        kept.push_back(soup.triangles[all[k].triangle]);
+    }
+    soup.triangles = std::move(kept);
+    soup.dirty = std::move(dirty);
+}
+
+/// Finds points at the same place, which become one, and triangles without area. These, and all but one of
+/// the triangles that become the same, are left out from then on: their corners are in the way anyhow.
+void set_collapsed_aside(DoubleSoup& soup, Unclean& unclean) {
     std::vector<std::uint32_t> first(soup.points.size());
     PointTable places(soup.points.size());
-    bool any = false;
     for (std::uint32_t p = 0; p < soup.points.size(); ++p) {
         first[p] = places.enter(soup.points, p);
         if (first[p] == p) continue;
-        any = true;
         ++unclean.count;
         unclean.is_in_way[first[p]] = unclean.is_in_way[p] = true;
     }
@@ -102,53 +134,40 @@ void find_collapsed(DoubleSoup& soup, Unclean& unclean) {
         ++unclean.count;
         unclean.add(c);
     }
-    if (!any) return;
-    for (Triangle& t : soup.triangles)
-        for (std::uint32_t& p : t) p = first[p];
+    if (unclean.count > 0) leave_one_of_each(soup, first);
 }
 
-bool have_same_corners(Triangle t, Triangle u) {
-    std::sort(t.begin(), t.end());
-    std::sort(u.begin(), u.end());
-    return t == u;
-}
-
-/// Finds the pairs of this block that meet improperly. If something collapsed, that and triangles that
-/// have become the same are in the way anyhow.
-void find_improper(Block& b, const DoubleSoup& soup, Unclean& unclean, const Run& run) {
+/// Counts the pairs of this block that meet improperly. They are not kept, as there can be very many.
+void count_improper(Block& b, const DoubleSoup& soup, Unclean& unclean, const Run& run) {
     const auto& triangles = soup.triangles;
-    auto pairs =
-        candidate_pairs_of({soup.points, triangles}, soup.dirty, {}, {}, without_progress(run));
-    std::erase_if(pairs, [&](const CandidatePair& p) {
-        const Box f = terrane::box_of(soup.points, triangles[p.first]),
-                  g = terrane::box_of(soup.points, triangles[p.second]);
-        return owner_of(b.grid, b.splitters,
-                        {std::max(f.low[0], g.low[0]), std::max(f.low[1], g.low[1]),
-                         std::max(f.low[2], g.low[2])}) != b.index;
-    });
-    b.work.rounded_pairs = pairs.size();
-    const bool any_collapsed = unclean.count > 0;
-    const auto has_area = [&](const Triangle& t) {
-        return !collinear(soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]);
-    };
-    const auto is_improper = [&](const CandidatePair& p) {
-        const Triangle &t = triangles[p.first], &u = triangles[p.second];
-        if (any_collapsed && (!has_area(t) || !has_area(u) || have_same_corners(t, u)))
-            return false;
-        return improper_contact(soup.points, t, u).has_value();
-    };
-    const auto found = concatenated(parts_of_ranges<std::vector<CandidatePair>>(
-        pairs.size(), run, [&](std::size_t first, std::size_t last) {
-            std::vector<CandidatePair> improper;
-            for (std::size_t k = first; k < last; ++k)
-                if (is_improper(pairs[k])) improper.push_back(pairs[k]);
-            return improper;
-        }));
-    unclean.count += found.size();
-    for (const CandidatePair& p : found) {
-        unclean.add(triangles[p.first]);
-        unclean.add(triangles[p.second]);
+    // Cells are found here, as they depend on the rounding mode, and the test has another one. They never
+    // decrease when a coordinate grows.
+    std::vector<std::array<std::uint32_t, 3>> lowest;
+    for (const Triangle& t : triangles) {
+        const Box box = terrane::box_of(soup.points, t);
+        lowest.push_back(
+            {b.grid.cell(0, box.low[0]), b.grid.cell(1, box.low[1]), b.grid.cell(2, box.low[2])});
     }
+    std::atomic<std::uint64_t> tested{0}, improper{0};
+    std::vector<std::atomic<bool>> is_in_way(soup.points.size());
+    const auto test = [&](const CandidatePair& p) {
+        const auto &f = lowest[p.first], &g = lowest[p.second];
+        const auto place =
+            b.grid.place({std::max(f[0], g[0]), std::max(f[1], g[1]), std::max(f[2], g[2])});
+        if (block_at(b.splitters, place) != b.index) return false;
+        tested.fetch_add(1, std::memory_order_relaxed);
+        const Triangle &t = triangles[p.first], &u = triangles[p.second];
+        if (!improper_contact(soup.points, t, u)) return false;
+        improper.fetch_add(1, std::memory_order_relaxed);
+        for (const Triangle* c : {&t, &u})
+            for (const std::uint32_t v : *c) is_in_way[v].store(true, std::memory_order_relaxed);
+        return false;
+    };
+    (void)candidate_pairs_of({soup.points, triangles}, soup.dirty, {}, test, without_progress(run));
+    b.work.rounded_pairs = tested;
+    unclean.count += improper;
+    for (std::size_t p = 0; p < is_in_way.size(); ++p)
+        if (is_in_way[p]) unclean.is_in_way[p] = true;
 }
 
 } // namespace
@@ -169,8 +188,8 @@ Status check_doubles(Block& b, Inbox& in, Outbox& out, const Run& run) {
     BlockVerdict verdict;
     DoubleSoup soup = double_soup(b, parts, divided);
     Unclean unclean{std::vector<bool>(soup.points.size(), false)};
-    find_collapsed(soup, unclean);
-    if (!soup.dirty.empty()) find_improper(b, soup, unclean, run);
+    set_collapsed_aside(soup, unclean);
+    if (!soup.dirty.empty()) count_improper(b, soup, unclean, run);
     verdict.unclean = unclean.count;
     for (std::size_t p = 0; p < soup.points.size(); ++p)
         if (unclean.is_in_way[p]) b.unclean_points.push_back({soup.names[p], 0, soup.points[p]});

@@ -72,6 +72,52 @@ std::vector<std::uint64_t> equal_runs(std::vector<CellCount> cell_counts, std::s
     return splitters;
 }
 
+namespace {
+
+/// Finds the blocks of the cells in a box of cells. A cube of cells with one corner at a multiple of its side is a run
+/// of the curve, so that cubes within one block need not be divided.
+class BlocksOfCells {
+public:
+    BlocksOfCells(const BlockGrid& grid, std::span<const std::uint64_t> splitters,
+                  const std::array<std::uint32_t, 3>& low,
+                  const std::array<std::uint32_t, 3>& high) :
+        grid_(grid),
+        splitters_(splitters), low_(low), high_(high) {
+        visit({0, 0, 0}, grid.bits);
+    }
+
+    /// Returns the blocks, ascending.
+    [[nodiscard]] std::vector<std::uint32_t> take() { return std::move(blocks_); }
+
+private:
+    /// Visits the cube with this lowest cell and 2^bits cells along each side, in the order of the curve.
+    void visit(const std::array<std::uint32_t, 3>& lowest, unsigned bits) {
+        const std::uint32_t side = std::uint32_t{1} << bits;
+        for (unsigned k = 0; k < 3; ++k)
+            if (lowest[k] > high_[k] || lowest[k] + (side - 1) < low_[k]) return;
+        const std::uint64_t first = grid_.place(lowest);
+        const std::uint64_t last = first + ((std::uint64_t{1} << 3 * bits) - 1);
+        const std::uint32_t from = block_at(splitters_, first), to = block_at(splitters_, last);
+        if (from == to) {
+            if (blocks_.empty() || blocks_.back() != from) blocks_.push_back(from);
+            return;
+        }
+        if (!blocks_.empty() && blocks_.back() == to) return;
+        const std::uint32_t half = side / 2;
+        for (std::uint32_t child = 0; child < 8; ++child)
+            visit({lowest[0] + half * (child & 1U), lowest[1] + half * (child >> 1U & 1U),
+                   lowest[2] + half * (child >> 2U)},
+                  bits - 1);
+    }
+
+    const BlockGrid& grid_;
+    std::span<const std::uint64_t> splitters_;
+    const std::array<std::uint32_t, 3>&low_, &high_;
+    std::vector<std::uint32_t> blocks_; ///< found so far, ascending as those along the curve do
+};
+
+} // namespace
+
 std::vector<std::uint32_t> blocks_of(const BlockGrid& grid,
                                      std::span<const std::uint64_t> splitters, const Box& box) {
     std::array<std::uint32_t, 3> low{}, high{};
@@ -79,16 +125,7 @@ std::vector<std::uint32_t> blocks_of(const BlockGrid& grid,
         low[k] = grid.cell(k, box.low[k]);
         high[k] = grid.cell(k, box.high[k]);
     }
-    std::vector<std::uint32_t> blocks;
-    std::array<std::uint32_t, 3> c{};
-    for (c[0] = low[0]; c[0] <= high[0]; ++c[0])
-        for (c[1] = low[1]; c[1] <= high[1]; ++c[1])
-            for (c[2] = low[2]; c[2] <= high[2]; ++c[2]) {
-                const auto b = block_at(splitters, grid.place(c));
-                if (std::find(blocks.begin(), blocks.end(), b) == blocks.end()) blocks.push_back(b);
-            }
-    std::sort(blocks.begin(), blocks.end());
-    return blocks;
+    return BlocksOfCells(grid, splitters, low, high).take();
 }
 
 } // namespace terrane::distribution

@@ -6,17 +6,16 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
-#include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/distribution/detail/edges.hpp>
 #include <terrane/algorithms/distribution/detail/steps.hpp>
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
 #include <terrane/algorithms/rounding/repaired_part.hpp>
+#include <terrane/algorithms/search/box_cover.hpp>
 
 namespace terrane::distribution {
 
@@ -70,29 +69,19 @@ GatheredPoint gathered_point(const Block& b, std::uint32_t name) {
 
 /// Channel 0: GatheredTriangle, for each that overlaps one of the boxes that came; channel 1:
 /// ParentOfTriangle; channel 2: Remainder.
-Status send_near(Block& b, Inbox& in, Outbox& out, const Run& run) {
-    std::vector<Box> boxes = in.all<Box>(0);
-    const auto asked = static_cast<std::uint32_t>(boxes.size());
-    for (const Triangle& t : b.triangles)
-        boxes.push_back(box_of({doubles_of(b, t[0]), doubles_of(b, t[1]), doubles_of(b, t[2])}));
-    std::vector<std::uint32_t> active(asked), near, groups(boxes.size(), no_group);
-    std::iota(active.begin(), active.end(), 0U);
-    std::fill_n(groups.begin(), asked, 0U); // they need not meet each other
-    for (const CandidatePair& p :
-         candidate_pairs_of(boxes, active, groups, {}, without_progress(run)))
-        if (p.second >= asked) near.push_back(p.second - asked);
-    sort_unique(near);
+Status send_near(Block& b, Inbox& in, Outbox& out) {
+    const BoxCover asked(in.all<Box>(0));
     Remainder rest;
-    auto next = near.begin();
     for (std::uint32_t t = 0; t < b.triangles.size(); ++t) {
-        if (next == near.end() || *next != t) {
+        const Box box = box_of({doubles_of(b, b.triangles[t][0]), doubles_of(b, b.triangles[t][1]),
+                                doubles_of(b, b.triangles[t][2])});
+        if (!asked.overlaps(box, b.work.near_boxes)) {
             ++rest.triangles;
             for (unsigned k = 0; k < 3; ++k)
-                rest.largest[k] = std::max({rest.largest[k], std::fabs(boxes[asked + t].low[k]),
-                                            std::fabs(boxes[asked + t].high[k])});
+                rest.largest[k] =
+                    std::max({rest.largest[k], std::fabs(box.low[k]), std::fabs(box.high[k])});
             continue;
         }
-        ++next;
         GatheredTriangle g{b.ids[t], static_cast<std::uint32_t>(b.parents_of[t].size()), {}};
         for (unsigned i = 0; i < 3; ++i) g.corners[i] = gathered_point(b, b.triangles[t][i]);
         out.put(0, 0, g);
@@ -116,6 +105,7 @@ public:
             covered_.push_back({{p.at.x, p.at.y, p.at.z}, {p.at.x, p.at.y, p.at.z}});
         });
         sort_unique(unclean_);
+        covered_ = united(std::move(covered_));
         send_boxes(out);
     }
 
@@ -123,18 +113,21 @@ public:
     /// has changed: channel 0: GatheredPoint, those that moved, are new or are corners of changed
     /// triangles; channel 1: names of points that are gone; channel 2: ChangedTriangle; channel 3:
     /// ParentOfTriangle.
-    void advance(const Block& b, Inbox& in, Outbox& out, const Run& run) {
+    void advance(Block& b, Inbox& in, Outbox& out, const Run& run) {
         take(in);
         is_waiting_ = false;
         has_all_ = triangles_.size() <= input_.most_gathered;
         if (!has_all_) return;
         repaired_ = repair_part(part(b), run);
+        b.work.near_boxes += repaired_.compared;
         is_waiting_ = !repaired_.missing.empty();
-        covered_.insert(covered_.end(), repaired_.missing.begin(), repaired_.missing.end());
-        if (is_waiting_)
+        if (is_waiting_) {
+            covered_.insert(covered_.end(), repaired_.missing.begin(), repaired_.missing.end());
+            covered_ = united(std::move(covered_));
             send_boxes(out);
-        else if (repaired_.clean)
+        } else if (repaired_.clean) {
             tell(b, out);
+        }
     }
 
     [[nodiscard]] bool is_waiting() const { return is_waiting_; }
@@ -445,12 +438,11 @@ Result<Outcome> gather_and_repair(Supersteps& blocks, const DistributedReport& r
     if (auto sent = blocks.step("repair", send_unclean); !sent) return sent.error();
     const auto begin = [&](Block&, Inbox& in, Outbox& out) { gathering.begin(in, out); };
     if (auto begun = in_first(begin); !begun) return begun.error();
-    const auto send = [&](Block& b, Inbox& in, Outbox& out) { return send_near(b, in, out, run); };
     const auto advance = [&](Block& b, Inbox& in, Outbox& out) {
         gathering.advance(b, in, out, run);
     };
     while (true) {
-        if (auto sent = blocks.step("repair", send); !sent) return sent.error();
+        if (auto sent = blocks.step("repair", send_near); !sent) return sent.error();
         if (auto advanced = in_first(advance); !advanced) return advanced.error();
         auto outcome = outcome_of(blocks, gathering);
         if (outcome && outcome->is_waiting) continue;

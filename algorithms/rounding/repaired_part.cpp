@@ -51,7 +51,7 @@ void widen(std::vector<Box>& boxes, const std::array<double, 3>& largest) {
 } // namespace
 
 RepairedPart repair_part(PartOfDoubles part, const Run& run) {
-    const Elsewhere elsewhere{part.largest_elsewhere, std::move(part.covered)};
+    const Elsewhere elsewhere{part.largest_elsewhere, BoxCover(std::move(part.covered))};
     const double largest_move = part.largest_move;
     RoundingState state = state_of(part);
     const std::size_t all = state.all_triangles();
@@ -77,12 +77,14 @@ RepairedPart repair_part(PartOfDoubles part, const Run& run) {
             out.in_contact = parents_in_contact(pairs, state.parents_of);
     }
     out.missing = repair.missing();
+    out.compared = repair.compared();
     if (!out.missing.empty()) {
         auto largest = elsewhere.largest;
         for (const Point3& p : state.points)
             largest = {std::max(largest[0], std::fabs(p.x)), std::max(largest[1], std::fabs(p.y)),
                        std::max(largest[2], std::fabs(p.z))};
         widen(out.missing, largest);
+        out.missing = united(std::move(out.missing));
     }
     out.rounds = repair.rounds();
     if (!out.clean) return out;

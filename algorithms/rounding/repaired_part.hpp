@@ -44,7 +44,8 @@ struct PartOfDoubles {
 
 /// A part after its repair.
 struct RepairedPart {
-    std::vector<Box> missing; ///< if not empty: what has to be covered, too; nothing is repaired
+    std::vector<Box> missing;   ///< if not empty: what has to be covered, too; nothing is repaired
+    std::uint64_t compared = 0; ///< boxes, to find that
     bool clean =
         false; ///< whether nothing meets improperly any more. If not, the input has to be moved
     rounding::detail::ParentsInContact in_contact; ///< if it is not clean

@@ -25,6 +25,7 @@ Json counts_of_work(const Work& w) {
             {"constructed_points", w.constructed},
             {"triangles", w.triangles},
             {"pairs_of_doubles", w.rounded_pairs},
+            {"near_boxes", w.near_boxes},
             {"messages", w.messages},
             {"bytes", w.bytes},
             {"memory", w.memory}};

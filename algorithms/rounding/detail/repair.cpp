@@ -16,15 +16,6 @@
 #include <terrane/algorithms/rounding/detail/tuning.hpp>
 
 namespace terrane::rounding::detail {
-namespace {
-
-bool is_within(const Box& inner, const Box& outer) {
-    for (unsigned k = 0; k < 3; ++k)
-        if (inner.low[k] < outer.low[k] || inner.high[k] > outer.high[k]) return false;
-    return true;
-}
-
-} // namespace
 
 std::size_t crowded_from(std::size_t triangles) {
     return std::max(rounding_tuning.many, triangles / rounding_tuning.crowded + 1);
@@ -54,19 +45,8 @@ std::vector<CandidatePair> find_contacts(RoundingState& state, bool tests_all,
 /// Tells whether each of these boxes is within a covered one, and notes those that are not.
 bool Repair::has_all_in(std::span<const Box> boxes) {
     if (task_.elsewhere == nullptr) return true;
-    const auto& covered = task_.elsewhere->covered;
-    std::vector<Box> all(covered);
-    all.insert(all.end(), boxes.begin(), boxes.end());
-    std::vector<std::uint32_t> active(boxes.size());
-    std::iota(active.begin(), active.end(), static_cast<std::uint32_t>(covered.size()));
-    std::vector<std::uint32_t> groups(all.size(), no_group);
-    std::fill(groups.begin() + static_cast<std::ptrdiff_t>(covered.size()), groups.end(), 0U);
-    std::vector<bool> has(boxes.size(), false);
-    for (const CandidatePair& p : candidate_pairs_of(all, active, groups, {}, quiet_))
-        if (p.first < covered.size() && is_within(all[p.second], all[p.first]))
-            has[p.second - covered.size()] = true;
-    for (std::size_t k = 0; k < boxes.size(); ++k)
-        if (!has[k]) missing_.push_back(boxes[k]);
+    for (const Box& box : boxes)
+        if (!task_.elsewhere->covered.contains(box, compared_)) missing_.push_back(box);
     return missing_.empty();
 }
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include <terrane/algorithms/rounding/detail/decimal_frame.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
+#include <terrane/algorithms/search/box_cover.hpp>
 #include <terrane/algorithms/search/search.hpp>
 
 namespace terrane::rounding::detail {
@@ -22,7 +24,7 @@ namespace terrane::rounding::detail {
 /// What a repair of a part of a mesh has to know of the rest.
 struct Elsewhere {
     std::array<double, 3> largest{}; ///< absolute coordinate of the points there, per axis
-    std::vector<Box> covered;        ///< all triangles that overlap one of these are in the part
+    BoxCover covered;                ///< all triangles that overlap one of these are in the part
 };
 
 /// How doubles are repaired.
@@ -75,6 +77,8 @@ public:
     /// Returns the boxes that have to be covered so that a part is repaired as the whole. If there are
     /// any, the state is unfinished.
     [[nodiscard]] const std::vector<Box>& missing() const { return missing_; }
+    /// Returns how many boxes were compared for that.
+    [[nodiscard]] std::uint64_t compared() const { return compared_; }
     /// Returns whether triangles may have changed, not points alone.
     [[nodiscard]] bool has_snapped() const { return has_snapped_; }
 
@@ -99,6 +103,7 @@ private:
     unsigned rounds_ = 0;
     bool has_snapped_ = false;
     std::vector<Box> missing_;
+    std::uint64_t compared_ = 0;
 };
 
 } // namespace terrane::rounding::detail

@@ -10,16 +10,20 @@
 #include <terrane/algorithms/distribution/distributed_arrangement.hpp>
 #include <terrane/algorithms/distribution/local_supersteps.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/search/search.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/algorithms/volumes/volumes_in_blocks.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/kernel/predicates.hpp>
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <random>
+#include <set>
 
 namespace {
 
@@ -139,8 +143,8 @@ void check_left(const Expected& expected, Supersteps& blocks) {
     CHECK(whole->piece.mesh.parents_of == expected.rounded.mesh->parents_of);
 }
 
-void check(const Expected& expected, Supersteps& blocks, Seen& seen,
-           std::uint64_t most_gathered = DistributedOptions{}.most_gathered) {
+DistributedReport check(const Expected& expected, Supersteps& blocks, Seen& seen,
+                        std::uint64_t most_gathered = DistributedOptions{}.most_gathered) {
     const auto& rounding = expected.rounded.report;
     const Mesh& mesh = *expected.rounded.mesh;
     const auto report = arranged(blocks, expected.surfaces, most_gathered);
@@ -149,7 +153,7 @@ void check(const Expected& expected, Supersteps& blocks, Seen& seen,
         CHECK_FALSE(report.repair);
         check_left(expected, blocks);
         ++seen.left;
-        return;
+        return report;
     }
     REQUIRE(rounding.clean);
     CHECK(report.vertices == mesh.vertices.size());
@@ -167,7 +171,7 @@ void check(const Expected& expected, Supersteps& blocks, Seen& seen,
     if (!report.repair) {
         CHECK(rounding.naive_contacts == 0);
         CHECK(rounding.merged_vertices == 0);
-        return;
+        return report;
     }
     ++seen.repaired;
     const bool are_counted = rounding.naive_contacts <= RoundingReport::most_counted;
@@ -183,6 +187,7 @@ void check(const Expected& expected, Supersteps& blocks, Seen& seen,
     const auto volumes = find_volumes(mesh);
     REQUIRE(volumes);
     CHECK(*measures == volumes->measures);
+    return report;
 }
 
 void check(const Expected& expected, std::size_t count, Seen& seen,
@@ -237,6 +242,38 @@ std::vector<Surface> sheets_in_a_plane(unsigned seed, bool is_turned) {
         add_triangle(surfaces[t % 2], {on_diagonal(), on_diagonal(), on_diagonal()});
     }
     return surfaces;
+}
+
+/// Triangles on a lattice of few spacings, far from the origin: the points where they cross are in the same few
+/// doubles, and so many of their parts are that pairs of them can't be listed.
+std::vector<Surface> heap_on_lattice(unsigned seed, std::uint32_t count, const Point3& at,
+                                     double spacing, unsigned range) {
+    RandomPoints random(seed);
+    std::vector<Surface> surfaces{{"a", Role::unknown, {}, {}}, {"b", Role::unknown, {}, {}}};
+    const auto next = [&] {
+        return Point3{at.x + spacing * random.below(range), at.y + spacing * random.below(range),
+                      at.z + spacing * random.below(range)};
+    };
+    for (std::uint32_t t = 0; t < count; ++t)
+        add_triangle(surfaces[t % 2], {next(), next(), next()});
+    return surfaces;
+}
+
+/// Returns how many pairs of different triangles with area overlap in the nearest doubles.
+std::uint64_t overlapping_pairs(const Arrangement& exact) {
+    std::vector<Point3> points;
+    for (std::uint32_t v = 0; v < exact.vertices.size(); ++v)
+        points.push_back(exact.nearest(VertexId{v}));
+    std::set<std::array<Point3, 3>> different;
+    for (const Triangle& t : exact.triangles) {
+        std::array corners{points[t[0]], points[t[1]], points[t[2]]};
+        if (collinear(corners[0], corners[1], corners[2])) continue;
+        std::sort(corners.begin(), corners.end());
+        different.insert(corners);
+    }
+    std::vector<Box> boxes;
+    for (const auto& c : different) boxes.push_back(box_of(c, {0, 1, 2}));
+    return (*count_candidate_pairs(boxes, [](const CandidatePair&) { return 0; }))[0];
 }
 
 } // namespace
@@ -356,4 +393,32 @@ TEST_CASE("repair in blocks: in files and in threads", "[distribution]") {
         check(moved, threads, seen);
     }
     CHECK(seen.moved >= 4);
+}
+
+TEST_CASE("repair in blocks: what lies in few doubles costs what it costs one process",
+          "[distribution]") {
+    Seen seen;
+    std::size_t many = 0;
+    for (const std::uint32_t count : {10, 20, 40, 60, 90, 130, 200})
+        for (const unsigned range : {4U, 7U}) {
+            CAPTURE(count, range);
+            const Point3 at = range == 4 ? Point3{1e6, 1e6, 1e6} : far_away;
+            const Expected expected(heap_on_lattice(count, count, at, 0x1p-30, range));
+            const std::uint64_t triangles = expected.exact.triangles.size(),
+                                pairs = overlapping_pairs(expected.exact);
+            many += triangles > 10'000 ? 1 : 0;
+            for (const std::size_t blocks : {1, 2, 5, 7}) {
+                CAPTURE(blocks, triangles, pairs);
+                const Run run;
+                LocalSupersteps local({blocks, {}}, run);
+                const auto work = check(expected, local, seen).total;
+                // Attempts to move the input do the same work again.
+                CHECK(work.rounded_pairs <= pairs);
+                CHECK(work.near_boxes <= 300 * triangles);
+                CHECK(work.memory <= 1000 * triangles);
+            }
+        }
+    CHECK(seen.repaired >= 20);
+    CHECK(seen.moved >= 8);
+    CHECK(many >= 4);
 }
