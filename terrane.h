@@ -4,8 +4,8 @@
 // docs/how-to/c.md shows how to use it, docs/reference/c.md lists its functions.
 //
 // (1) Handles are opaque. Each function that makes one says how it is freed; freeing NULL is
-//     allowed. A `const` handle that a getter returns belongs to the handle that it was asked of,
-//     and is not freed.
+//     allowed, and so is freeing a handle by the function of another type, or a `const` handle that
+//     a getter returned, which belongs to the handle that it was asked of: they stay as they are.
 // (2) Arrays are passed by pointer and length, and copied. Getters return read-only arrays of the
 //     handle, which are valid until it is freed or changed; a count may be asked for with each
 //     (NULL: not wanted).

@@ -102,7 +102,7 @@ terrane_code terrane_arrange(const terrane_surfaces* surfaces,
 }
 
 void terrane_arrangement_free(terrane_arrangement* arrangement) {
-    delete known(arrangement);
+    release(arrangement);
 }
 
 terrane_code terrane_arrangement_get_summary(const terrane_arrangement* arrangement,
@@ -206,7 +206,7 @@ terrane_code terrane_cut_to_volume(const terrane_arrangement* arrangement, const
 }
 
 void terrane_cut_free(terrane_cut* cut) {
-    delete known(cut);
+    release(cut);
 }
 
 const terrane_arrangement* terrane_cut_arrangement(const terrane_cut* cut) {
@@ -239,7 +239,7 @@ terrane_code terrane_round(const terrane_arrangement* arrangement,
         const auto wanted = options_of(options, default_rounding());
         terrane::RoundingOptions rounding;
         rounding.max_rounds = wanted.max_rounds;
-        rounding.max_move = max_move_of(wanted.max_move);
+        rounding.max_move = number_or_default(wanted.max_move, "options.max_move");
         if (wanted.full_check != 0) rounding.check.method = terrane::PairCheck::full;
         auto rounded = terrane::round_to_doubles(*given.exact, rounding, run_of(run));
         if (!rounded) return rounded.error();

@@ -17,9 +17,9 @@
 namespace terrane::capi::detail {
 namespace {
 
-/// What is handed out where memory does not even suffice for an error. Nobody changes or frees it.
+/// What is handed out where memory does not even suffice for an error. It is never freed.
 terrane_error* error_without_memory() noexcept {
-    static terrane_error error{TERRANE_OUT_OF_MEMORY, "out of memory", {}, "out of memory"};
+    static terrane_error error{{}, TERRANE_OUT_OF_MEMORY, "out of memory", {}, "out of memory"};
     return &error;
 }
 
@@ -46,7 +46,8 @@ static_assert(TERRANE_INTERNAL == static_cast<int>(ErrorCode::internal) + 1);
 terrane_code hand_out(terrane_code code, const Error& failure, terrane_error** error) noexcept {
     if (!error) return code;
     try {
-        *error = new terrane_error{code, failure.sentence, failure.place, failure.message()};
+        *error = new terrane_error{{}, code, failure.sentence, failure.place, failure.message()};
+        (*error)->is_whole = true;
     } catch (...) {
         *error = error_without_memory();
         return TERRANE_OUT_OF_MEMORY;
@@ -144,23 +145,23 @@ const char* terrane_contact_kind_name(int32_t kind) {
 }
 
 terrane_code terrane_error_code(const terrane_error* error) {
-    return error ? error->code : TERRANE_OK;
+    return known(error) ? error->code : TERRANE_OK;
 }
 
 const char* terrane_error_sentence(const terrane_error* error) {
-    return error ? error->sentence.c_str() : "";
+    return known(error) ? error->sentence.c_str() : "";
 }
 
 const char* terrane_error_place(const terrane_error* error) {
-    return error ? error->place.c_str() : "";
+    return known(error) ? error->place.c_str() : "";
 }
 
 const char* terrane_error_message(const terrane_error* error) {
-    return error ? error->message.c_str() : "";
+    return known(error) ? error->message.c_str() : "";
 }
 
 void terrane_error_free(terrane_error* error) {
-    if (error != error_without_memory()) delete error;
+    release(error);
 }
 
 terrane_code terrane_run_new(terrane_run** out, terrane_error** error) {
@@ -168,7 +169,7 @@ terrane_code terrane_run_new(terrane_run** out, terrane_error** error) {
 }
 
 void terrane_run_free(terrane_run* run) {
-    delete known(run);
+    release(run);
 }
 
 terrane_code terrane_run_set_threads(terrane_run* run, unsigned threads, terrane_error** error) {

@@ -93,7 +93,7 @@ TERRANE_API const char* terrane_error_sentence(const terrane_error* error);
 TERRANE_API const char* terrane_error_place(const terrane_error* error);
 /// Returns place and sentence, "basin.ts:1204: VRTX needs 3 numbers"; "" for NULL.
 TERRANE_API const char* terrane_error_message(const terrane_error* error);
-/// Frees an error.
+/// Frees an error. Other handles stay as they are, and getters of errors return for them what they return for NULL.
 TERRANE_API void terrane_error_free(terrane_error* error);
 
 /// Makes a run with one thread, without callbacks. Free it with terrane_run_free. Wherever a run is

@@ -23,7 +23,7 @@ terrane_code terrane_check(const terrane_surfaces* surfaces, const terrane_run* 
 }
 
 void terrane_check_free(terrane_check_report* report) {
-    delete known(report);
+    release(report);
 }
 
 terrane_code terrane_check_get_summary(const terrane_check_report* report,

@@ -150,7 +150,7 @@ terrane_code terrane_fill(const terrane_surfaces* surfaces, const terrane_fill_t
 }
 
 void terrane_holes_free(terrane_holes* holes) {
-    delete known(holes);
+    release(holes);
 }
 
 const terrane_hole* terrane_holes_array(const terrane_holes* holes, size_t* count) {

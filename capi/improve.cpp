@@ -135,7 +135,7 @@ terrane_code terrane_improve(const terrane_mesh* mesh, const terrane_improve_opt
 }
 
 void terrane_improved_free(terrane_improved* improved) {
-    delete known(improved);
+    release(improved);
 }
 
 const terrane_mesh* terrane_improved_mesh(const terrane_improved* improved) {

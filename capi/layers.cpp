@@ -54,7 +54,7 @@ terrane_code terrane_stack_layers(const terrane_surfaces* surfaces, const terran
         terrane::LayerOptions stacking;
         stacking.min_thickness = wanted.min_thickness;
         stacking.max_rounds = wanted.max_rounds;
-        stacking.max_move = max_move_of(wanted.max_move);
+        stacking.max_move = number_or_default(wanted.max_move, "options.max_move");
         auto made = terrane::stack_layers(list, order, stacking, run_of(run));
         if (!made) return made.error();
         return std::make_unique<terrane_layered>(*std::move(made));
@@ -62,7 +62,7 @@ terrane_code terrane_stack_layers(const terrane_surfaces* surfaces, const terran
 }
 
 void terrane_layered_free(terrane_layered* layered) {
-    delete known(layered);
+    release(layered);
 }
 
 int terrane_layered_is_stack(const terrane_layered* layered) {

@@ -87,7 +87,7 @@ terrane_code terrane_mesh_prove(const terrane_mesh* mesh, const terrane_run* run
 }
 
 void terrane_mesh_free(terrane_mesh* mesh) {
-    delete known(mesh);
+    release(mesh);
 }
 
 int terrane_mesh_is_conforming(const terrane_mesh* mesh) {
@@ -163,7 +163,7 @@ terrane_code terrane_find_regions(const terrane_mesh* mesh, const terrane_run* r
 }
 
 void terrane_regions_free(terrane_regions* regions) {
-    delete known(regions);
+    release(regions);
 }
 
 const terrane_region* terrane_regions_array(const terrane_regions* regions, size_t* count) {

@@ -121,7 +121,7 @@ terrane_code terrane_find_exact_volumes(const terrane_arrangement* arrangement,
 }
 
 void terrane_volumes_free(terrane_volumes* volumes) {
-    delete known(volumes);
+    release(volumes);
 }
 
 const uint32_t* terrane_volumes_of_sides(const terrane_volumes* volumes, size_t* triangle_count) {
@@ -197,7 +197,7 @@ terrane_code terrane_make_model(const terrane_arrangement* arrangement, const te
 }
 
 void terrane_model_free(terrane_model* model) {
-    delete known(model);
+    release(model);
 }
 
 const terrane_mesh* terrane_model_mesh(const terrane_model* model) {

@@ -84,7 +84,7 @@ terrane_code terrane_build(const char* json, const char* folder, const terrane_s
 }
 
 void terrane_built_free(terrane_built* built) {
-    delete known(built);
+    release(built);
 }
 
 const terrane_model* terrane_built_model(const terrane_built* built) {

@@ -99,7 +99,7 @@ terrane_code terrane_seal(const terrane_surfaces* surfaces, const terrane_seal_o
 }
 
 void terrane_sealed_free(terrane_sealed* sealed) {
-    delete known(sealed);
+    release(sealed);
 }
 
 const terrane_surfaces* terrane_sealed_surfaces(const terrane_sealed* sealed) {
@@ -162,7 +162,7 @@ terrane_code terrane_extend_to_boundary(const terrane_surfaces* surfaces, const 
 }
 
 void terrane_extended_free(terrane_extended* extended) {
-    delete known(extended);
+    release(extended);
 }
 
 const terrane_surfaces* terrane_extended_surfaces(const terrane_extended* extended) {

@@ -66,7 +66,7 @@ terrane_code terrane_simplify(const terrane_mesh* mesh, const terrane_simplify_o
 }
 
 void terrane_simplified_free(terrane_simplified* simplified) {
-    delete known(simplified);
+    release(simplified);
 }
 
 const terrane_surfaces* terrane_simplified_surfaces(const terrane_simplified* simplified) {

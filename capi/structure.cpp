@@ -51,7 +51,7 @@ const char* terrane_line_kind_name(int32_t kind) {
 }
 
 void terrane_structure_free(terrane_structure* structure) {
-    delete known(structure);
+    release(structure);
 }
 
 const uint32_t* terrane_structure_corners(const terrane_structure* structure, size_t* count) {

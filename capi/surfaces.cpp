@@ -108,7 +108,7 @@ terrane_code terrane_surfaces_new(terrane_surfaces** out, terrane_error** error)
 }
 
 void terrane_surfaces_free(terrane_surfaces* surfaces) {
-    delete known(surfaces);
+    release(surfaces);
 }
 
 terrane_code terrane_surfaces_add(terrane_surfaces* surfaces, const char* name, terrane_role role,

@@ -130,7 +130,7 @@ terrane_code terrane_tetrahedralize(const terrane_model* model,
 }
 
 void terrane_tetrahedra_free(terrane_tetrahedra* tetrahedra) {
-    delete known(tetrahedra);
+    release(tetrahedra);
 }
 
 size_t terrane_tetrahedra_violation_count(const terrane_tetrahedra* tetrahedra) {

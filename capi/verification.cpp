@@ -68,6 +68,7 @@ Result<std::vector<InputFile>> read_inputs(const fs::path& folder,
                                            const terrane_verify_options& options,
                                            const Certificate& certificate) {
     const auto& stated = certificate.inputs;
+    need_array(options.inputs, options.input_count, "options.inputs");
     if (options.inputs && options.input_count != stated.size())
         return Error{ErrorCode::bad_option,
                      "the certificate is about " + std::to_string(stated.size()) + " files, not " +
@@ -122,9 +123,8 @@ MadeVerdict judge(const char* path, const terrane_verify_options* given) {
     if (!certificate) return certificate.error();
     const auto inputs = read_inputs(file.parent_path(), options, *certificate);
     if (!inputs) return inputs.error();
-    VerifyOptions limits;
-    if (options.max_deviation >= 0) limits.max_deviation = options.max_deviation;
-    if (options.max_change >= 0) limits.max_change = options.max_change;
+    const VerifyOptions limits{number_or_default(options.max_deviation, "options.max_deviation"),
+                               number_or_default(options.max_change, "options.max_change")};
     auto verdict = verdict_of(verify_certificate(*inputs, *certificate, limits).violations);
     if (verdict->items.empty()) judge_outputs(file.parent_path(), *certificate, *verdict);
     return verdict;
@@ -169,7 +169,7 @@ terrane_code terrane_verify_certificate(const char* path, const terrane_verify_o
 }
 
 void terrane_verdict_free(terrane_verdict* verdict) {
-    delete known(verdict);
+    release(verdict);
 }
 
 int terrane_verdict_is_valid(const terrane_verdict* verdict) {

@@ -52,6 +52,7 @@ terrane_code produce(Handle** out, terrane_error** error, const Work& work) noex
         if (!out) throw BadArgument{"out", "is null"};
         auto made = work();
         if (!made) return made.error();
+        (*made)->is_whole = true;
         *out = made->release();
         return Done{};
     });
@@ -71,6 +72,12 @@ T quietly(T otherwise, const Work& work) noexcept {
 template <class Handle>
 Handle* known(Handle* handle) noexcept {
     return handle && handle->kind == Handle::own_kind ? handle : nullptr;
+}
+
+/// Frees a handle of this type, unless it is part of another one.
+template <class Handle>
+void release(Handle* handle) noexcept {
+    if (known(handle) && handle->is_whole) delete handle;
 }
 
 /// Returns a handle that must be there.
@@ -100,9 +107,9 @@ inline const char* needed_file(const char* path) {
     return path;
 }
 
-/// Returns how far surfaces may move when they are rounded; none: as far as the library chooses.
-inline std::optional<double> max_move_of(double given) {
-    if (std::isnan(given)) throw BadArgument{"options.max_move", "is not a number"};
+/// Returns an option for which a negative number stands for the library's choice.
+inline std::optional<double> number_or_default(double given, const char* argument) {
+    if (std::isnan(given)) throw BadArgument{argument, "is not a number"};
     return given < 0 ? std::nullopt : std::optional(given);
 }
 

@@ -69,6 +69,7 @@ enum class Kind : std::uint64_t {
     verdict,
     built,
     simplified,
+    error,
 };
 
 /// The base of handles: their type comes first in memory.
@@ -76,6 +77,7 @@ template <Kind K>
 struct Handle {
     static constexpr Kind own_kind = K;
     Kind kind = K;
+    bool is_whole = false; ///< handed out to be freed; false for a part of another handle
 };
 
 /// What two handles share if one was made from the other.
@@ -84,7 +86,7 @@ using Origin = std::shared_ptr<const char>;
 } // namespace terrane::capi::detail
 
 /// A code, a sentence and a place.
-struct terrane_error {
+struct terrane_error : terrane::capi::detail::Handle<terrane::capi::detail::Kind::error> {
     terrane_code code = TERRANE_OK;
     std::string sentence{}, place{}, message{};
 };
