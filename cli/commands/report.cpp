@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <array>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,8 +47,9 @@ Examples:
 
 constexpr auto view_footer =
     R"(Makes the page of `terrane report` in a new folder for temporary files and opens it; a page that is
-there already, FILE.html, is opened as it is. The program that opens it is that of the environment
-variable BROWSER, or else xdg-open. The folder stays, as the browser reads it later.
+there already, FILE.html, is opened as it is. The environment variable BROWSER names the programs
+that may open it, with colons between them and %s for the page; otherwise xdg-open does. The folder
+stays, as the browser reads it later.
 
 Examples:
   terrane view horizons.ts faults.ts
@@ -93,18 +95,42 @@ Result<ExitStatus> report_files(const ReportCommand& command, Session& session) 
     return write_run(*page, statistics, files, session, clean);
 }
 
-/// Starts the program that opens a page, and does not wait for it.
+/// Returns the parts of a text between separators.
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+    return parts;
+}
+
+/// Starts a command, in which %s stands for the page, and does not wait for it. Without %s the page is its last word.
+/// Returns why it did not start, or 0.
+int start(const std::string& command, const std::string& page) {
+    std::vector<std::string> words = split(command, ' ');
+    std::erase_if(words, [](const std::string& word) { return word.empty() || word == "&"; });
+    if (words.empty()) return ENOENT;
+    if (command.find("%s") == command.npos) words.emplace_back("%s");
+    std::vector<char*> pointers;
+    for (std::string& word : words) {
+        for (std::size_t at = 0; (at = word.find("%s", at)) != word.npos; at += page.size())
+            word.replace(at, 2, page);
+        pointers.push_back(word.data());
+    }
+    pointers.push_back(nullptr);
+    pid_t child = 0;
+    return ::posix_spawnp(&child, pointers.front(), nullptr, nullptr, pointers.data(), environ);
+}
+
+/// Opens a page by the first command of BROWSER that starts. Colons separate commands, as Python and xdg-open have it.
 Status open_page(const std::string& path) {
     const char* const named = std::getenv("BROWSER");
-    std::string program = named != nullptr && *named != '\0' ? named : "xdg-open", page = path;
-    std::array<char*, 3> words{program.data(), page.data(), nullptr};
-    pid_t child = 0;
-    const int failed =
-        ::posix_spawnp(&child, program.c_str(), nullptr, nullptr, words.data(), environ);
-    if (failed == 0) return Done{};
+    const std::string commands = named != nullptr && *named != '\0' ? named : "xdg-open";
+    int failed = ENOENT;
+    for (const std::string& command : split(commands, ':'))
+        if ((failed = start(command, path)) == 0) return Done{};
     return Error{ErrorCode::cannot_open,
                  fmt::format("{} cannot open it ({}); set BROWSER, or open the page by hand",
-                             program, std::strerror(failed)),
+                             commands, std::strerror(failed)),
                  path};
 }
 

@@ -287,6 +287,10 @@ def check_view(folder):
     second = pathlib.Path(asked(tools, "mine"))
     check(status == 0 and second.is_file() and second.parent != page.parent, "BROWSER goes first, and each page has a folder", second, said)
     check(not (tools / "asked-xdg-open").exists(), "only one program is asked")
+    for number, command in enumerate(("no-such-browser:{} %s", "{} %s --no-other &", "{}  %s:xdg-open")):
+        status, said = run(folder, "view", "layer.html", **{**usual, "BROWSER": command.format(tools / "mine")})
+        check(status == 0 and asked(tools, "mine") == "layer.html", "BROWSER may name commands with %s", number, said)
+    check(not (tools / "asked-xdg-open").exists(), "only one program is asked")
     status, said = run(folder, "view", "layer.html", **usual)
     check(status == 0 and asked(tools, "xdg-open") == "layer.html", "a page is opened as it is", said)
     before = sorted(temporary.iterdir())
