@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Ensembles are computed by the Python package, as the engines that they run on, Dask and MPI, are
+// Ensembles are computed by the Python package, as the engines that they may run on, Dask and MPI, are
 // Python's. The program checks the options, and then becomes the interpreter: signals, output and the status
 // are those of one process.
 #include <cerrno>
@@ -33,7 +33,7 @@ struct EnsembleCommand {
     unsigned threads = 1;
     std::vector<double> contacts;
     std::optional<std::uint64_t> only, workers;
-    std::string engine = "dask", scheduler, dashboard;
+    std::optional<std::string> engine, scheduler;
 };
 
 constexpr auto ensemble_footer =
@@ -54,19 +54,24 @@ matched by what bounds them. All results go to one new folder:
 
 Finished realisations are kept in DIR.realisations until the folder is there: after an interrupt the
 same command goes on from them. It runs Python with the package terrane, and with
-python3-distributed unless --engine says otherwise; TERRANE_PYTHON names another interpreter. The
-status is 1 where a realisation failed.
+python3-distributed for --scheduler; TERRANE_PYTHON names another interpreter. The status is 1
+where a realisation failed.
+
+Whoever reaches a Dask scheduler without TLS runs programs as you: docs/how-to/ensemble.md says how
+keys are made.
 
 Examples:
   terrane ensemble project.json -o run --realisations 1000
-  terrane ensemble project.json -o run --contact -2950 --workers 8 --dashboard :8787
-  terrane ensemble project.json -o run --scheduler tcp://cluster:8786
+  terrane ensemble project.json -o run --contact -2950 --workers 8
+  terrane ensemble project.json -o run --scheduler tls://cluster:8786
   terrane ensemble project.json -o one --only 17
   mpirun -n 16 terrane ensemble project.json -o run --engine mpi)";
 
 /// Runs main() of the package, or says what is missing.
 constexpr const char* start_script = R"(
-import os, signal, sys
+import sys
+sys.path[:] = filter(None, sys.path)  # no module comes from the current folder
+import os, signal
 def stop(number, frame):
     sys.stderr.write("terrane: interrupted\n")
     sys.stderr.flush()
@@ -121,10 +126,9 @@ std::vector<std::string> arguments_of(const EnsembleCommand& c, const std::strin
     for (const double contact : c.contacts) add("contact", fmt::format("{}", contact));
     add("grid", std::to_string(c.grid));
     if (c.only) add("only", std::to_string(*c.only));
-    add("engine", c.engine);
+    if (c.engine) add("engine", *c.engine);
     if (c.workers) add("workers", std::to_string(*c.workers));
-    if (!c.scheduler.empty()) add("scheduler", c.scheduler);
-    if (!c.dashboard.empty()) add("dashboard", c.dashboard);
+    if (c.scheduler) add("scheduler", *c.scheduler);
     add("retries", std::to_string(c.retries));
     add("threads", std::to_string(c.threads));
     if (is_quiet()) all.emplace_back("--quiet");
@@ -144,9 +148,6 @@ Status check_ensemble(const EnsembleCommand& command) {
     if (command.folder.empty() && project->folder.empty())
         return Error{ErrorCode::bad_option, "the key folder is missing, and there is no -o",
                      command.project};
-    if (command.engine != "dask" && (!command.scheduler.empty() || !command.dashboard.empty()))
-        return Error{ErrorCode::bad_option, "is for the engine dask",
-                     command.scheduler.empty() ? "--dashboard" : "--scheduler"};
     return Done{};
 }
 
@@ -204,22 +205,25 @@ Command ensemble_command(CLI::App& program) {
            most_cells);
     number("--only", command->only,
            "Make this version alone: its surfaces, and a project that builds them", 0, most);
-    app->add_option("--engine", command->engine, "What computes: dask, mpi, serial (default: dask)")
-        ->check(one_of({"dask", "mpi", "serial"}))
+    app->add_option("--engine", command->engine,
+                    "What computes: processes, mpi, serial (default: processes)")
+        ->check(one_of({"processes", "mpi", "serial"}))
         ->type_name("NAME");
-    number("--workers", command->workers,
-           "Processes of Dask on this machine (default: as many as cores)", 1, most_workers);
+    number("--workers", command->workers, "How many processes (default: as many as cores)", 1,
+           most_workers);
     app->add_option("--scheduler", command->scheduler,
-                    "Address of a Dask scheduler whose workers are to compute")
-        ->type_name("ADDRESS");
-    app->add_option("--dashboard", command->dashboard,
-                    "Address at which Dask shows what its workers do, such as :8787")
+                    "Address of a Dask scheduler whose workers compute instead")
         ->type_name("ADDRESS");
     number("--retries", command->retries,
            "How often a version is tried again after its worker was lost (default: 2)", 0, 1000);
     app->add_option("--threads", command->threads, "Threads of each worker (default: 1)")
         ->check(CLI::Range(1U, most_threads).description(""))
         ->type_name("N");
+    for (const char* const other : {"--realisations", "--contact", "--grid", "--engine",
+                                    "--workers", "--scheduler", "--retries"})
+        app->get_option("--only")->excludes(app->get_option(other));
+    for (const char* const other : {"--engine", "--workers"})
+        app->get_option("--scheduler")->excludes(app->get_option(other));
     app->footer(ensemble_footer);
     return {app, [command] { return run_ensemble(*command); }};
 }

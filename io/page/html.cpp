@@ -34,6 +34,12 @@ std::string block_of(const Json& content, const Arrays& arrays) {
 
 } // namespace
 
+std::string content_policy(std::string_view script, std::string_view style) {
+    return fmt::format("default-src 'none'; script-src {}; style-src {}; img-src data: blob:; "
+                       "base-uri 'none'; form-action 'none'",
+                       script.empty() ? "'none'" : policy_hash(script), policy_hash(style));
+}
+
 std::string html_of(const Json& content, const Arrays& arrays, const Json& run,
                     const Bundle& bundle) {
     std::string page = fmt::format(
@@ -42,10 +48,10 @@ std::string html_of(const Json& content, const Arrays& arrays, const Json& run,
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src {}; style-src {}; img-src data: blob:; base-uri 'none'; form-action 'none'">
+<meta http-equiv="Content-Security-Policy" content="{}">
 <title>Terrane report</title>
 <style>)",
-        policy_hash(bundle.script), policy_hash(bundle.style));
+        content_policy(bundle.script, bundle.style));
     page += bundle.style;
     page +=
         "</style>\n</head>\n<body>\n<noscript>This report is drawn by its own JavaScript, which "

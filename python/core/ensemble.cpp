@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/uncertainty/measures.hpp>
 #include <terrane/algorithms/uncertainty/realisations.hpp>
+#include <terrane/io/page/html.hpp>
 #include <terrane/io/project.hpp>
 #include <terrane/io/project_inputs.hpp>
 #include <terrane/io/uncertainty_maps.hpp>
@@ -99,6 +100,7 @@ void bind_ensemble(py::module_& module) {
             },
             "seed"_a, "number"_a);
     module.def("column_maps", &maps_of, "model"_a, "frame"_a, "cells"_a, "how"_a);
+    module.def("content_policy", &page::content_policy, "script"_a, "style"_a);
     module.def("measure_blocks", &measures_of, "model"_a, "contacts"_a);
 }
 

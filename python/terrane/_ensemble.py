@@ -3,25 +3,27 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import os
-from typing import Any, Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _core
 from ._arrays import Float64Array, as_count, as_number
 from ._ensemble_blocks import match, names_of_values, percentiles
-from ._ensemble_engine import ENGINES, Engine, outcomes, pool_of
+from ._ensemble_engine import engine_of, outcomes, pool_of
+from ._ensemble_form import checked
 from ._ensemble_kept import Kept
-from ._ensemble_work import (Record, Task, bounds_of, built, failure, file_of, packed, prepared, reason_of,
-                             unpacked)
-from ._errors import Error, bad_option
+from ._ensemble_work import Record, Task, bounds_of, built, failure, file_of, packed, prepared
+from ._errors import Error
 from ._mesh import Path
 from ._project import Built, project_text
 from ._results import Result, counted
 from ._run import cores
+from ._run import how as how_to_run
 
 _LARGEST = 2 ** 63 - 1
 
@@ -145,7 +147,7 @@ class Ensemble(Result):
     def __init__(self, task: Task, model: bytes, files: Sequence[bytes]) -> None:
         self._task, self._model, self._records = task, model, tuple(files)
         self.seed, self.count, self.frame = task.seed, len(files), task.frame
-        self.model_record: Dict[str, Any] = unpacked(model).values
+        self.model_record: Dict[str, Any] = checked(model, task, 0).values
         self.failures: List[Failure] = []
         self.new: Dict[str, int] = {}
         self.realisations: List[Dict[str, Any]] = []
@@ -157,8 +159,8 @@ class Ensemble(Result):
         names = [b["name"] for b in model]
         rows: List[Tuple[Any, ...]] = []
         maps = _Maps([s for s in self.model_record["surfaces"]], names, (self._task.cells[1], self._task.cells[0]))
-        for data in self._records:
-            record = unpacked(data)
+        for number, data in enumerate(self._records, 1):
+            record = checked(data, self._task, number)
             values = record.values
             if values["status"] == "failed":
                 self.failures.append(Failure(values["number"], values["code"], values["reason"]))
@@ -362,8 +364,8 @@ def _depths(contacts: Any) -> Tuple[float, ...]:
 
 
 def ensemble(project: Union[Path, Mapping[str, Any]], folder: Optional[Path] = None, *, realisations: int = 500,
-             seed: int = 1, contacts: Any = (), grid: int = 50, engine: str = "dask", workers: Optional[int] = None,
-             scheduler: Optional[str] = None, dashboard: Optional[str] = None, retries: int = 2, threads: int = 1,
+             seed: int = 1, contacts: Any = (), grid: int = 50, engine: Optional[str] = None,
+             workers: Optional[int] = None, scheduler: Optional[str] = None, retries: int = 2, threads: int = 1,
              keep: Optional[Path] = None, progress: Any = None) -> Ensemble:
     """Build many realisations of a project whose surfaces are uncertain, and state what they have in common.
 
@@ -385,13 +387,13 @@ def ensemble(project: Union[Path, Mapping[str, Any]], folder: Optional[Path] = N
     grid : int, optional
         Cells of maps along the longer side.
     engine : str, optional
-        "dask", "mpi" (in a program that mpirun has started), or "serial": in this process.
+        "processes" of this machine, which is the default; "mpi", in a program that mpirun has started; or "serial": in
+        this process.
     workers : int, optional
-        Processes of Dask on this machine; one per core unless given.
+        How many processes; one per core unless given.
     scheduler : str, optional
-        Address of a Dask scheduler with workers of its own; they need the same files at the same paths.
-    dashboard : str, optional
-        Address of the dashboard of Dask: ":8787".
+        Address of a Dask scheduler whose workers compute instead, "tls://cluster:8786"; they need the same files at the
+        same paths. Whoever reaches a scheduler without TLS runs programs as you.
     retries : int, optional
         How often a realisation is tried again after a worker was lost or ran out of memory.
     keep : path, optional
@@ -402,10 +404,6 @@ def ensemble(project: Union[Path, Mapping[str, Any]], folder: Optional[Path] = N
     Returns
     -------
     Ensemble
-
-    Notes
-    -----
-    Dask starts processes that import the main module: a script calls this below ``if __name__ == "__main__":``.
 
     Examples
     --------
@@ -421,28 +419,27 @@ def ensemble(project: Union[Path, Mapping[str, Any]], folder: Optional[Path] = N
     >>> volume["p90"] < volume["p50"] < volume["p10"]
     True
     """
-    if engine not in ENGINES:
-        raise bad_option(f"{engine!r} is none of {', '.join(ENGINES)}", "engine")
     count = as_count(realisations, "realisations", 1)
-    how = Engine(engine, as_count(workers or cores(), "workers", 1, 4096), scheduler, dashboard,
-                 as_count(retries, "retries", 0, 1000))
+    how = engine_of(engine, workers, scheduler, retries)
+    how_to_run(threads, progress)  # they are refused before anything begins
     with pool_of(how) as pool:
         task = task_of(project, folder, seed, contacts, grid, threads)
-        alone = min(how.workers, cores()) if engine == "dask" and scheduler is None else 1  # no worker computes yet
+        alone = min(how.workers, cores())  # no worker computes yet
         task, model = _with_frame(task, as_count(grid, "grid", 1, 10000), max(task.threads, alone))
         kept = Kept(keep, task)
         files = dict(kept.found(count))
         missing = [n for n in range(1, count + 1) if n not in files]
         tell = _teller(progress, count)
         tell(len(files))
-        for number, data, seconds, error in outcomes(how, pool, task, missing):
-            if data is None:
-                assert error is not None
-                data = _failed(number, error)
-            else:
-                kept.add(number, data, seconds)
-            files[number] = data
-            tell(len(files))
+        with contextlib.closing(outcomes(how, pool, task, missing)) as found:
+            for number, data, seconds, lacking in found:
+                if data is None:
+                    assert lacking is not None
+                    data = _failed(number, *lacking)
+                else:
+                    kept.add(number, data, seconds)
+                files[number] = data
+                tell(len(files))
     return Ensemble(task, model, [files[n] for n in range(1, count + 1)])
 
 
@@ -469,8 +466,7 @@ def _with_frame(task: Task, grid: int, threads: int) -> Tuple[Task, bytes]:
     return task, file_of(task, 0, lambda: model)
 
 
-def _failed(number: int, error: BaseException) -> bytes:
-    code, reason = reason_of(error)
+def _failed(number: int, code: str, reason: str) -> bytes:
     values, heights, present = failure(code, reason, "")
     return packed(Record({**values, "number": number}, heights, present))
 
@@ -483,8 +479,3 @@ def _teller(progress: Any, count: int) -> Callable[[int], None]:
             progress.total = count
             progress.update(done - progress.n)
     return tell
-
-
-def records_of(made: Ensemble) -> Iterator[Record]:
-    """Return the records of all realisations, by number."""
-    return (unpacked(data) for data in made._records)

@@ -16,10 +16,11 @@ from typing import Any, Callable, Dict, List, NoReturn, Optional, Tuple
 
 from . import _core
 from ._ensemble import Ensemble, ensemble, task_of
-from ._ensemble_engine import abandon
+from ._ensemble_form import checked
 from ._ensemble_kept import remove
 from ._ensemble_output import discard, discard_all, new_folder, save, write_project
-from ._ensemble_work import run_one, unpacked
+from ._ensemble_work import run_one
+from ._ensemble_workers import abandon
 from ._errors import Error
 from ._results import counted
 
@@ -38,10 +39,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--contact", type=float, action="append", default=[])
     parser.add_argument("--grid", type=int, default=50)
     parser.add_argument("--only", type=int)
-    parser.add_argument("--engine", default="dask")
+    parser.add_argument("--engine")
     parser.add_argument("--workers", type=int)
     parser.add_argument("--scheduler")
-    parser.add_argument("--dashboard")
     parser.add_argument("--retries", type=int, default=2)
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--quiet", action="store_true")
@@ -125,7 +125,7 @@ def _one(arguments: Any, folder: str, interrupts: "_Interrupts") -> int:
     values: Dict[str, Any] = {}
     lacking = None
     try:
-        values = unpacked(run_one(task, arguments.only)[0]).values
+        values = checked(run_one(task, arguments.only)[0], task, arguments.only).values
     except Error as error:
         if error.code == "interrupted":
             raise
@@ -170,8 +170,8 @@ def _all(arguments: Any, folder: str, interrupts: "_Interrupts") -> int:
     try:
         made = ensemble(arguments.project, realisations=arguments.realisations, seed=arguments.seed,
                         contacts=arguments.contact, grid=arguments.grid, engine=arguments.engine,
-                        workers=arguments.workers, scheduler=arguments.scheduler, dashboard=arguments.dashboard,
-                        retries=arguments.retries, threads=arguments.threads, keep=keep, progress=progress)
+                        workers=arguments.workers, scheduler=arguments.scheduler, retries=arguments.retries,
+                        threads=arguments.threads, keep=keep, progress=progress)
     finally:
         progress.end()
     computed = round(arguments.realisations * (1 - (progress.first or 0)))
@@ -278,9 +278,6 @@ def main(given: List[str]) -> int:
     _core.keep_freed_memory()  # as the program terrane does
     _say_warnings()
     logging.disable(logging.CRITICAL)  # Dask logs tracebacks of errors that are also raised
-    # After an interrupt, a process of Python's removes what killed workers have left, and says so.
-    os.environ["PYTHONWARNINGS"] = ",".join(
-        filter(None, [os.environ.get("PYTHONWARNINGS"), "ignore:resource_tracker:UserWarning"]))
 
     def say_interrupted(kept: Optional[str]) -> None:
         _fail(arguments, "interrupted, nothing written" if kept is None else
@@ -291,5 +288,5 @@ def main(given: List[str]) -> int:
     try:
         return _run(arguments, interrupts)
     except KeyboardInterrupt:
-        interrupts.answer(arguments.engine == "dask")
+        interrupts.answer(arguments.scheduler is not None)
         return _BAD_INPUT

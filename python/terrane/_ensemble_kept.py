@@ -11,7 +11,8 @@ import os
 import shutil
 from typing import Iterator, Optional, Tuple
 
-from ._ensemble_work import Task, unpacked
+from ._ensemble_form import checked
+from ._ensemble_work import Task
 from ._errors import Error
 from ._mesh import Path
 
@@ -20,6 +21,7 @@ class Kept:
     """The realisations of one task in a folder; without a folder nothing is kept."""
 
     def __init__(self, folder: Optional[Path], task: Task) -> None:
+        self._task = task
         self._folder = None if folder is None else os.path.join(os.fspath(folder), task.key[:32])
         self.seconds = 0.0
         if self._folder is not None:
@@ -33,14 +35,14 @@ class Kept:
         return os.path.join(self._folder, f"{number:06d}.npz")
 
     def found(self, count: int) -> Iterator[Tuple[int, bytes]]:
-        """Return (number, file) of those that are there and whole, up to a number."""
+        """Return (number, file) of those that are there and have the form of a realisation, up to a number."""
         for number in range(1, count + 1) if self._folder is not None else ():
             try:
                 with open(self._path(number), "rb") as file:
                     data = file.read()
-                if unpacked(data).values["number"] == number:
-                    yield number, data
-            except (OSError, ValueError, KeyError):
+                checked(data, self._task, number)
+                yield number, data
+            except (OSError, ValueError):
                 continue  # it is made again
 
     def add(self, number: int, data: bytes, seconds: float) -> None:

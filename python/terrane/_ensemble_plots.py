@@ -91,11 +91,11 @@ def colour_map(values: Any, low: float, high: float, label: str, frame: Tuple[fl
     pixels[..., :3] = _colour(share)
     pixels[..., 3] = np.where(there, 255, 0)
     rows, columns = values.shape
-    aspect = (columns * frame[2]) / (rows * frame[3])
+    width = 1000 * (columns * frame[2]) / (rows * frame[3])
     scale = _png(np.concatenate([_colour(np.linspace(0, 1, 64)), np.full((64, 1), 255)], 1)
                  .astype(np.uint8).reshape(1, 64, 4))
-    return (f'<figure><img class="map" style="aspect-ratio:{aspect:.4f}" src="{_png(pixels[::-1])}" '
-            f'alt="{html.escape(label)}"><figcaption>{html.escape(label)}<br><span class="scale">{_plain_number(low)} '
+    return (f'<figure><svg class="map" role="img" aria-label="{html.escape(label)}" viewBox="0 0 {width:.1f} 1000">'
+            f'<image width="{width:.1f}" height="1000" preserveAspectRatio="none" href="{_png(pixels[::-1])}"/></svg><figcaption>{html.escape(label)}<br><span class="scale">{_plain_number(low)} '
             f'<img src="{scale}" alt="colours from low to high"> {_plain_number(high)}</span></figcaption></figure>')
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, List
 
 import numpy as np
 
+from . import _core
 from ._ensemble_blocks import STATES
 from ._ensemble_plots import colour_map, histogram, table
 from ._results import counted
@@ -25,7 +26,7 @@ td.n{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}.wide
 svg{width:100%;height:auto}svg text{font-size:11px;fill:currentColor}.bar{fill:var(--bar)}
 .curve{fill:none;stroke:currentColor;stroke-width:1.5}.mark{stroke:var(--mark);stroke-dasharray:4 3}
 .given{stroke:currentColor;stroke-width:2}.axis{stroke:currentColor}
-figure{margin:0}.map{width:100%;image-rendering:pixelated;background:repeating-linear-gradient(45deg,#8883 0 4px,#0000 4px 8px)}
+figure{margin:0}.map{image-rendering:pixelated;background:repeating-linear-gradient(45deg,#8883 0 4px,#0000 4px 8px)}
 .scale img{width:9em;height:.8em;vertical-align:-1px}figcaption{font-size:.9em}
 .good{color:#15803d}.bad{color:var(--mark)}
 """
@@ -36,7 +37,8 @@ def page(made: "Ensemble") -> str:
     title = f"Ensemble of {counted(made.count, 'realisation')}"
     body = [f"<h1>{title}</h1>", _verdict(made), _volumes(made), _histograms(made), _states(made), _contacts(made),
             _maps(made), _juxtaposition(made), _failures(made), _method(made)]
-    return (f'<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>{title}</title>'
+    return (f'<!DOCTYPE html><html lang="en"><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" '
+            f'content="{_core.content_policy("", _STYLE)}"><title>{title}</title>'
             f'<meta name="viewport" content="width=device-width,initial-scale=1"><style>{_STYLE}</style>'
             f'<body>{"".join(body)}</body></html>\n')
 

@@ -53,6 +53,15 @@ class Record(NamedTuple):
     present: Any
 
 
+class Outcome(NamedTuple):
+    """What an engine says about a realisation: its file, and the processor time that it took; or why it was not made."""
+
+    number: int
+    data: Optional[bytes]
+    seconds: float
+    failure: Optional[Tuple[str, str]]  #: code and reason
+
+
 _prepared: Dict[str, _core.Ensemble] = {}
 
 
@@ -77,6 +86,20 @@ def run_one(task: Task, number: int) -> Tuple[bytes, float]:
     begin = time.process_time()
     prepared(task)
     return file_of(task, number, lambda: built(task, number).model), time.process_time() - begin
+
+
+def outcome_of(task: Task, number: int, retries: int) -> Outcome:
+    """Compute a realisation, and try again so often after an error that another try may not have."""
+    for left in range(retries, -1, -1):
+        try:
+            return Outcome(number, *run_one(task, number), None)
+        except Exception as error:
+            code, reason = reason_of(error)
+            if code == "interrupted":
+                raise
+            if left == 0:
+                return Outcome(number, None, 0.0, (code, reason))
+    raise AssertionError
 
 
 def file_of(task: Task, number: int, build: Callable[[], Model]) -> bytes:
@@ -106,18 +129,6 @@ def packed(record: Record) -> bytes:
                         present=np.packbits(record.present, axis=-1),
                         columns=np.array(record.present.shape[-1:], dtype=np.int64))
     return file.getvalue()
-
-
-def unpacked(data: bytes) -> Record:
-    """Return the record of an NPZ file; ValueError if it is broken."""
-    try:
-        with np.load(io.BytesIO(data), allow_pickle=False) as file:
-            values = json.loads(file["values"].tobytes())
-            columns = int(file["columns"][0])
-            present = np.unpackbits(file["present"], axis=-1, count=columns).astype(bool)
-            return Record(values, file["heights"], present)
-    except Exception as error:
-        raise ValueError(f"is no realisation: {error}") from None
 
 
 def _measured(model: Model, task: Task) -> Tuple[Dict[str, Any], Float64Array, Any]:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 from . import _core
 from ._arrangement import Arrangement, _inputs
@@ -100,7 +100,8 @@ def verify(result: Any, inputs: Sequence[Any] = (), *, max_deviation: Optional[f
         A certificate, which is judged with its files as ``terrane verify`` does; an arrangement, judged against its
         input surfaces by rules R1 to R8; or a mesh, judged to be conforming.
     inputs : list of paths, optional
-        The input files of a certificate, where they are not beside it.
+        The input files of a certificate, where they are not beside it. Of a certificate alone, as are the next two: an
+        arrangement has its inputs and is exact, and of a mesh nothing is known but itself.
     max_deviation, max_change : float, optional
         The largest that are accepted, unit of the input.
 
@@ -112,19 +113,31 @@ def verify(result: Any, inputs: Sequence[Any] = (), *, max_deviation: Optional[f
     >>> bool(terrane.verify(terrane.arrange([flat, wall])))
     True
     """
-    run = how(threads, progress)
-    if isinstance(result, Arrangement):
-        found = _core.verify_arrangement(parts_of_surfaces(_inputs(result)), result._core, run)
-        return Verdict([RuleViolation(*v) for v in found], [], None, "")
-    mesh = result if isinstance(result, Mesh) else getattr(result, "mesh", None)
-    if isinstance(mesh, Mesh):
-        return Verdict([RuleViolation(*v) for v in _core.verify_mesh(mesh._core, run)], [], None, "")
     if not isinstance(result, (str, os.PathLike)):
-        raise TypeError(f"that is a certificate, an arrangement or a mesh, not {type(result).__name__}")
-    bounds = [None if b is None else as_number(b, n, positive=True)
+        given = {"inputs": None if inputs in ((), []) else inputs, "max_deviation": max_deviation, "max_change": max_change}
+        return _verify_made(result, given, how(threads, progress))
+    if isinstance(inputs, (str, bytes, os.PathLike)):
+        raise TypeError("inputs is a list of paths, not one")
+    bounds = [None if b is None else as_number(b, n, least=0)
               for b, n in ((max_deviation, "max_deviation"), (max_change, "max_change"))]
-    judged = _core.verify_file(os.fspath(result), [os.fspath(p) for p in inputs], bounds[0], bounds[1], run)
+    judged = _core.verify_file(os.fspath(result), [os.fspath(p) for p in inputs], bounds[0], bounds[1],
+                               how(threads, progress))
     outputs = [VerifiedFile(path, check, [RuleViolation(*v) for v in violations])
                for path, check, violations in judged["outputs"]]
     return Verdict([RuleViolation(*v) for v in judged["violations"]], outputs, judged["deviation"],
                    judged["digest"])
+
+
+def _verify_made(result: Any, of_certificates: Dict[str, Any], run: _core.HowToRun) -> Verdict:
+    """Verify an arrangement or a mesh."""
+    mesh = result if isinstance(result, Mesh) else getattr(result, "mesh", None)
+    if not isinstance(result, Arrangement) and not isinstance(mesh, Mesh):
+        raise TypeError(f"result is a certificate, an arrangement or a mesh, not {type(result).__name__}")
+    for name, value in of_certificates.items():
+        if value is not None:
+            raise TypeError(f"{name} is for certificates, not for {type(result).__name__}")
+    if isinstance(result, Arrangement):
+        found = _core.verify_arrangement(parts_of_surfaces(_inputs(result)), result._core, run)
+    else:
+        found = _core.verify_mesh(mesh._core, run)
+    return Verdict([RuleViolation(*v) for v in found], [], None, "")

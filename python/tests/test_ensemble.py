@@ -8,6 +8,7 @@ import pathlib
 import pickle
 import re
 import signal
+import socket
 import statistics
 import subprocess
 import sys
@@ -18,8 +19,8 @@ import numpy as np
 import pytest
 
 import terrane
-from conftest import BOX, PROGRAM, SANITIZED, run_program, run_python, sheet, stack, wall
-from terrane import _ensemble, _ensemble_blocks, _ensemble_engine, _ensemble_kept, _ensemble_work
+from conftest import BOX, PROGRAM, SANITIZED, SOURCE, environment_of_python, run_program, run_python, sheet, stack, wall
+from terrane import _ensemble, _ensemble_blocks, _ensemble_form, _ensemble_kept, _ensemble_work, _ensemble_workers
 from terrane._run import cores
 
 NORMAL = statistics.NormalDist()
@@ -34,6 +35,7 @@ def has_dask():
 
 
 needs_dask = pytest.mark.skipif(not has_dask(), reason="needs python3-distributed, and a library without sanitizer")
+needs_own_interpreter = pytest.mark.skipif(SANITIZED, reason="its processes would need the sanitizer's library first")
 
 
 def write_stack():
@@ -72,9 +74,8 @@ def test_bytes_do_not_depend_on_order_or_what_was_made_before():
     assert pickle.loads(pickle.dumps(made)) == made
 
 
-@needs_dask
+@needs_own_interpreter
 def test_one_and_two_workers_and_a_killed_one_give_the_same():
-    import psutil
     write_stack()
     wanted = files_of(terrane.ensemble("p.json", realisations=24, engine="serial"))
     assert files_of(terrane.ensemble("p.json", realisations=24, workers=1)) == wanted
@@ -82,13 +83,110 @@ def test_one_and_two_workers_and_a_killed_one_give_the_same():
 
     def kill_one(stage, share):
         if share > 0.2 and not killed:
-            workers = [p for p in psutil.Process().children(recursive=True) if "spawn_main" in " ".join(p.cmdline())]
-            assert len(workers) == 2
-            killed.append(workers[0])
-            workers[0].kill()
+            assert len(_ensemble_workers._running) == 2
+            killed.append(min(_ensemble_workers._running, key=lambda p: p.pid))
+            killed[0].kill()
 
     assert files_of(terrane.ensemble("p.json", realisations=24, workers=2, progress=kill_one)) == wanted
-    assert killed and not killed[0].is_running()
+    assert killed and killed[0].returncode == -signal.SIGKILL and not _ensemble_workers._running
+
+
+#: A package that is found before the library's worker, and ends the interpreter at some realisations.
+DEADLY = """
+from terrane import _ensemble_work, _ensemble_workers
+real = _ensemble_work.run_one
+def run_one(task, number):
+    if number in {numbers}:
+        os._exit(7)
+    return real(task, number)
+_ensemble_work.run_one = run_one
+"""
+
+
+@needs_own_interpreter
+def test_a_realisation_that_ends_its_workers_fails_and_no_other_does(monkeypatch):
+    write_stack()
+    wanted = terrane.ensemble("p.json", realisations=9, engine="serial")
+    monkeypatch.setattr(_ensemble_workers, "_START", "import os, sys; sys.path[:] = {!r}" + DEADLY.format(numbers="(2, 5)")
+                        + "_ensemble_workers.serve()")
+    for retries in (0, 2):
+        made = terrane.ensemble("p.json", realisations=9, workers=2, retries=retries)
+        assert made.failures == [terrane.Failure(n, "internal", "its worker was lost (status 7)") for n in (2, 5)]
+        assert [r for i, r in enumerate(made._records, 1) if i not in (2, 5)] \
+            == [r for i, r in enumerate(wanted._records, 1) if i not in (2, 5)]
+    monkeypatch.setattr(_ensemble_workers, "_START", "import sys; {!r}; sys.exit(3)")
+    with pytest.raises(terrane.Error, match=r"no worker can start \(status 3\)"):
+        terrane.ensemble("p.json", realisations=9, workers=2)
+    assert not _ensemble_workers._running
+
+
+def sockets_of(root):
+    """Return a line for each socket of a process and of its descendants that others could reach."""
+    parents = {}
+    for path in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            parents[int(path.parent.name)] = int(path.read_text().rpartition(")")[2].split()[1])
+        except OSError:
+            continue
+    tree = {root}
+    while True:
+        more = {pid for pid, parent in parents.items() if parent in tree} - tree
+        if not more:
+            break
+        tree |= more
+    inodes = set()
+    for pid in tree:
+        for fd in pathlib.Path(f"/proc/{pid}/fd").glob("*"):
+            try:
+                inodes.update(re.findall(r"socket:\[(\d+)\]", os.readlink(fd)))
+            except OSError:
+                continue
+    lines = []
+    for table in ("tcp", "tcp6", "udp", "udp6", "raw", "raw6", "unix"):
+        for line in pathlib.Path(f"/proc/net/{table}").read_text().splitlines()[1:]:
+            words = line.split()
+            if table == "unix":  # a pair has no name, and listens to nobody
+                if words[6] in inodes and (len(words) > 7 or int(words[3], 16) & 0x10000):
+                    lines.append(f"unix {line}")
+            elif words[9] in inodes:
+                lines.append(f"{table} {line}")
+    return len(tree), lines
+
+
+@needs_own_interpreter
+@pytest.mark.skipif(not os.path.exists("/proc/net/unix"), reason="the system has no /proc")
+def test_no_process_of_an_ensemble_has_a_socket_that_others_reach():
+    write_stack()
+    made = []
+    largest = 0
+
+    def look(stage, share):
+        nonlocal largest
+        count, lines = sockets_of(os.getpid())
+        largest = max(largest, count)
+        made.extend(lines)
+
+    with socket.socket() as known:  # the test sees what there is
+        known.bind(("127.0.0.1", 0))
+        known.listen()
+        assert [line.split()[0] for line in sockets_of(os.getpid())[1]] == ["tcp"]
+    terrane.ensemble("p.json", realisations=30, workers=3, progress=look)
+    assert made == [] and largest == 4
+
+
+@needs_own_interpreter
+def test_scripts_need_no_guard_and_workers_take_no_module_from_the_current_folder():
+    write_stack()
+    for name in ("json", "numpy", "terrane", "pickle", "signal", "argparse"):
+        pathlib.Path(name + ".py").write_text(f'open("taken", "a").write("{name} ")\n')
+    os.mkdir("scripts")
+    pathlib.Path("scripts/plain.py").write_text(
+        "import terrane\nprint(terrane.ensemble('p.json', realisations=4, workers=2))\n")
+    done = subprocess.run([sys.executable, "scripts/plain.py"], capture_output=True, text=True, env=environment_of_python())
+    assert (done.stdout, done.stderr) == ("<Ensemble: 4 realisations, 6 blocks, 0 failed>\n", "")
+    status, out, err = run_program("ensemble", "p.json", "-o", "run", "--realisations", "4", "--workers", "2")
+    assert (status, err) == (0, "")
+    assert not os.path.exists("taken")
 
 
 def start_of_cluster(command, *options, packages=None):
@@ -106,6 +204,12 @@ def start_scheduler(workers, packages=None):
     """Return the processes, the scheduler first."""
     scheduler = start_of_cluster("dask_scheduler", "--host", "127.0.0.1", "--port", "0")
     return [scheduler] + [start_worker(packages) for _ in range(workers)]
+
+
+def warning_of(address):
+    """Return what the program says about a scheduler without TLS."""
+    return (f"terrane: warning: {address}: whoever reaches this scheduler runs programs as you and as its workers' user; "
+            "tls:// asks for a key\n")
 
 
 def scheduler_s_address():
@@ -158,7 +262,13 @@ def test_a_result_that_is_lost_with_its_worker_is_awaited(monkeypatch):
             return future
 
     monkeypatch.setattr(distributed, "as_completed", Losing)
-    assert files_of(terrane.ensemble("p.json", realisations=3, engine="dask", workers=1)) == wanted
+    processes = start_scheduler(1)
+    try:
+        with pytest.warns(RuntimeWarning, match="whoever reaches this scheduler"):
+            assert files_of(terrane.ensemble("p.json", realisations=3, scheduler=scheduler_s_address())) == wanted
+    finally:
+        for p in processes:
+            p.kill()
 
 
 @needs_dask
@@ -170,7 +280,7 @@ def test_workers_of_another_s_scheduler_give_the_same_and_are_not_ended():
         address = scheduler_s_address()
         assert files_of(terrane.ensemble("p.json", realisations=12, scheduler=address)) == wanted
         status, out, err = run_program("ensemble", "p.json", "-o", "run", "--realisations", "12", "--scheduler", address)
-        assert (status, err) == (0, "") and out.startswith("12 realisations, seed 1: all built\n")
+        assert (status, err) == (0, warning_of(address)) and out.startswith("12 realisations, seed 1: all built\n")
         killed = []
 
         def kill_one(stage, share):
@@ -203,7 +313,7 @@ def test_a_scheduler_that_does_not_answer_or_ends_is_an_error():
     finally:
         for p in processes:
             p.kill()
-    assert err == f"terrane: {address}: the scheduler is gone, or has cancelled realisations\n"
+    assert err == warning_of(address) + f"terrane: {address}: the scheduler is gone, or has cancelled realisations\n"
     assert running.returncode == 2 and not os.path.exists("run")
     kept = len(list(pathlib.Path(".").glob("run.realisations/*/*.npz")))
     status, out, err = run_program("ensemble", "p.json", "-o", "run", "--realisations", "60", "--engine", "serial")
@@ -228,7 +338,8 @@ def test_workers_without_this_version_are_an_error_before_the_first_realisation(
                 p.kill()
             os.remove("scheduler.json")
         assert (status, out) == (2, "")
-        assert re.fullmatch(rf"terrane: {address}: the worker tcp://\S+ {re.escape(words)}\n", err), err
+        assert err.startswith(warning_of(address))
+        assert re.fullmatch(rf"terrane: {address}: the worker tcp://\S+ {re.escape(words)}\n", err[len(warning_of(address)):])
         assert not os.path.exists("run")
 
 
@@ -240,6 +351,7 @@ def test_a_scheduler_without_workers_is_waited_for_with_a_warning():
         address = scheduler_s_address()
         running = subprocess.Popen([PROGRAM, "ensemble", "p.json", "-o", "run", "--realisations", "3", "--scheduler", address],
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        assert running.stderr.readline() == warning_of(address)
         line = running.stderr.readline()
         assert line == f"terrane: warning: {address}: the scheduler has no workers yet; realisations wait for them\n"
         processes.append(start_worker())
@@ -265,8 +377,8 @@ def test_a_stopped_call_goes_on_from_what_is_kept(monkeypatch):
     kept[1].write_bytes(kept[1].read_bytes()[:100])  # broken by the machine going down
     kept[2].write_bytes(kept[3].read_bytes())  # another realisation
     made = []
-    monkeypatch.setattr(_ensemble_engine, "run_one",
-                        lambda task, number: made.append(number) or _ensemble_work.run_one(task, number))
+    true = _ensemble_work.run_one
+    monkeypatch.setattr(_ensemble_work, "run_one", lambda task, number: made.append(number) or true(task, number))
     assert files_of(terrane.ensemble("p.json", realisations=8, engine="serial", keep="kept")) == wanted
     assert made == [2, 3, 5, 6, 7, 8]
     made.clear()
@@ -279,7 +391,8 @@ def test_a_stopped_call_goes_on_from_what_is_kept(monkeypatch):
 
 
 @pytest.mark.parametrize("options, threads", [({"engine": "serial"}, 1), ({"engine": "serial", "threads": 3}, 3),
-                                              pytest.param({"workers": 2}, min(2, cores()), marks=needs_dask)])
+                                              pytest.param({"workers": 2}, min(2, cores()),
+                                                           marks=needs_own_interpreter)])
 def test_the_model_as_given_is_built_once_before_the_workers_start(monkeypatch, options, threads):
     write_stack()
     wanted = files_of(terrane.ensemble("p.json", realisations=2, engine="serial"))
@@ -325,8 +438,20 @@ def test_the_program_is_interrupted_and_goes_on():
     assert len(rows_of("run/blocks.csv")) == 60 * 6
 
 
+def workers_here():
+    """Return the workers of ensembles that run in this folder."""
+    found = []
+    for path in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            if b"_ensemble_workers" in (path / "cmdline").read_bytes() and os.readlink(path / "cwd") == os.getcwd():
+                found.append(path.name)
+        except OSError:
+            continue
+    return found
+
+
 @pytest.mark.skipif(SANITIZED, reason="the program's interpreter would need the sanitizer's library first")
-@pytest.mark.parametrize("engine", ["serial", pytest.param("dask", marks=needs_dask)])
+@pytest.mark.parametrize("engine", ["serial", "processes"])
 def test_an_interrupt_at_any_time_ends_the_program_with_one_line(engine):
     """While the interpreter starts, its packages are imported, workers start, and realisations are computed."""
     write_stack()
@@ -342,7 +467,10 @@ def test_an_interrupt_at_any_time_ends_the_program_with_one_line(engine):
         assert (out, running.returncode) == ("", 2), (k, out, err)
         assert re.fullmatch("terrane: interrupted(, nothing written|, finished realisations are kept .*)?\n", err), (k, err)
         assert not os.path.exists(f"run{k}")
-    assert not os.path.exists("dask-worker-space")
+        end = time.monotonic() + 60
+        while workers_here() and time.monotonic() < end:  # killed ones need a moment
+            time.sleep(0.01)
+        assert not workers_here()
 
 
 #: Runs the command, and sends it signals when it calls some of its functions. A "+" after the name of a function sends
@@ -378,7 +506,7 @@ sys.exit(command.main(sys.argv[2:]))
     *(("--realisations=2", places, False) for places in (
         "discard", "ensemble", "_write_all!", "_write_hdf5", "summary+", "_write_hdf5,_fail+", "_write_hdf5!,_fail+",
         "summary+,_fail+")),
-    pytest.param("--realisations=2 --engine=dask", "ensemble,_fail+", False, marks=needs_dask),
+    pytest.param("--realisations=2 --engine=processes", "ensemble,_fail+", False, marks=needs_own_interpreter),
     *(("--realisations=2", places, True) for places in ("remove+", "_print")),
     *(("--only=1", places, False) for places in ("run_one", "_write_project+", "_write_project!,_fail+")),
     ("--only=1", "_print+", True)])
@@ -427,16 +555,24 @@ def test_mistakes_have_a_status_and_a_message():
     pathlib.Path("p.json").write_text(json.dumps(project))
     status, out, err = run_program("ensemble", "p.json", "--engine", "serial")
     assert status == 2 and "the key folder is missing" in err
-    status, out, err = run_program("ensemble", "p.json", "-o", "run", "--engine", "serial", "--scheduler", "tcp://x:1")
-    assert status == 2 and "--scheduler: is for the engine dask" in err
+    for options, words in [(["--engine", "serial", "--scheduler", "tcp://x:1"], "--engine excludes --scheduler"),
+                           (["--engine", "serial", "--workers", "2"], "workers: is for the engine processes, not serial"),
+                           (["--only", "3", "--realisations", "5"], "--realisations excludes --only")]:
+        status, out, err = run_program("ensemble", "p.json", "-o", "run", *options)
+        assert (status, out) == (2, "") and words in err, err
     os.environ["TERRANE_PYTHON"] = "/no/python"
     try:
         status, out, err = run_program("ensemble", "p.json", "-o", "run")
     finally:
         del os.environ["TERRANE_PYTHON"]
     assert status == 2 and "/no/python: cannot be run" in err
-    with pytest.raises(terrane.Error, match="none of dask, mpi, serial"):
-        terrane.ensemble("p.json", engine="slurm")
+    for options, words in [({"engine": "slurm"}, "none of processes, mpi, serial"),
+                           ({"engine": "serial", "scheduler": "tls://x:1"}, "'serial'"),
+                           ({"engine": "serial", "workers": 2}, "workers: is for the engine processes"),
+                           ({"scheduler": "tls://x:1", "workers": 2}, "workers: is for the engine processes"),
+                           ({"workers": 0}, "workers: 0 is not from 1")]:
+        with pytest.raises(terrane.Error, match=words):
+            terrane.ensemble("p.json", **options)
 
 
 def test_failures_are_named_and_can_be_reproduced(monkeypatch):
@@ -638,3 +774,114 @@ def test_names_on_the_terminal_are_harmless():
     for c in "\x00\x07\x08\r\x1b\x7f\x80\x9b\x9f" + turning:
         assert _visible(f"a{c}b") == f"a\\u{ord(c):04x}b"
     assert _visible("砂é\u200d\tA\n") == "砂é\u200d\tA\n"
+
+
+def forged(record, change):
+    """Return the file of a record after a change of its values or maps."""
+    values = json.loads(json.dumps(record.values))
+    maps = {"heights": np.array(record.heights), "present": np.array(record.present)}
+    change(values, maps)
+    return _ensemble_work.packed(_ensemble_work.Record(values, **maps))
+
+
+def set_at(*path, to):
+    """Return a change that sets a value in the depth of a record."""
+    def change(values, maps):
+        for key in path[:-1]:
+            values = values[key]
+        values[path[-1]] = to
+    return change
+
+
+def test_kept_files_that_no_realisation_has_are_made_again():
+    """Values that are no numbers, negative sizes, names that are none, and maps of other sizes."""
+    write_stack()
+    made = terrane.ensemble("p.json", realisations=1, engine="serial", contacts=0.5, grid=8, keep="kept")
+    path = next(pathlib.Path("kept").glob("*/000001.npz"))
+    record = _ensemble_form.checked(path.read_bytes(), made._task, 1)
+    nan, inf = float("nan"), float("inf")
+    changes = [set_at("blocks", 0, key, to=v) for key, v in [
+        ("volume", nan), ("volume", inf), ("volume", -1.0), ("volume", "1"), ("volume", None), ("volume", True), ("area", nan),
+        ("low", nan), ("high", inf), ("middle", [0, 0]), ("middle", [0, 0, nan]), ("thickness", [1, nan, 1]), ("above", []),
+        ("above", [nan]), ("height", [1, 1]), ("name", 5), ("sides", {"top": 1.0}), ("sides", {"": 1.0}), ("sides", []), ("more", 1)]]
+    changes += [set_at(*path, to=v) for path, v in [
+        (("number",), 2), (("status",), "whole"), (("status",), "failed"), (("blocks",), []), (("surfaces",), ["top"]),
+        (("surfaces", 0), 7), (("interfaces", 0, 1), 6), (("interfaces", 0, 1), -2), (("interfaces", 0, 3), nan),
+        (("quality", "least_angle"), nan), (("quality", "mean_angle"), -1.0), (("verdict", "leaks"), -1),
+        (("verdict", "max_move"), inf), (("areas", "top"), nan), (("more",), 1)]]
+    changes += [lambda v, m: v.pop("quality"), lambda v, m: v["blocks"][0].pop("volume"),
+                lambda v, m: m.update(heights=m["heights"][:, :-1]), lambda v, m: m.update(heights=m["heights"] * inf),
+                lambda v, m: m.update(heights=m["heights"].astype(np.float32)), lambda v, m: m.update(present=m["present"][1:]),
+                lambda v, m: m.update(heights=np.zeros((10000, 100, 100))),  # small on disk
+                lambda v, m: m.update(present=m["present"][..., :-8])]
+    assert forged(record, lambda v, m: None) == path.read_bytes()
+    for number, change in enumerate(changes):
+        path.write_bytes(forged(record, change))
+        assert terrane.ensemble("p.json", realisations=1, engine="serial", contacts=0.5, grid=8, keep="kept") == made, number
+    failed = {"status": "failed", "code": "internal", "reason": "a", "blocks": [], "interfaces": [], "surfaces": [],
+              "boundaries": [], "number": 1}
+    assert _ensemble_form.checked(_ensemble_work.packed(_ensemble_work.Record(failed, np.zeros((0, 1, 1)), np.zeros(
+        (0, 1, 1), dtype=bool))), made._task, 1).values == failed
+
+
+def test_the_report_allows_nothing_but_its_own_style():
+    import base64
+    import hashlib
+    write_stack()
+    terrane.ensemble("p.json", realisations=3, engine="serial", contacts=0.5, grid=8).save("run")
+    page = pathlib.Path("run/report.html").read_text()
+    style = re.search(r"<style>(.*)</style>", page, re.S).group(1)
+    digest = base64.b64encode(hashlib.sha256(style.encode()).digest()).decode()
+    policy = re.search(r'http-equiv="Content-Security-Policy" content="([^"]*)"', page).group(1)
+    assert policy == (f"default-src 'none'; script-src 'none'; style-src 'sha256-{digest}'; img-src data: blob:; "
+                      "base-uri 'none'; form-action 'none'")
+    assert page.index("Content-Security-Policy") < page.index("<style>")
+    assert not re.search(r"\sstyle=|<script|\son\w+=|(?:src|href)=\"(?!data:)", page)
+    assert page.count("<image ") == 3 + 6  # the maps
+
+
+@needs_dask
+def test_a_scheduler_with_keys_lets_nobody_else_in():
+    """The commands of docs/how-to/ensemble.md make the keys."""
+    text = (SOURCE / "docs/how-to/ensemble.md").read_text()
+    commands = re.search(r"```bash\n(umask.*?)```", text, re.S).group(1)
+    write_stack()
+    pathlib.Path("uncertain.json").write_bytes(pathlib.Path("p.json").read_bytes())
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    commands = commands.replace("8786", str(port)).replace("kill %1 %2", "")
+    begin, run = commands.split("terrane ensemble", 1)
+    environment = {**os.environ, "PATH": f"{os.path.dirname(PROGRAM)}:{os.environ['PATH']}"}
+    script = begin.replace("dask scheduler", f"{sys.executable} -m distributed.cli.dask_scheduler").replace(
+        "dask worker", f"{sys.executable} -m distributed.cli.dask_worker") + "wait"
+    cluster = subprocess.Popen(["bash", "-c", script], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                               start_new_session=True)
+    try:
+        keys = begin[:begin.index("dask scheduler")].replace("openssl", ": openssl")
+        end = time.monotonic() + 120
+        while True:
+            done = subprocess.run(["bash", "-c", keys + "terrane ensemble" + run.rstrip() + " --realisations 4"], env=environment,
+                                  capture_output=True, text=True)
+            if done.returncode == 0 or time.monotonic() > end:
+                break
+        assert done.returncode == 0, done.stderr
+        assert "whoever reaches" not in done.stderr and "4 realisations, seed 1: all built" in done.stdout
+        stranger = subprocess.run([sys.executable, "-c", STRANGER, f"127.0.0.1:{port}"], capture_output=True, text=True)
+        assert stranger.stdout == "refused refused ", stranger.stderr
+    finally:
+        os.killpg(cluster.pid, signal.SIGKILL)
+        cluster.wait()
+
+
+#: Tries to run code on a scheduler, without a key and without TLS.
+STRANGER = """
+import distributed, logging, sys
+logging.disable(50)
+for start in ("tls", "tcp"):
+    try:
+        client = distributed.Client(f"{start}://{sys.argv[1]}", timeout=5)
+        print(client.run_on_scheduler(lambda: 1), end=" ")
+    except (OSError, TypeError, ValueError, RuntimeError):
+        print("refused", end=" ")
+"""
