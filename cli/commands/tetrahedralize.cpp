@@ -294,7 +294,7 @@ void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
                                                                   {"tetgen", Mesher::tetgen},
                                                                   {"gmsh", Mesher::gmsh}})
                 .description(""))
-        ->check(listing({"auto", "tetgen", "gmsh"}))
+        ->transform(listing({"auto", "tetgen", "gmsh"}))
         ->type_name("PROGRAM");
 }
 

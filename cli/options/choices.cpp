@@ -21,7 +21,7 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
 }
 
 CLI::Validator listing(const std::vector<std::string>& words) {
-    return CLI::Validator([](std::string&) { return std::string(); }, "", list_of(words));
+    return CLI::IsMember(words, CLI::ignore_case).description("").name(list_of(words));
 }
 
 std::vector<std::string> choices_of(CLI::Option& option) {

@@ -14,7 +14,7 @@ namespace terrane::cli {
 /// Checks that a value is one of the words, and lists them.
 CLI::Validator one_of(const std::vector<std::string>& words);
 
-/// Lists words that something else checks.
+/// Checks that a value is one of the words, in capitals or not, before a transformation that was added before, and lists them.
 CLI::Validator listing(const std::vector<std::string>& words);
 
 /// Returns the words that one_of or listing gave to an option; empty if none did.

@@ -13,6 +13,7 @@
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/reading.hpp>
 #include <terrane/io/text/text.hpp>
 #include <terrane/io/text/units.hpp>
 
@@ -203,6 +204,24 @@ void add_report(CLI::App& command, FileOptions& options) {
         ->type_name("FILE.html");
 }
 
+/// Refuses options that say how files are read or written where there is no such file.
+Status check_use(const FileOptions& options, const std::vector<Output>& outputs) {
+    const auto writes = [&outputs](Format format) {
+        return std::any_of(outputs.begin(), outputs.end(),
+                           [format](const Output& o) { return o.format == format; });
+    };
+    const auto is_stream = [](const std::vector<std::string>& names) {
+        return std::find(names.begin(), names.end(), "-") != names.end();
+    };
+    if (options.ascii && !writes(Format::stl))
+        return usage("is for STL files, and none is written", "--ascii");
+    if (!options.msh.empty() && !writes(Format::msh) && !writes(Format::msh22))
+        return usage("is for .msh files, and none is written", "--msh");
+    if (!options.format.empty() && !is_stream(options.inputs) && !is_stream(options.outputs))
+        return usage("is the format of -, and no file is -", "--format");
+    return Done{};
+}
+
 Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind kind) {
     if (const auto status = check_streams(options); !status) return status.error();
     std::vector<Output> outputs;
@@ -226,11 +245,19 @@ Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind 
     }
     if (!options.stats.empty())
         if (const auto folder = check_folder(options.stats); !folder) return folder.error();
+    if (const auto used = check_use(options, outputs); !used) return used.error();
     return outputs;
 }
 
 Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
     const StageTimer timer(session.run(), "read");
+    std::vector<std::optional<Format>> formats;
+    for (const auto& path : options.inputs) {
+        const auto named = format_of_input(options, path);
+        formats.push_back(named ? named : format_of(path));
+    }
+    if (const auto sound = check_reading(formats, options.read, {"--depth", "--max-edge"}); !sound)
+        return sound.error();
     Inputs all;
     session.begin("read", Phase::idle);
     for (const auto& path : options.inputs) {

@@ -33,7 +33,7 @@ struct FileOptions {
     unsigned threads = 0;          ///< 0: all cores
     bool ascii = false;            ///< STL as text
     bool strict = false;           ///< warnings about the inputs are errors
-    std::string msh = "4.1";       ///< version of MSH, or 2.2
+    std::string msh;               ///< version of MSH: 4.1, or 2.2; empty: 4.1
     unsigned order = 1;            ///< of tetrahedra in files: 1 or 2
 };
 

@@ -22,7 +22,7 @@ void add_check(CLI::App& command, PairCheckOptions& check) {
             "no proven bound clears) or full (all whose boxes overlap); the verdict is the "
             "same (default: bounds)")
         ->transform(CLI::Transformer(methods, CLI::ignore_case).description(""))
-        ->check(listing({"bounds", "full"}))
+        ->transform(listing({"bounds", "full"}))
         ->type_name("bounds|full")
         ->each([&check](const std::string&) {
             check.count_up_to = SIZE_MAX;

@@ -9,6 +9,7 @@
 
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/io/reading.hpp>
 
 namespace terrane::cli {
 
@@ -66,6 +67,14 @@ Result<std::vector<InputFile>> read_certified_files(const CertificateRequest& re
                      fmt::format("the certificate is about {}, not {}",
                                  counted(certificate.inputs.size(), "file"), paths.size()),
                      request.certificate};
+    std::vector<std::optional<Format>> formats;
+    for (const CertifiedInput& input : certificate.inputs)
+        formats.push_back(request.files.input_format.empty()
+                              ? format_of(input.name)
+                              : format_named(request.files.input_format));
+    if (const auto sound = check_reading(formats, request.files.read, {"--depth", "--max-edge"});
+        !sound)
+        return sound.error();
     std::vector<InputFile> files;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         auto file = read_input(paths[i], certificate.inputs[i], request.files);

@@ -207,7 +207,7 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
                     "auto, grid, ab, ab-balanced, ab-median, mixed, hierarchy, brute (default: "
                     "auto)")
         ->transform(CLI::Transformer(methods, CLI::ignore_case).description(""))
-        ->check(listing(words))
+        ->transform(listing(words)) // else numbers would be taken
         ->type_name("METHOD");
     command
         .add_option("--rounds", settings.rounds,
