@@ -16,7 +16,8 @@
 //     large likewise. No C++ exception leaves a function. Freed handles can't be recognised.
 // (5) Options are structs whose first member is their size. An init function gives all members
 //     their defaults; NULL stands for the defaults. Members are only added at the end, so that
-//     programs go on working with later libraries of the same TERRANE_ABI_VERSION.
+//     programs go on working with later libraries of the same TERRANE_ABI_VERSION. Members `reserved`
+//     of what a caller passes are 0.
 // (6) Handles that are not changed may be used by several threads at a time. There is no global
 //     state.
 // (7) Coordinates are x, y, z for each vertex, in the unit of the input. Indices count from 0.

@@ -54,6 +54,11 @@ Result<FillTask> task_of(const terrane_fill_task& given, std::size_t number,
         return bad_task(number, "is negative or not a number", "mesh_size");
     if (!(given.gap_slope > 0)) return bad_task(number, "is not positive", "gap_slope");
     if (given.smoothing < 0) return bad_task(number, "is negative", "smoothing");
+    if (given.use_rbf == 0 && !std::isnan(given.smoothing))
+        return bad_task(number, "is of radial basis functions", "smoothing");
+    if (given.use_rbf != 0 && o.model) return bad_task(number, "is of kriging", "variogram");
+    if (given.use_rbf != 0 && given.is_isotropic != 0)
+        return bad_task(number, "is of kriging", "is_isotropic");
     o.max_area = given.max_area;
     o.mesh_size = given.mesh_size;
     o.gap_slope = given.gap_slope;

@@ -21,8 +21,10 @@ terrane_layer_options default_stacking() noexcept {
 std::vector<Layer> order_of(const terrane_layer* layers, std::size_t count) {
     need_array(layers, count, "layers");
     std::vector<Layer> order;
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < count; ++i) {
+        need_reserved(layers[i], "layers");
         order.push_back({SurfaceId(layers[i].surface), layers[i].hardness});
+    }
     return order;
 }
 

@@ -56,6 +56,7 @@ StratigraphicColumn column_of(const terrane_model_options* given) {
     StratigraphicColumn column;
     for (std::size_t i = 0; i < options.unit_count; ++i) {
         const terrane_column_unit& u = options.column[i];
+        need_reserved(u, "options.column");
         ColumnUnit unit{
             needed_text(u.name, "options.column.name"), u.surface ? u.surface : "", {}, {}};
         if (!std::isnan(u.age)) unit.age = u.age;

@@ -138,6 +138,8 @@ terrane_code terrane_choose_seal(const terrane_arrangement* arrangement,
         need_array(distance, 1, "distance");
         if (!(edge_length >= 0) || !std::isfinite(edge_length))
             throw BadArgument{"edge_length", "is not 0 or positive and finite"};
+        if (edge_length > 0 && surfaces)
+            throw BadArgument{"surfaces", "is not null, but edge_length is given"};
         const double median = edge_length > 0
                                   ? edge_length
                                   : terrane::median_edge_length(needed(surfaces, "surfaces").list);

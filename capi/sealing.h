@@ -107,8 +107,8 @@ TERRANE_API const terrane_open_gap* terrane_sealed_open(const terrane_sealed* se
 /// for NULL.
 TERRANE_API double terrane_sealed_left(const terrane_sealed* sealed);
 /// Sets *distance to the one that the widths of gaps suggest for sealing: a natural break among
-/// them; 0 if there is none. `edge_length` > 0 is the median length of edges, or 0: it is computed
-/// from `surfaces`, which were arranged. Errors: BAD_OPTION, INTERRUPTED, OUT_OF_MEMORY.
+/// them; 0 if there is none. `edge_length` > 0 is the median length of edges, and `surfaces` is
+/// NULL; or it is 0, and computed from `surfaces`, which were arranged. Errors: BAD_OPTION, INTERRUPTED, OUT_OF_MEMORY.
 TERRANE_API terrane_code terrane_choose_seal(const terrane_arrangement* arrangement,
                                              const terrane_surfaces* surfaces, double edge_length,
                                              const terrane_run* run, double* distance,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/capi/surfaces.h>
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/io/reading.hpp>
 
 namespace terrane::capi::detail {
 namespace {
@@ -66,6 +68,9 @@ Point3 point_of(const double (&numbers)[3]) {
 const Surface* surface_at(const terrane_surfaces* surfaces, std::size_t index) noexcept {
     return known(surfaces) && index < surfaces->list.size() ? &surfaces->list[index] : nullptr;
 }
+
+/// The members of terrane_read_options that check_reading names.
+constexpr std::array<const char*, 2> reading_names{"options.depth", "options.max_edge"};
 
 } // namespace
 
@@ -141,6 +146,9 @@ terrane_code terrane_surfaces_read(terrane_surfaces* surfaces, const char* path,
     return call(error, [&]() -> Status {
         auto& list = needed(surfaces, "surfaces").list;
         const auto [format, reading] = reading_of(options);
+        const auto chosen = format ? format : terrane::format_of(needed_file(path));
+        if (const auto sound = check_reading({chosen}, reading, reading_names); !sound)
+            return sound.error();
         auto read = terrane::read_surfaces(needed_file(path), format, reading);
         if (!read) return read.error();
         append(list, *std::move(read));
@@ -156,6 +164,8 @@ terrane_code terrane_surfaces_parse(terrane_surfaces* surfaces, const void* cont
         need_array(contents, size, "contents");
         const auto [format, reading] = reading_of(options);
         if (!format) throw BadArgument{"options.format", "must name the format of the contents"};
+        if (const auto sound = check_reading({format}, reading, reading_names); !sound)
+            return sound.error();
         auto read = terrane::parse_surfaces({static_cast<const char*>(contents), size},
                                             source ? source : "contents", *format, reading);
         if (!read) return read.error();
@@ -230,6 +240,7 @@ terrane_code terrane_rotated_box_boundary(const terrane_rotated_box* box, terran
                                           terrane_error** error) {
     return produce(out, error, [&]() -> MadeSurfaces {
         need_array(box, 1, "box");
+        need_reserved(*box, "box");
         return handle_of(terrane::rotated_box_boundary(
             {.place = point_of(box->place),
              .is_corner = box->is_corner != 0,

@@ -137,6 +137,14 @@ terrane_code give_lists(const IndexLists<std::uint32_t>* found, terrane_lists* l
 /// Copies a text into a buffer, cut short where it is too small, and says how long it is.
 void copy_text(std::string_view text, char* buffer, std::size_t size, std::size_t* length);
 
+/// Refuses a struct of a caller whose member `reserved` is not 0, so that it can get a meaning.
+template <class Struct>
+void need_reserved(const Struct& given, const char* argument) {
+    if constexpr (requires { given.reserved; })
+        if (given.reserved != 0)
+            throw BadArgument{argument, "has a member \"reserved\" that is not 0"};
+}
+
 /// Gives options their defaults. `size` is what the caller's compiler knows of them.
 template <class Options>
 terrane_code init_options(Options* options, std::size_t size, Options defaults) noexcept {
@@ -156,6 +164,7 @@ Options options_of(const Options* options, Options defaults) {
     if (size < sizeof(std::size_t) || size > sizeof(Options))
         throw BadArgument{"options", "has a struct_size that this library does not know"};
     std::memcpy(&defaults, options, size);
+    need_reserved(defaults, "options");
     return defaults;
 }
 

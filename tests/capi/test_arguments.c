@@ -190,6 +190,51 @@ static void test_frees(void* h) {
     terrane_verdict_free(h);
     terrane_built_free(h);
     terrane_run_free(h);
+    terrane_simplified_free(h);
+    terrane_error_free(h);
+}
+
+/// Getters of errors return for other handles what they return for null.
+static void test_no_error(const void* h) {
+    CHECK(terrane_error_code(h) == TERRANE_OK);
+    CHECK(same_text(terrane_error_sentence(h), "") && same_text(terrane_error_place(h), ""));
+    CHECK(same_text(terrane_error_message(h), ""));
+}
+
+/// A part of a handle is not freed; it goes with the whole.
+static void test_parts(const terrane_surfaces* s) {
+    terrane_arrangement* a = NULL;
+    terrane_mesh* mesh = NULL;
+    terrane_improved* improved = NULL;
+    WORKS(terrane_arrange(s, NULL, NULL, &a, &error));
+    WORKS(terrane_round(a, NULL, NULL, &mesh, &error));
+    WORKS(terrane_improve(mesh, NULL, NULL, &improved, &error));
+    const terrane_mesh* const part = terrane_improved_mesh(improved);
+    size_t count = 0;
+    terrane_mesh_free((terrane_mesh*)(uintptr_t)part);
+    CHECK(terrane_mesh_triangles(part, &count) != NULL && count > 0);
+    terrane_improved_free(improved);
+    terrane_mesh_free(mesh);
+    terrane_arrangement_free(a);
+}
+
+/// Options that would be ignored are refused.
+static void test_unused(void) {
+    terrane_surfaces* s = NULL;
+    terrane_holes* holes = NULL;
+    WORKS(terrane_surfaces_new(&s, &error));
+    add_square(s, "holed", TERRANE_ROLE_HORIZON, 0, 9, 9, 1);
+    terrane_fill_task task;
+    CHECK(terrane_fill_task_init(&task, sizeof task, 0) == TERRANE_OK);
+    task.smoothing = 1; // of radial basis functions
+    FAILS(TERRANE_BAD_OPTION, terrane_fill(s, &task, 1, NULL, &holes, &error));
+    task.use_rbf = 1;
+    task.variogram = "gaussian"; // of kriging
+    FAILS(TERRANE_BAD_OPTION, terrane_fill(s, &task, 1, NULL, &holes, &error));
+    CHECK(terrane_fill_task_init(&task, sizeof task, 0) == TERRANE_OK);
+    task.reserved = 1;
+    REFUSED(terrane_fill(s, &task, 1, NULL, &holes, &error));
+    terrane_surfaces_free(s);
 }
 
 /// What is wanted but missing: places for results, names of files, arrays.
@@ -312,6 +357,12 @@ void test_arguments(void) {
     test_getters((void*)strange);
     test_stages((void*)strange);
     test_frees((void*)strange);
+    test_no_error(NULL);
+    test_no_error(strange);
+    test_no_error(s);
+    terrane_error_free((terrane_error*)(void*)a); // of another type: it stays
+    test_parts(s);
+    test_unused();
     test_missing(s);
     test_sizes(s);
     CHECK(terrane_check_contacts((const terrane_check_report*)(const void*)s, NULL) == NULL);

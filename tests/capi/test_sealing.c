@@ -59,6 +59,7 @@ static void test_choice(void) {
     WORKS(terrane_choose_seal(a, s, 0, NULL, &distance, &error));
     CHECK(distance > 0.01 && distance < 1);
     WORKS(terrane_choose_seal(a, NULL, 2.5, NULL, &with_length, &error));
+    FAILS(TERRANE_BAD_ARGUMENT, terrane_choose_seal(a, s, 2.5, NULL, &distance, &error));
     CHECK(with_length > 0.01);
     FAILS(TERRANE_BAD_ARGUMENT, terrane_choose_seal(a, NULL, 0, NULL, &distance, &error));
     terrane_arrangement_free(a);
