@@ -812,12 +812,13 @@ def test_kept_files_that_no_realisation_has_are_made_again():
     changes += [lambda v, m: v.pop("quality"), lambda v, m: v["blocks"][0].pop("volume"),
                 lambda v, m: m.update(heights=m["heights"][:, :-1]), lambda v, m: m.update(heights=m["heights"] * inf),
                 lambda v, m: m.update(heights=m["heights"].astype(np.float32)), lambda v, m: m.update(present=m["present"][1:]),
-                lambda v, m: m.update(heights=np.zeros((10000, 100, 100))),  # small on disk
                 lambda v, m: m.update(present=m["present"][..., :-8])]
     assert forged(record, lambda v, m: None) == path.read_bytes()
     for number, change in enumerate(changes):
         path.write_bytes(forged(record, change))
         assert terrane.ensemble("p.json", realisations=1, engine="serial", contacts=0.5, grid=8, keep="kept") == made, number
+    with pytest.raises(ValueError, match="heights is too large"):  # small on disk: it is not even read
+        _ensemble_form.checked(forged(record, lambda v, m: m.update(heights=np.zeros((100, 100, 100)))), made._task, 1)
     failed = {"status": "failed", "code": "internal", "reason": "a", "blocks": [], "interfaces": [], "surfaces": [],
               "boundaries": [], "number": 1}
     assert _ensemble_form.checked(_ensemble_work.packed(_ensemble_work.Record(failed, np.zeros((0, 1, 1)), np.zeros(

@@ -470,6 +470,14 @@ def test_inputs_of_certificates(certificate):
         terrane.verify(certificate, inputs=THREE[:1])
 
 
+@pytest.mark.parametrize("options", [{"inputs": ["other.ts"]}, {"inputs": 0}, {"max_deviation": 1e-300}, {"max_deviation": "x"},
+                                     {"max_change": "x"}, {"max_change": 1.0}])
+def test_verify_refuses_what_it_would_ignore(options, arrangement, rounded):
+    for result in (arrangement, rounded, rounded.mesh):
+        with pytest.raises(TypeError, match=f"{[*options][0]} is for certificates, not for {type(result).__name__}"):
+            terrane.verify(result, **options)
+
+
 def test_verify_finds_what_is_no_mesh():
     assert terrane.verify(terrane.mesh(stack())).violations
 
