@@ -13,7 +13,8 @@ constexpr const char* colour_option = "--color";
 
 void add_output_options(CLI::App& command) {
     command.add_flag(quiet_option)
-        ->description("No summary and no progress; warnings and errors stay");
+        ->description("No summary and no progress; warnings and errors stay")
+        ->disable_flag_override(); // --quiet=false
     command.add_option(colour_option)
         ->description("Colours: auto, on terminals without NO_COLOR; always; never (default: auto)")
         ->check(one_of({"auto", "always", "never"}))

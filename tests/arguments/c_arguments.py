@@ -43,6 +43,8 @@ NEEDED = {"terrane_seal_options": {"distance": 0.2}, "terrane_simplify_options":
 LIMITS = {"limit", "max_area", "max_move", "max_rounds", "max_deviation", "max_change", "max_volume", "max_volume_change", "time_limit",
           "max_triangles", "max_edge", "gap_slope", "curve_length", "growth", "smallest", "thickness_share", "rings"}
 LARGE = {"inf", "1e+308", "2147483647"}
+#: Members that are of another function, which takes the same struct.
+OTHERS = {("terrane_find_holes", member) for member in ("use_rbf", "mesh_size", "rings", "is_isotropic", "variogram", "smoothing")}
 #: A negative number stands for the default.
 DEFAULT_BELOW_0 = {"max_move", "max_deviation", "max_change", "smoothing"}
 
@@ -498,7 +500,7 @@ def usual(call, own, label):
     """Whether such a value may mean what no value means."""
     member = label.split(":")[0].split(".")[-1] if ":" in label else own
     bad = label.split(": ")[-1]
-    if member in FREE or bad == "null" and member in MAY_BE_NULL or bad == "null" and own == "options":
+    if member in FREE or (call.name, member) in OTHERS or bad == "null" and member in MAY_BE_NULL or bad == "null" and own == "options":
         return True
     if bad in ("b''",) and member in MAY_BE_NULL:
         return True

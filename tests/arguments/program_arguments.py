@@ -54,7 +54,7 @@ SENSE = {
     "--relations": ("r.csv", ""), "--juxtaposition": ("j.csv", ""), "--gocad": ("g.ml", ""), "--lines": ("l.pl", ""),
     "--grid": ("grid.grdecl", ""), "--cells": ("cells.grdecl", "--grid=grid.grdecl"), "--order": ("2", ""),
     "--around": ("-500,-500,-2500,2500,2000,0", ""), "--margin": ("0.5", ""), "--edge-length": ("250", ""), "--size-in": ("1=150", ""),
-    "--split": ("top", ""), "--blocks-only": ("", ""), "--quality": ("1.3", ""), "--split-surfaces": ("", "--quality=1.3"),
+    "--split": ("top", ""), "--blocks-only": ("", "BASE=body.ts -o out.vtu"), "--quality": ("1.3", ""), "--split-surfaces": ("", "--quality=1.3"),
     "--curve-length": ("80", ""), "--histogram": ("h.svg", ""), "--realisations": ("3", ""), "--seed": ("7", ""),
     "--contact": ("-1000", ""), "--only": ("1", "BASE=project.json -o out"), "--json": ("", ""), "--method": ("rbf", ""),
     "--model": ("gaussian", ""), "--isotropic": ("", ""), "--smoothing": ("3", "--method=rbf"), "--mesh-size": ("90", ""),
@@ -71,13 +71,13 @@ ALSO = {("ensemble", "--grid"): ("7", ""), ("layer", "--certificate"): ("c.json"
         ("layer", "--depth"): None, ("layer", "--max-edge"): None, ("verify", "--depth"): None, ("verify", "--max-edge"): None,
         ("fill", "--max-edge"): None, ("tetrahedralize", "--seal"): None, ("report", "--seal"): None, ("view", "--seal"): None,
         ("tetrahedralize", "--column"): None, ("fill", "--model"): None, ("fill", "--isotropic"): None,
-        ("build", "--report"): ("r.html", "")}
+        ("build", "--report"): ("r.html", ""), ("check", "--depth"): None, ("fill", "--holes"): None}
 NONSENSE = ["", "nonsense", "-1", "nan", "inf", "-inf", "1e999", "99999999999999999999999", "1,2", "=", "\x1b[31m", "/nowhere/x.obj",
             "\udcff", "7x", "0x10", "1 2", "%s%n", "a=b=c"]
 VOLUMES = ("--rotated-box", "--polygon", "--between", "--within")
 #: Limits that large numbers do not reach.
 LIMITS = {"--rounds", "--max-move", "--max-volume-change", "--max-triangles", "--max-deviation", "--max-change", "--time-limit",
-          "--max-area", "--max-edge", "--rings", "--max-volume", "--retries"}
+          "--max-area", "--smallest", "--growth", "--curve-length", "--turn", "--thickness-share", "--least-quality", "--max-edge", "--rings", "--max-volume", "--retries"}
 
 
 class Program:

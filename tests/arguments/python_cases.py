@@ -139,18 +139,18 @@ FUNCTIONS = {
     "suggest_seal": (lambda f: dict(surfaces=f.short), {"box": BOX}),
     "improve": (lambda f: dict(mesh=f.model.mesh), {
         "edge_length": 2, "max_deviation": 1e-3, "edge_length_of": {"top": 0.3}, "passes": 1, "resolution": 0.2,
-        "dissolve": (True, {"resolution": 0.2}), "curve_length": 0.4, "turn": None, "layers_in_gaps": None, "smallest": None,
+        "dissolve": None, "curve_length": 0.4, "turn": None, "layers_in_gaps": None, "smallest": None,
         "growth": None, "crease_angle": None, "curve_angle": None, "thickness_share": None, "least_quality": None,
-        "max_volume_change": None, "max_triangles": 100}),
+        "max_volume_change": None, "max_triangles": None}),
     "distance": (lambda f: dict(from_surface=f.surfaces[0], to_surface=f.surfaces[1]), {}),
     "holes": (lambda f: dict(surface=f.holed), {"gap_slope": None, "outer": True}),
     "fill": (lambda f: dict(surface=f.holed), {
-        "method": "rbf", "holes": [], "model": "gaussian", "max_area": 0.1, "mesh_size": 0.2, "rings": 2, "gap_slope": None,
+        "method": "rbf", "holes": [], "model": "spherical", "max_area": 0.1, "mesh_size": 0.2, "rings": 2, "gap_slope": None,
         "isotropic": None, "bridge_faults": None, "smoothing": (0.5, {"method": "rbf"})}),
     "layers": (lambda f: dict(surfaces=f.crossing, order=[("low", 1.0), ("high", 0.5)]), {"min_thickness": 0.1, "max_move": None}),
-    "model": (lambda f: dict(surfaces=f.surfaces), {
-        "box": BOX, "seal": None, "extend": None, "min_volume": (15.0, {"box": BOX}),
-        "column": ([{"name": "upper"}, {"surface": "top"}, {"name": "lower"}], {"box": BOX}), "max_rounds": None,
+    "model": (lambda f: dict(surfaces=f.surfaces, box=BOX), {
+        "seal": None, "extend": None, "min_volume": 15.0,
+        "column": [{"unit": "upper", "surface": "top"}, {"unit": "middle", "surface": "base"}, {"unit": "lower"}], "max_rounds": None,
         "max_move": None}),
     "tetrahedralize": (lambda f: dict(model=f.model), {
         "edge_length": 1.0, "size_of": {"top": 0.4}, "size_in": {1: 0.5}, "quality": 1.2, "max_volume": 0.2, "split": ["F1"],

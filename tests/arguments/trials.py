@@ -30,14 +30,20 @@ def make_calls(options, work, drawn, trial):
     """In the other process: make the calls of a list from one on, then drawn ones; say each, and what is wrong about it."""
     end = time.monotonic() + options.seconds
     number = options.begin
+    said = os.fdopen(os.dup(1), "w")
+    os.dup2(2, 1)  # a call may print
+
+    def say(what):
+        print(json.dumps(what), file=said, flush=True)
+
     while number < len(work) or time.monotonic() < end:
         call = work[number] if number < len(work) else drawn()
-        print(json.dumps([number, *call]), flush=True)
+        say([number, *call])
         flaw = trial(*call)
         if flaw:
-            print(json.dumps({"flaw": flaw}), flush=True)
+            say({"flaw": flaw})
         number += 1
-    print(json.dumps({"done": number}), flush=True)
+    say({"done": number})
     return 0
 
 
@@ -46,8 +52,9 @@ def _lines(process):
     lines = queue.Queue()
 
     def read():
-        for line in process.stdout:
-            lines.put(line)
+        with process.stdout:
+            for line in process.stdout:
+                lines.put(line)
         lines.put(None)
 
     threading.Thread(target=read, daemon=True).start()
