@@ -49,7 +49,7 @@ def run_program(*arguments):
     """Run `terrane` and return (status, standard output, standard error)."""
     if not PROGRAM:
         pytest.skip("the program is not built")
-    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -58,11 +58,11 @@ def environment_of_python():
     return {**os.environ, **PRELOADED}
 
 
-def run_python(code, *arguments, timeout=120, check=True, **options):
+def run_python(code, *arguments, check=True, **options):
     """Run code in another interpreter like this one."""
     options["env"] = {**os.environ, **options.get("env", {}), **PRELOADED}
     done = subprocess.run([sys.executable, "-c", code, *map(str, arguments)], capture_output=True,
-                          text=True, timeout=timeout, **options)
+                          text=True, **options)
     if check:
         assert done.returncode == 0, done.stderr
     return done

@@ -316,5 +316,5 @@ print("done", done)
 @pytest.mark.skipif(SANITIZED, reason="slow")
 @pytest.mark.parametrize("seed", [1, 2])
 def test_hostile_arrays_never_crash(seed):
-    done = run_python(BATTERY, str(pathlib.Path(__file__).parent), seed, check=False, timeout=1800)
+    done = run_python(BATTERY, str(pathlib.Path(__file__).parent), seed, check=False)
     assert done.returncode == 0, "\n".join(done.stdout.splitlines()[-2:]) + "\n" + done.stderr[-2000:]

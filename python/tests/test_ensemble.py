@@ -213,25 +213,22 @@ def warning_of(address):
 
 
 def scheduler_s_address():
-    end = time.monotonic() + 60
-    while time.monotonic() < end:
+    while True:
         try:
             return json.loads(pathlib.Path("scheduler.json").read_text())["address"]
         except (OSError, ValueError):
             time.sleep(0.05)
-    raise AssertionError("the scheduler has written no address")
 
 
 def wait_for_worker(address):
     import distributed
     with distributed.Client(address, set_as_default=False) as client:
-        client.wait_for_workers(1, timeout=60)
+        client.wait_for_workers(1)
 
 
 def wait_until_it_listens(process, number):
     """Wait until a program answers this signal itself, now or once its interpreter has started."""
-    end = time.monotonic() + 60
-    while process.poll() is None and time.monotonic() < end:
+    while process.poll() is None:
         status = pathlib.Path(f"/proc/{process.pid}/status").read_text()
         masks = re.findall(r"^Sig(?:Blk|Cgt):\s+(\w+)", status, flags=re.M)
         if any(int(mask, 16) >> (number - 1) & 1 for mask in masks):
@@ -241,8 +238,7 @@ def wait_until_it_listens(process, number):
 
 def wait_for_realisations(folder, count):
     """Wait until a command that writes the folder has finished so many realisations."""
-    end = time.monotonic() + 120
-    while len(list(pathlib.Path(".").glob(f"{folder}.realisations/*/*.npz"))) < count and time.monotonic() < end:
+    while len(list(pathlib.Path(".").glob(f"{folder}.realisations/*/*.npz"))) < count:
         time.sleep(0.01)
 
 
@@ -309,7 +305,7 @@ def test_a_scheduler_that_does_not_answer_or_ends_is_an_error():
         running = subprocess.Popen([PROGRAM, "ensemble", "p.json", "-o", "run", *options], stderr=subprocess.PIPE, text=True)
         wait_for_realisations("run", 5)
         processes[0].kill()
-        err = running.communicate(timeout=120)[1]
+        err = running.communicate()[1]
     finally:
         for p in processes:
             p.kill()
@@ -355,7 +351,7 @@ def test_a_scheduler_without_workers_is_waited_for_with_a_warning():
         line = running.stderr.readline()
         assert line == f"terrane: warning: {address}: the scheduler has no workers yet; realisations wait for them\n"
         processes.append(start_worker())
-        out, err = running.communicate(timeout=60)
+        out, err = running.communicate()
     finally:
         for p in processes:
             p.kill()
@@ -422,7 +418,7 @@ def test_the_program_is_interrupted_and_goes_on():
     running = subprocess.Popen([PROGRAM, "ensemble", "p.json", "-o", "run", *options], stderr=subprocess.PIPE, text=True)
     wait_for_realisations("run", 5)
     running.send_signal(signal.SIGINT)
-    assert running.communicate(timeout=60)[1] == (
+    assert running.communicate()[1] == (
         "terrane: interrupted, finished realisations are kept in run.realisations; the same command goes on from "
         "there\n")
     assert running.returncode == 2 and not os.path.exists("run")
@@ -463,14 +459,12 @@ def test_an_interrupt_at_any_time_ends_the_program_with_one_line(engine):
         running.send_signal(number)
         if k >= 3:  # the user insists
             running.send_signal(number)
-        out, err = running.communicate(timeout=60)
+        out, err = running.communicate()
         assert (out, running.returncode) == ("", 2), (k, out, err)
         assert re.fullmatch("terrane: interrupted(, nothing written|, finished realisations are kept .*)?\n", err), (k, err)
         assert not os.path.exists(f"run{k}")
-        end = time.monotonic() + 60
-        while workers_here() and time.monotonic() < end:  # killed ones need a moment
+        while workers_here():  # killed ones need a moment
             time.sleep(0.01)
-        assert not workers_here()
 
 
 #: Runs the command, and sends it signals when it calls some of its functions. A "+" after the name of a function sends
@@ -860,13 +854,12 @@ def test_a_scheduler_with_keys_lets_nobody_else_in():
                                start_new_session=True)
     try:
         keys = begin[:begin.index("dask scheduler")].replace("openssl", ": openssl")
-        end = time.monotonic() + 120
-        while True:
+        while True:  # until the scheduler has begun
             done = subprocess.run(["bash", "-c", keys + "terrane ensemble" + run.rstrip() + " --realisations 4"], env=environment,
                                   capture_output=True, text=True)
-            if done.returncode == 0 or time.monotonic() > end:
+            if done.returncode == 0:
                 break
-        assert done.returncode == 0, done.stderr
+            assert "no scheduler answers" in done.stderr
         assert "whoever reaches" not in done.stderr and "4 realisations, seed 1: all built" in done.stdout
         stranger = subprocess.run([sys.executable, "-c", STRANGER, f"127.0.0.1:{port}"], capture_output=True, text=True)
         assert stranger.stdout == "refused refused ", stranger.stderr

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Errors, lack of memory, interrupts, threads."""
 
+import os
 import pickle
 import signal
 import threading
@@ -100,7 +101,7 @@ assert hits > 0
 terrane.arrange(surfaces[2])
 print("alive", hits)
 """
-    done = run_python(code, stage, str(__import__("pathlib").Path(__file__).parent), timeout=300)
+    done = run_python(code, stage, str(__import__("pathlib").Path(__file__).parent))
     assert done.stdout.startswith("alive")
 
 
@@ -156,29 +157,38 @@ STAGES = {  # the stage, and what makes its argument
 }
 
 
+def processor_seconds():
+    """Return those of this process and of all its children that have ended."""
+    return sum(os.times()[:4])
+
+
 @pytest.mark.parametrize("stage", STAGES)
 def test_keyboard_interrupt_stops_a_stage_within_a_second(stage):
     if stage == "tetrahedralize" and not HAS_TETGEN:
         pytest.skip("no terrane-tetgen")
     call, make = STAGES[stage]
     argument = make()
-    began = time.monotonic()
+    began, began_at = processor_seconds(), time.monotonic()
     call(argument, threads=1)
-    whole = time.monotonic() - began
+    whole, seconds = processor_seconds() - began, time.monotonic() - began_at
 
     def interrupt(*_):
         raise KeyboardInterrupt
-    before = signal.signal(signal.SIGALRM, interrupt)
+    # The interrupt comes after a share of the work. What a helper program does, no timer of this process counts.
+    is_here = stage != "tetrahedralize"
+    number, timer = (signal.SIGPROF, signal.ITIMER_PROF) if is_here else (signal.SIGALRM, signal.ITIMER_REAL)
+    before = signal.signal(number, interrupt)
     try:
-        began = time.monotonic()
+        began = processor_seconds()
         with pytest.raises(KeyboardInterrupt):
-            signal.setitimer(signal.ITIMER_REAL, 0.2 * whole)
+            signal.setitimer(timer, max(0.01, 0.2 * (whole if is_here else seconds)))
             call(argument, threads=1)
-            time.sleep(whole)  # where it was done sooner this time
-        assert time.monotonic() - began < 0.2 * whole + 1.0
+            while True:  # where it was done sooner this time
+                pass
+        assert processor_seconds() - began < 0.2 * whole + 1.0
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(timer, 0)
+        signal.signal(number, before)
     assert len(terrane.arrange(stack()).triangles) > 0
 
 
@@ -196,7 +206,7 @@ try:
 except KeyboardInterrupt:
     print("interrupted", flush=True)
 """
-    done = run_python(code, str(__import__("pathlib").Path(__file__).parent), timeout=120)
+    done = run_python(code, str(__import__("pathlib").Path(__file__).parent))
     assert done.stdout == "interrupted\n"
 
 
@@ -277,7 +287,7 @@ if __name__ == "__main__":
             assert count == expected and result == terrane.arrange(stack())
 print("done")
 """
-    assert run_python(code, str(__import__("pathlib").Path(__file__).parent), timeout=120).stdout == "done\n"
+    assert run_python(code, str(__import__("pathlib").Path(__file__).parent)).stdout == "done\n"
 
 
 @pytest.mark.skipif(SANITIZED, reason="the sanitizer keeps freed memory")
@@ -310,5 +320,5 @@ before = used()
 for _ in range(n): call()
 print(used() - before)
 """
-    done = run_python(code, call, str(__import__("pathlib").Path(__file__).parent), timeout=300)
+    done = run_python(code, call, str(__import__("pathlib").Path(__file__).parent))
     assert int(done.stdout) < 2500, "kilobytes that a thousand calls left"

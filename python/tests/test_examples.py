@@ -22,7 +22,7 @@ def run(name, *arguments):
     """Run an example in this folder; return what it prints."""
     pytest.importorskip("matplotlib")
     done = subprocess.run([sys.executable, str(FOLDER / f"{name}.py"), *map(str, arguments)], capture_output=True,
-                          text=True, timeout=500)
+                          text=True)
     assert done.returncode == 0, done.stderr
     return done.stdout
 

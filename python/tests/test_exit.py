@@ -65,7 +65,7 @@ print("main is done", flush=True)
 @pytest.mark.parametrize("threads", [1, 4])
 @pytest.mark.parametrize("where", ENDS)
 def test_a_daemon_thread_may_be_anywhere_when_the_interpreter_ends(where, threads):
-    done = run_python(START + ENDS[where] + END, str(pathlib.Path(__file__).parent), threads, timeout=1800)
+    done = run_python(START + ENDS[where] + END, str(pathlib.Path(__file__).parent), threads)
     assert (done.stdout, done.stderr) == ("main is done\n", "")
 
 

@@ -146,7 +146,7 @@ if __name__ == "__main__":
         file.write(code)
     import subprocess
     done = subprocess.run([sys.executable, "spawned.py", str(pathlib.Path(__file__).parent)], capture_output=True,
-                          text=True, timeout=120, env=environment_of_python())
+                          text=True, env=environment_of_python())
     assert done.stdout == "equal\n", done.stderr
 
 

@@ -30,7 +30,7 @@ MOVED = ("turned_half", "close_angle_turned", "turned_grids")
 
 
 def run(command, **more):
-    return subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300,
+    return subprocess.run([str(word) for word in command], capture_output=True, text=True,
                           env=ENVIRONMENT, check=False, **more)
 
 
