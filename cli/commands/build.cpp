@@ -71,11 +71,7 @@ public:
         project_(project),
         page_(std::move(page)), page_files_(std::move(files)), source_(command.project),
         folder_(project.folder), strict_(command.strict), session_(session) {
-        if (!command.resume || folder_.empty()) return;
-        if (const auto key = UserKey::read_or_make())
-            kept_.emplace(folder_, *key);
-        else
-            warn(key.error().message() + "; --resume neither keeps stages nor takes any");
+        if (command.resume && !folder_.empty()) kept_ = KeptStages::beside(folder_);
     }
 
     Result<ExitStatus> operator()() {

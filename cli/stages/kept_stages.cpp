@@ -49,6 +49,13 @@ fs::path stages_folder(const fs::path& results) {
     return folder;
 }
 
+std::optional<KeptStages> KeptStages::beside(const fs::path& results) {
+    const auto key = UserKey::read_or_make();
+    if (key) return KeptStages(stages_folder(results), *key);
+    warn(key.error().message() + "; --resume neither keeps stages nor takes any");
+    return std::nullopt;
+}
+
 StageStore KeptStages::store() {
     return {.find = [this](BuildStage stage, const std::string& key) { return find(stage, key); },
             .keep = [this](BuildStage stage, const std::string& key,

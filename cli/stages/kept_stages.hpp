@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/cli/stages/user_key.hpp>
@@ -26,9 +27,8 @@ std::filesystem::path stages_folder(const std::filesystem::path& results);
 /// another one than the stage that is looked for, is not taken.
 class KeptStages {
 public:
-    /// Keeps them beside the folder `results`.
-    KeptStages(const std::filesystem::path& results, const UserKey& key) :
-        folder_(stages_folder(results)), key_(key) {}
+    /// Keeps them beside the folder `results`. None, after a warning, if the user has no key.
+    static std::optional<KeptStages> beside(const std::filesystem::path& results);
 
     /// Returns callbacks for build(); this object must outlive them.
     [[nodiscard]] StageStore store();
@@ -39,6 +39,9 @@ public:
     void remove() const;
 
 private:
+    KeptStages(std::filesystem::path folder, const UserKey& key) :
+        folder_(std::move(folder)), key_(key) {}
+
     [[nodiscard]] std::filesystem::path file_of(BuildStage stage) const;
     [[nodiscard]] std::optional<std::string> find(BuildStage stage, const std::string& key) const;
     void keep(BuildStage stage, const std::string& key, const std::string& bytes) const;
