@@ -312,7 +312,7 @@ def test_tetrahedra_for_simulators(model):
     assert files[0] == "flow.vtu" and len(files) > 6
     assert sorted(files) == sorted(str(p) for p in pathlib.Path(".").glob("flow*.vtu"))
     assert len(cells.save("b.vtu", order=2)) == 1
-    with pytest.raises(terrane.Error, match="1 or 2") as raised:
+    with pytest.raises(terrane.Error, match="order: 3 is not from 1 to 2") as raised:
         cells.save("c.vtu", order=3)
     assert raised.value.code == "bad_option"
     with pytest.raises(terrane.Error, match="second order"):
@@ -482,13 +482,13 @@ def test_verify_finds_what_is_no_mesh():
     assert terrane.verify(terrane.mesh(stack())).violations
 
 
-def test_verify_judges_an_arrangement_of_changed_inputs():
-    """The array of the first surface is changed after the arrangement was made."""
-    v = np.array(sheet(3, 3).vertices)
-    a = terrane.arrange([terrane.Surface(v, sheet(3, 3).triangles), wall()])
+def test_verify_judges_an_arrangement_by_its_inputs():
+    given = [sheet(3, 3), wall()]
+    a = terrane.arrange(given)
     assert terrane.verify(a)
-    v[4] += 0.1
-    assert not terrane.verify(a)
+    moved = np.array(given[0].vertices)
+    moved[4] += 0.1
+    assert not terrane.verify(terrane.Arrangement(a._core, ("arrange", [given[0].replace(vertices=moved), given[1]], "auto")))
 
 
 @pytest.mark.parametrize("value", [3, None, [], {}])
