@@ -12,7 +12,7 @@ import contextlib
 import importlib
 import itertools
 import warnings
-from typing import Any, Iterator, List, NamedTuple, Optional, Sequence
+from typing import Any, Generator, Iterator, List, NamedTuple, Optional, Sequence
 
 from . import _core
 from ._arrays import as_count
@@ -59,7 +59,7 @@ def _module(name: str, package: str, option: str) -> Any:
                     "the engine processes", option) from None
 
 
-def outcomes(engine: Engine, pool: Any, task: Task, numbers: Sequence[int]) -> Iterator[Outcome]:
+def outcomes(engine: Engine, pool: Any, task: Task, numbers: Sequence[int]) -> Generator[Outcome, None, None]:
     """Compute realisations, and yield each as soon as it is there. `pool` is that of `pool_of`."""
     if not numbers:
         return
@@ -74,12 +74,12 @@ def outcomes(engine: Engine, pool: Any, task: Task, numbers: Sequence[int]) -> I
             yield outcome_of(task, number, engine.retries)
 
 
-def _by_mpi(pool: Any, engine: Engine, task: Task, numbers: Sequence[int]) -> Iterator[Outcome]:
+def _by_mpi(pool: Any, engine: Engine, task: Task, numbers: Sequence[int]) -> Generator[Outcome, None, None]:
     for future in concurrent.futures.as_completed([pool.submit(outcome_of, task, n, engine.retries) for n in numbers]):
         yield future.result()
 
 
-def _by_dask(engine: Engine, task: Task, numbers: Sequence[int]) -> Iterator[Outcome]:
+def _by_dask(engine: Engine, task: Task, numbers: Sequence[int]) -> Generator[Outcome, None, None]:
     assert engine.scheduler is not None
     distributed = _module("distributed", "python3-distributed", "scheduler")
     with contextlib.ExitStack() as stack:

@@ -109,7 +109,8 @@ def _array(file: zipfile.ZipFile, name: str, kind: Any, shape: Tuple[int, ...], 
     if file.getinfo(name + ".npy").file_size > max(most, wanted) + 4096:
         raise ValueError(f"{name} is too large")
     with file.open(name + ".npy") as member:
-        array = np.lib.format.read_array(member, allow_pickle=False)
+        read: Any = np.lib.format.read_array
+        array = read(member, allow_pickle=False)
     if array.dtype != kind or array.ndim != len(shape) or (most == 0 and array.shape != shape):
         raise ValueError(f"{name} has the shape {array.shape}")
     return array

@@ -130,14 +130,14 @@ def verify(result: Any, inputs: Sequence[Any] = (), *, max_deviation: Optional[f
 
 def _verify_made(result: Any, of_certificates: Dict[str, Any], run: _core.HowToRun) -> Verdict:
     """Verify an arrangement or a mesh."""
-    mesh = result if isinstance(result, Mesh) else getattr(result, "mesh", None)
+    mesh = None if isinstance(result, Arrangement) else result if isinstance(result, Mesh) else getattr(result, "mesh", None)
     if not isinstance(result, Arrangement) and not isinstance(mesh, Mesh):
         raise TypeError(f"result is a certificate, an arrangement or a mesh, not {type(result).__name__}")
     for name, value in of_certificates.items():
         if value is not None:
             raise TypeError(f"{name} is for certificates, not for {type(result).__name__}")
-    if isinstance(result, Arrangement):
-        found = _core.verify_arrangement(parts_of_surfaces(_inputs(result)), result._core, run)
-    else:
+    if isinstance(mesh, Mesh):
         found = _core.verify_mesh(mesh._core, run)
+    else:
+        found = _core.verify_arrangement(parts_of_surfaces(_inputs(result)), result._core, run)
     return Verdict([RuleViolation(*v) for v in found], [], None, "")
