@@ -34,6 +34,7 @@ struct EnsembleCommand {
     std::vector<double> contacts;
     std::optional<std::uint64_t> only, workers;
     std::optional<std::string> engine, scheduler;
+    CLI::App* app = nullptr; ///< knows which options were given
 };
 
 constexpr auto ensemble_footer =
@@ -148,6 +149,10 @@ Status check_ensemble(const EnsembleCommand& command) {
     if (command.folder.empty() && project->folder.empty())
         return Error{ErrorCode::bad_option, "the key folder is missing, and there is no -o",
                      command.project};
+    for (const char* const other : {"--realisations", "--contact", "--grid", "--engine",
+                                    "--workers", "--scheduler", "--retries"})
+        if (command.only && command.app->count(other) > 0)
+            return Error{ErrorCode::bad_option, "is for all versions, not for --only", other};
     return Done{};
 }
 
@@ -219,11 +224,7 @@ Command ensemble_command(CLI::App& program) {
     app->add_option("--threads", command->threads, "Threads of each worker (default: 1)")
         ->check(CLI::Range(1U, most_threads).description(""))
         ->type_name("N");
-    for (const char* const other : {"--realisations", "--contact", "--grid", "--engine",
-                                    "--workers", "--scheduler", "--retries"})
-        app->get_option("--only")->excludes(app->get_option(other));
-    for (const char* const other : {"--engine", "--workers"})
-        app->get_option("--scheduler")->excludes(app->get_option(other));
+    command->app = app;
     app->footer(ensemble_footer);
     return {app, [command] { return run_ensemble(*command); }};
 }

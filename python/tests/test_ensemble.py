@@ -274,9 +274,9 @@ def test_mistakes_have_a_status_and_a_message():
     pathlib.Path("p.json").write_text(json.dumps(project))
     status, out, err = run_program("ensemble", "p.json", "--engine", "serial")
     assert status == 2 and "the key folder is missing" in err
-    for options, words in [(["--engine", "serial", "--scheduler", "tcp://x:1"], "--engine excludes --scheduler"),
+    for options, words in [(["--engine", "serial", "--scheduler", "tcp://x:1"], "engine: goes with no scheduler, whose workers compute"),
                            (["--engine", "serial", "--workers", "2"], "workers: is for the engine processes, not serial"),
-                           (["--only", "3", "--realisations", "5"], "--realisations excludes --only")]:
+                           (["--only", "3", "--realisations", "5"], "--realisations: is for all versions, not for --only")]:
         status, out, err = run_program("ensemble", "p.json", "-o", "run", *options)
         assert (status, out) == (2, "") and words in err, err
     os.environ["TERRANE_PYTHON"] = "/no/python"
