@@ -295,7 +295,7 @@ def child(options):
 
 
 def main():
-    parser = parse(__doc__, 1.0)
+    parser = parse(__doc__, 0.3)
     parser.add_argument("--library", required=True)
     options = parser.parse_args()
     if options.begin >= 0:
