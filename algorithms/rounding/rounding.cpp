@@ -195,8 +195,8 @@ Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& optio
     if (!report.vanished.empty()) {
         if (rounded->mesh->triangles.empty())
             return Error{ErrorCode::nothing_to_do,
-                         "all triangles are narrower than doubles can hold where they cross, so "
-                         "that nothing would be left of them",
+                         "rounding would take the area of all triangles, so that nothing would be "
+                         "left; allow surfaces to move less, or put them nearer to the origin",
                          ""};
         state_lost_length(a, *rounded, run);
     }
