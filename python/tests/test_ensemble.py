@@ -65,8 +65,7 @@ def test_bytes_do_not_depend_on_order_or_what_was_made_before():
 
 def wait_until_it_listens(process, number):
     """Wait until a program answers this signal itself, now or once its interpreter has started."""
-    end = time.monotonic() + 60
-    while process.poll() is None and time.monotonic() < end:
+    while process.poll() is None:
         status = pathlib.Path(f"/proc/{process.pid}/status").read_text()
         masks = re.findall(r"^Sig(?:Blk|Cgt):\s+(\w+)", status, flags=re.M)
         if any(int(mask, 16) >> (number - 1) & 1 for mask in masks):
@@ -76,8 +75,7 @@ def wait_until_it_listens(process, number):
 
 def wait_for_realisations(folder, count):
     """Wait until a command that writes the folder has finished so many realisations."""
-    end = time.monotonic() + 120
-    while len(list(pathlib.Path(".").glob(f"{folder}.realisations/*/*.npz"))) < count and time.monotonic() < end:
+    while len(list(pathlib.Path(".").glob(f"{folder}.realisations/*/*.npz"))) < count:
         time.sleep(0.01)
 
 
@@ -141,7 +139,7 @@ def test_the_program_is_interrupted_and_goes_on():
     running = subprocess.Popen([PROGRAM, "ensemble", "p.json", "-o", "run", *options], stderr=subprocess.PIPE, text=True)
     wait_for_realisations("run", 5)
     running.send_signal(signal.SIGINT)
-    assert running.communicate(timeout=60)[1] == (
+    assert running.communicate()[1] == (
         "terrane: interrupted, finished realisations are kept in run.realisations; the same command goes on from "
         "there\n")
     assert running.returncode == 2 and not os.path.exists("run")
@@ -182,14 +180,12 @@ def test_an_interrupt_at_any_time_ends_the_program_with_one_line(engine):
         running.send_signal(number)
         if k >= 3:  # the user insists
             running.send_signal(number)
-        out, err = running.communicate(timeout=60)
+        out, err = running.communicate()
         assert (out, running.returncode) == ("", 2), (k, out, err)
         assert re.fullmatch("terrane: interrupted(, nothing written|, finished realisations are kept .*)?\n", err), (k, err)
         assert not os.path.exists(f"run{k}")
-        end = time.monotonic() + 60
-        while workers_here() and time.monotonic() < end:  # killed ones need a moment
+        while workers_here():  # killed ones need a moment
             time.sleep(0.01)
-        assert not workers_here()
 
 
 #: Runs the command, and sends it signals when it calls some of its functions. A "+" after the name of a function sends

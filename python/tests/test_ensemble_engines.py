@@ -170,19 +170,17 @@ def warning_of(address):
 
 
 def scheduler_s_address():
-    end = time.monotonic() + 60
-    while time.monotonic() < end:
+    while True:
         try:
             return json.loads(pathlib.Path("scheduler.json").read_text())["address"]
         except (OSError, ValueError):
             time.sleep(0.05)
-    raise AssertionError("the scheduler has written no address")
 
 
 def wait_for_worker(address):
     import distributed
     with distributed.Client(address, set_as_default=False) as client:
-        client.wait_for_workers(1, timeout=60)
+        client.wait_for_workers(1)
 
 
 @needs_dask
@@ -248,7 +246,7 @@ def test_a_scheduler_that_does_not_answer_or_ends_is_an_error():
         running = subprocess.Popen([PROGRAM, "ensemble", "p.json", "-o", "run", *options], stderr=subprocess.PIPE, text=True)
         wait_for_realisations("run", 5)
         processes[0].kill()
-        err = running.communicate(timeout=120)[1]
+        err = running.communicate()[1]
     finally:
         for p in processes:
             p.kill()
@@ -294,7 +292,7 @@ def test_a_scheduler_without_workers_is_waited_for_with_a_warning():
         line = running.stderr.readline()
         assert line == f"terrane: warning: {address}: the scheduler has no workers yet; realisations wait for them\n"
         processes.append(start_worker())
-        out, err = running.communicate(timeout=60)
+        out, err = running.communicate()
     finally:
         for p in processes:
             p.kill()
@@ -320,13 +318,12 @@ def test_a_scheduler_with_keys_lets_nobody_else_in():
                                start_new_session=True)
     try:
         keys = begin[:begin.index("dask scheduler")].replace("openssl", ": openssl")
-        end = time.monotonic() + 120
-        while True:
+        while True:  # until the scheduler has begun
             done = subprocess.run(["bash", "-c", keys + "terrane ensemble" + run.rstrip() + " --realisations 4"], env=environment,
                                   capture_output=True, text=True)
-            if done.returncode == 0 or time.monotonic() > end:
+            if done.returncode == 0:
                 break
-        assert done.returncode == 0, done.stderr
+            assert "no scheduler answers" in done.stderr
         assert "whoever reaches" not in done.stderr and "4 realisations, seed 1: all built" in done.stdout
         stranger = subprocess.run([sys.executable, "-c", STRANGER, f"127.0.0.1:{port}"], capture_output=True, text=True)
         assert stranger.stdout == "refused refused ", stranger.stderr
