@@ -2,13 +2,16 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 #
 # Repeats what takes too long for each commit: scripts/nightly.sh [FOLDER [PART...]]
-# The parts, all of them unless some are named; with two cores they take some ten hours together:
-#   soups      20 000 random soups and more, judged by the verifier and by rational numbers
+# The parts, all of them unless some are named; with two cores they take some thirteen hours together:
+#   soups      20 000 random soups and more, judged by the verifier and by rational numbers; 5 000 certified ones
 #   decimals   2 000 soups on decimal lattices: how far surfaces moved, in rational numbers
 #   models     5 000 random block models against an oracle; 300 improved ones; 100 with tetrahedra
 #   stacks     2 000 random stacks of layers, judged in rational numbers
 #   signals    2 000 interrupts at random times
 #   memory     each allocation fails once; limits on the memory of the program; 100 000 calls in one process
+#   arguments  each argument of C, of Python and of the program at nonsense: an hour
+#   kept       kept stages that were changed, exchanged and cut: an hour
+#   many       surfaces and parts in number: an hour
 #   threads    ThreadSanitizer
 #   fuzz       all fuzz targets, FUZZ_SECONDS (default 540) each: six hours of one core
 # FOLDER (default: build/nightly) gets a log for each part, and keeps the fuzz corpora. It ends with a
@@ -18,7 +21,7 @@ cd "$(dirname "$0")/.."
 folder=${1:-build/nightly}
 shift || true
 parts=("$@")
-[[ ${#parts[@]} -gt 0 ]] || parts=(soups decimals models stacks signals memory threads fuzz)
+[[ ${#parts[@]} -gt 0 ]] || parts=(soups decimals models stacks signals memory arguments kept many threads fuzz)
 mkdir -p "$folder"
 
 cmake --preset release >/dev/null && cmake --build --preset release || exit 2
@@ -31,7 +34,8 @@ run_part() {
         # 3 290 soups for each unit of effort, of seven shapes; also nudged, shifted and scaled.
         TERRANE_EFFORT=7 "$tests/terrane_tests" "random soups*" &&
             TERRANE_EFFORT=10 "$tests/terrane_tests" "rounding: random soups*" &&
-            TERRANE_EFFORT=20 "$tests/terrane_tests" "pair check: the same where*" ;;
+            TERRANE_EFFORT=20 "$tests/terrane_tests" "pair check: the same where*" &&
+            /usr/bin/python3 tests/oracles/certified_soups.py --terrane $terrane --count 5000 ;;
     decimals)
         for kind in "" --turned --box; do
             /usr/bin/python3 tests/oracles/rounded_soups.py --terrane $terrane --count 700 $kind || return 1
@@ -44,6 +48,14 @@ run_part() {
     signals) scripts/interrupts.py --runs 2000 ;;
     memory)
         scripts/failing_allocations.sh && scripts/memory_limits.py && "$tests/soak" 100000 ;;
+    arguments)
+        local folder=tests/arguments
+        export TERRANE_PROGRAM=$PWD/$terrane TERRANE_TETGEN=$PWD/build/release/libexec/terrane/terrane-tetgen TERRANE_EFFORT=1
+        /usr/bin/python3 $folder/program_arguments.py --program $terrane --data docs/data --seconds 1200 &&
+            /usr/bin/python3 $folder/c_arguments.py --library build/release/capi/libterrane_c.so --seconds 1200 &&
+            PYTHONPATH=$PWD/build/release/python /usr/bin/python3 $folder/python_arguments.py --seconds 1200 ;;
+    kept) /usr/bin/python3 tests/cli/kept_stages.py --terrane $terrane --seconds 3600 ;;
+    many) /usr/bin/python3 tests/oracles/many.py --terrane $terrane --seconds 3600 ;;
     threads) scripts/thread_sanitizer.sh ;;
     fuzz) FUZZ_CORPUS=$PWD/$folder/corpus scripts/fuzz.sh "${FUZZ_SECONDS:-540}" ;;
     *) echo "nightly: there is no part $1" && return 2 ;;
