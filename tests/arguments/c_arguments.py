@@ -295,7 +295,7 @@ def child(options):
 
 
 def main():
-    parser = parse(__doc__, 0.3)
+    parser = parse(__doc__, 0.1)
     parser.add_argument("--library", required=True)
     options = parser.parse_args()
     if options.begin >= 0:
