@@ -291,7 +291,19 @@ Result<std::string> layered_text(const terrane_certified& given, const fs::path&
     return to_layered_certificate(inputs, given.surfaces->list, *outputs, order, layered);
 }
 
+/// Refuses members that would be ignored.
+Status check_use(const terrane_certified& given) {
+    need_array(given.layers, given.layer_count, "certified.layers");
+    need_array(given.corners, given.corner_count, "certified.corners");
+    need_array(given.volume_files, given.volume_file_count, "certified.volume_files");
+    if (given.part_format && !given.model_folder) return unfit("needs model_folder", "part_format");
+    if (given.layers && !given.layered) return unfit("needs layered", "layers");
+    if ((given.low != 0 || given.high != 0) && !given.corners) return unfit("needs corners", "low");
+    return Done{};
+}
+
 Result<std::string> text_of(const terrane_certified& given, const fs::path& path, const Run& run) {
+    if (const auto used = check_use(given); !used) return used.error();
     const std::span<const Surface> surfaces = needed(given.surfaces, "certified.surfaces").list;
     const auto inputs = records_of(given.inputs, given.input_count, "certified.inputs", path);
     if (!inputs) return inputs.error();

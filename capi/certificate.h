@@ -68,7 +68,7 @@ typedef struct terrane_certified {
     const double* corners; ///< of a box or prism: the corners of its polygon in order, x and y of
                            ///< each. NULL: a rotated box, or a volume that `volume_files` hold
     size_t corner_count;   ///< number of them
-    double low;            ///< of a box or prism: its lower end
+    double low;            ///< of a box or prism: its lower end; 0 without corners
     double high;           ///< of a box or prism: its upper end
     const terrane_input_file* volume_files; ///< of a volume whose boundary was read from files
     size_t volume_file_count;               ///< number of them

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -51,6 +52,9 @@ terrane_code terrane_simplify(const terrane_mesh* mesh, const terrane_simplify_o
     return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_simplified>> {
         const terrane_mesh& given = needed(mesh, "mesh");
         const auto wanted = options_of(options, default_simplifying());
+        if (!(wanted.edge_length >= 0) || !std::isfinite(wanted.edge_length))
+            return Error{ErrorCode::bad_option, "is not 0 or positive and finite",
+                         "options.edge_length"};
         const auto how = run_of(run);
         const auto proof = proven(given, how);
         if (!proof) return proof.error();

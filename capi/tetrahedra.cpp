@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/capi/tetrahedra.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
@@ -48,6 +50,10 @@ TetrahedraOptions meshing_of(const terrane_tetrahedra_options& o) {
     TetrahedraOptions options;
     options.mesher = static_cast<Mesher>(o.mesher);
     options.split_surfaces = o.split_triangles != 0;
+    const auto is_0 = [](double c) { return c == 0; };
+    if (o.has_box == 0 && !(std::all_of(std::begin(o.box_low), std::end(o.box_low), is_0) &&
+                            std::all_of(std::begin(o.box_high), std::end(o.box_high), is_0)))
+        throw BadArgument{"options.box_low", "is not 0, but has_box is"};
     if (o.has_box != 0)
         options.box = Box3{{o.box_low[0], o.box_low[1], o.box_low[2]},
                            {o.box_high[0], o.box_high[1], o.box_high[2]}};

@@ -32,21 +32,21 @@ typedef struct terrane_named_size {
 
 /// Options of terrane_tetrahedralize. Lengths are in the unit of the mesh.
 typedef struct terrane_tetrahedra_options {
-    size_t struct_size;                ///< sizeof(terrane_tetrahedra_options)
-    terrane_mesher mesher;             ///< who makes the tetrahedra
-    int32_t split_triangles;           ///< not 0: triangles may be divided for radius_edge_ratio
-    int32_t skip_outside;              ///< not 0: the outside gets no tetrahedra
-    int32_t has_box;                   ///< not 0: `box_low` and `box_high` close the domain
-    double box_low[3];                 ///< least coordinates, below all of the mesh
-    double box_high[3];                ///< largest coordinates
-    double margin;                     ///< without a box: share of the longest edge of the bounding
-                                       ///< box
-    double edge_length;                ///< wanted; 0: as few tetrahedra as possible
-    double radius_edge_ratio;          ///< TetGen's quality bound, >= 1.1; 0: none, or 2 with any
-                                       ///< size
-    double max_volume;                 ///< largest volume of a tetrahedron, cubic unit; 0: no limit
-    double time_limit;                 ///< seconds, > 0, for each way of asking a mesher; default
-                                       ///< 600
+    size_t struct_size;       ///< sizeof(terrane_tetrahedra_options)
+    terrane_mesher mesher;    ///< who makes the tetrahedra
+    int32_t split_triangles;  ///< not 0: triangles may be divided for radius_edge_ratio
+    int32_t skip_outside;     ///< not 0: the outside gets no tetrahedra
+    int32_t has_box;          ///< not 0: `box_low` and `box_high` close the domain
+    double box_low[3];        ///< least coordinates, below all of the mesh; 0 without a box
+    double box_high[3];       ///< largest coordinates
+    double margin;            ///< without a box: share of the longest edge of the bounding
+                              ///< box
+    double edge_length;       ///< wanted; 0: as few tetrahedra as possible
+    double radius_edge_ratio; ///< TetGen's quality bound, >= 1.1; 0: none, or 2 with any
+                              ///< size
+    double max_volume;        ///< largest volume of a tetrahedron, cubic unit; 0: no limit
+    double time_limit;        ///< seconds, > 0, for each way of asking a mesher; default
+                              ///< 600
     const terrane_named_size* size_of; ///< by surface
     size_t size_of_count;              ///< number of them
     const terrane_named_size* size_in; ///< by block

@@ -12,6 +12,7 @@
 #include <terrane/capi/detail/handles.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/io/reading.hpp>
 
 namespace terrane::capi::detail {
 namespace {
@@ -75,6 +76,13 @@ Result<std::vector<InputFile>> read_inputs(const fs::path& folder,
                          std::to_string(options.input_count),
                      "options.inputs"};
     const auto reading = reading_of(&options.reading);
+    std::vector<std::optional<Format>> formats;
+    for (const CertifiedInput& input : stated)
+        formats.push_back(reading.format ? reading.format : format_of(input.name));
+    if (const auto sound = check_reading(formats, reading.options,
+                                         {"options.reading.depth", "options.reading.max_edge"});
+        !sound)
+        return sound.error();
     std::vector<InputFile> files;
     for (std::size_t i = 0; i < stated.size(); ++i) {
         const auto path = options.inputs

@@ -25,7 +25,7 @@ from c_library import DATA, FUNCTIONS, HANDLES, NUMBERS, PROJECT, STRUCTS, Libra
 from trials import conclude, make_calls, parse, supervise
 
 #: Members and arguments that may be anything, and what may be null, with the reason.
-FREE = {"user": "it is passed on", "name": "a name may be any text", "source": "it is only named in messages",
+FREE = {"user": "it is passed on", "hardness": "the order counts alone", "name": "a name may be any text", "source": "it is only named in messages",
         "helper": "it is looked for where tetrahedra are made", "gmsh_helper": "likewise"}
 MAY_BE_NULL = {"run", "error", "count", "length", "options", "search", "format", "unit", "variogram", "progress", "timing", "folder",
                "part_format", "helper", "gmsh_helper", "vertex_count", "triangle_count", "surface_count", "face_count",
@@ -37,6 +37,7 @@ LIMITS = {"limit", "max_area", "max_move", "max_rounds", "max_deviation", "max_c
 LARGE = {"inf", "1e+308", "2147483647"}
 #: Members that are of another function, which takes the same struct.
 OTHERS = {("terrane_find_holes", member) for member in ("use_rbf", "mesh_size", "rings", "is_isotropic", "variogram", "smoothing")}
+OTHERS.add(("terrane_simplify", "edge_length"))  # edges that are longer stay
 #: A negative number stands for the default.
 DEFAULT_BELOW_0 = {"max_move", "max_deviation", "max_change", "smoothing"}
 #: Members that are true for all numbers but 0.
@@ -44,6 +45,7 @@ FLAGS = {m for header in check_abi.HEADERS for m in re.findall(r"int32_t (\w+);\
 
 #: Good values of arguments that their types do not decide, by "function.argument" or by the name alone.
 GOOD = {
+    "terrane_surfaces_add.surfaces": lambda lib: lib.make("terrane_surfaces_new"),
     "terrane_surfaces_add.vertices": lambda lib: lib.array(ctypes.c_double, [0, 0, 0, 1, 0, 0, 0, 1, 0]),
     "terrane_surfaces_add.vertex_count": lambda lib: 3,
     "terrane_surfaces_add.triangles": lambda lib: lib.array(ctypes.c_uint32, [0, 1, 2]),
@@ -67,7 +69,7 @@ GOOD = {
     "terrane_find_holes.surfaces": lambda lib: lib.holed, "terrane_fill.surfaces": lambda lib: lib.holed,
     "terrane_cut_to_volume.arrangement": lambda lib: lib.handle("terrane_arrangement"),
     "terrane_make_model.arrangement": lambda lib: lib.c.terrane_cut_arrangement(lib.handle("terrane_cut")),
-    "terrane_make_model.improved": lambda lib: None, "terrane_choose_seal.edge_length": lambda lib: 0.0,
+    "terrane_simplified_keeps_resolution.improved": lambda lib: lib.improved_simplified(), "terrane_make_model.improved": lambda lib: None, "terrane_choose_seal.edge_length": lambda lib: 0.0,
     "terrane_box_boundary.low": lambda lib: lib.array(ctypes.c_double, [0, 0, 0]),
     "terrane_box_boundary.high": lambda lib: lib.array(ctypes.c_double, [1, 1, 1]),
     "terrane_volumes_exact.volume": lambda lib: 1,
@@ -94,6 +96,9 @@ class Call:
         self.result, self.given = FUNCTIONS[name]
         self.outs, self.sizes, self.structs = [], {}, {}
         self.values = {own: self._good(kind, own) for kind, own in self.given}
+        self.first = next(iter(self.values.values()), None)
+        if name == "terrane_surfaces_parse":
+            self.structs["options"].format = lib.text("obj")
         for struct in self.structs.values():
             if "struct_size" in self.values:
                 self.values["struct_size"] = ctypes.sizeof(struct)
@@ -147,6 +152,8 @@ class Call:
         texts = [str(result) if not isinstance(result, int) or "*" not in self.result else self.lib.read(self.name, result, self.outs)]
         for kind, made in self.outs:
             texts.append(self.lib.text_of(kind, made))
+        if self.given and self.given[0][0] == "terrane_surfaces*" and not self.name.endswith("_free"):  # it was changed
+            texts.append(self.lib.text_of_handle("terrane_surfaces", self.first))
         for path in sorted(set(pathlib.Path(".").rglob("*")) - before, reverse=True):  # what is inside comes first
             texts.append(f"{path} {hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ''}")
             path.rmdir() if path.is_dir() else path.unlink()

@@ -17,7 +17,7 @@ NUMBERS = {"double": ctypes.c_double, "int": ctypes.c_int, "int32_t": ctypes.c_i
            "uint64_t": ctypes.c_uint64, "size_t": ctypes.c_size_t, "unsigned": ctypes.c_uint, "terrane_code": ctypes.c_int32,
            "terrane_role": ctypes.c_int32, "terrane_mesher": ctypes.c_int32, "terrane_structure_list": ctypes.c_int32}
 #: Members without a default.
-NEEDED = {"terrane_seal_options": {"distance": 0.2}, "terrane_simplify_options": {"resolution": 0.01}}
+NEEDED = {"terrane_seal_options": {"distance": 0.2}, "terrane_simplify_options": {"resolution": 0.5}}
 
 
 def struct_members(body):
@@ -182,6 +182,9 @@ class Library:
         """A verdict with a violation: two meshes that cross."""
         crossing = self.make("terrane_mesh_from_surfaces", self.boxed)
         return self.make("terrane_verify_mesh", crossing)
+
+    def improved_simplified(self):
+        return self.make("terrane_improve", self.c.terrane_simplified_mesh(self.handle("terrane_simplified")), None, None)
 
     def project_file(self):
         path = pathlib.Path("project.json").absolute()
