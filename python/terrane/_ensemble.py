@@ -273,7 +273,7 @@ class Ensemble(Result):
         True
         """
         from ._ensemble_output import write_project
-        write_project(self._task, number, os.fspath(folder))
+        write_project(self._task, as_count(number, "number", 0, self.count), os.fspath(folder))
 
     def _state(self) -> Tuple[Any, ...]:
         return self._task, self._model, self._records

@@ -72,7 +72,7 @@ ALSO = {("ensemble", "--grid"): ("7", ""), ("layer", "--certificate"): ("c.json"
         ("fill", "--max-edge"): None, ("tetrahedralize", "--seal"): None, ("report", "--seal"): None, ("view", "--seal"): None,
         ("tetrahedralize", "--column"): None, ("fill", "--model"): None, ("fill", "--isotropic"): None,
         ("build", "--report"): ("r.html", ""), ("check", "--depth"): None, ("fill", "--holes"): None}
-NONSENSE = ["", "nonsense", "-1", "nan", "inf", "-inf", "1e999", "99999999999999999999999", "1,2", "=", "\x1b[31m", "/nowhere/x.obj",
+NONSENSE = ["", "nonsense", "-1", "nan", "inf", "-inf", "1e999", "99999999999999999999999", "1,2", "=", "\x1b[31m", "/dev/null/x.obj",
             "\udcff", "7x", "0x10", "1 2", "%s%n", "a=b=c"]
 VOLUMES = ("--rotated-box", "--polygon", "--between", "--within")
 #: Limits that large numbers do not reach.

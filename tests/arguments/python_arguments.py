@@ -46,15 +46,15 @@ NONSENSE = {
     "rows of nan": [[math.nan] * 3], "rows of inf": [[math.inf] * 3], "ragged": [[1.0], [1.0, 2.0]], "nested": nested(2000),
     "dict": {}, "dict of nonsense": {"nonsense": -1}, "dict of objects": {object(): object()}, "dict of nan": {"top": math.nan},
     "array of objects": np.array([object()]), "array": np.zeros((2, 2, 2)), "strings": np.array(["a"]), "function": print,
-    "type": int, "infinite": (math.inf, -math.inf), "set": {1}, "path": pathlib.Path("/nowhere/nothing"),
+    "type": int, "infinite": (math.inf, -math.inf), "set": {1}, "path": pathlib.Path("/dev/null/nothing"),
     "own": terrane.IndexLists([0, 1], [0])}
 #: Limits that such a large number does not reach.
 LIMITS = {"max_move", "max_area", "max_deviation", "max_change", "time_limit", "max_triangles", "max_volume_change", "growth",
           "crease_angle", "curve_angle", "max_edge", "max_volume", "retries", "quality", "turn", "mesh_size", "rings",
           "layers_in_gaps", "thickness_share", "curve_length", "smallest", "gap_slope", "least_quality"}
 LARGE = {"huge", "large", "inf", "half"}
-#: Names of anything: texts have no meaning that could be wrong.
-NAMES = {"place", "name", "code", "sentence", "default", "helper", "gmsh_helper"}
+#: Names of anything, which have no meaning that could be wrong, and how an ensemble is computed, which changes no result.
+NAMES = {"engine", "retries", "keep", "place", "name", "code", "sentence", "default", "helper", "gmsh_helper"}
 REFUSALS = (terrane.Error, TypeError, ValueError, OverflowError, KeyError, IndexError, OSError, ImportError)
 
 
@@ -185,6 +185,8 @@ class Trial:
             return None
         usual = default_of(self.call, name) if name not in self.required else self.required[name]
         value = given.get(name)
+        if label == "true" and name not in inspect.signature(self.call).parameters:  # as it is by default
+            return None
         if name == "progress" and callable(value):  # print is told of it
             return None
         if (not_given(value) and not_given(usual)) or (name in LIMITS and label in LARGE) or name in NAMES:

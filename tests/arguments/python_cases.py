@@ -91,7 +91,7 @@ class Fixtures:
         folder.mkdir()
         for s in self.surfaces:
             s.save(folder / (s.name + ".ts"))
-        (folder / "points.xyz").write_text("".join(f"{x} {y} {x * y}\n" for x in range(6) for y in range(6)))
+        (folder / "points.xyz").write_text("".join(f"{x + x * y % 3 / 5} {y} {x * y}\n" for x in range(6) for y in range(6)))
         project = {"format": "terrane-project 1", "surfaces": [{"file": f"{s.name}.ts", "role": s.role} for s in self.surfaces],
                    "volume_of_interest": {"box": {"low": BOX[0], "high": BOX[1]}}, "folder": "built",
                    "outputs": {"blocks": "vtp"}, "uncertainty": [{"surface": "top", "shift": 0.1}]}
@@ -153,8 +153,8 @@ FUNCTIONS = {
         "column": [{"unit": "upper", "surface": "top"}, {"unit": "middle", "surface": "base"}, {"unit": "lower"}], "max_rounds": None,
         "max_move": None}),
     "tetrahedralize": (lambda f: dict(model=f.model), {
-        "edge_length": 1.0, "size_of": {"top": 0.4}, "size_in": {1: 0.5}, "quality": 1.2, "max_volume": 0.2, "split": ["F1"],
-        "split_surfaces": (True, {"quality": 1.2}), "optimise": False, "outside": True,
+        "edge_length": 1.0, "size_of": {"top": 0.4}, "size_in": {1: 0.5}, "quality": 1.8, "max_volume": 0.2, "split": ["F1"],
+        "split_surfaces": (True, {"quality": 1.8}), "optimise": False, "outside": True,
         "around": ((( -3, -3, -4), (8, 8, 4)), {"outside": True}), "margin": (0.5, {"outside": True}), "mesher": None,
         "time_limit": None, "helper": None, "gmsh_helper": None}),
     "verify": (lambda f: dict(result=f.certificate), {
@@ -163,8 +163,8 @@ FUNCTIONS = {
     "ensemble": (lambda f: dict(project=str(f.files / "project.json"), realisations=2, engine="serial"), {
         "folder": None, "seed": 2, "contacts": 0.5, "grid": 7, "workers": None, "scheduler": None, "retries": None,
         "keep": None}),
-    "read": (lambda f: dict(path=str(f.files / "top.ts")), {
-        "format": None, "depth": True, "max_edge": None, "unit": "m", "roles": {"top": "fault"}}),
+    "read": (lambda f: dict(path=str(f.files / "points.xyz")), {
+        "format": None, "depth": True, "max_edge": 1.2, "unit": None, "roles": {"points": "fault"}}),
     "save": (lambda f: dict(surfaces=f.surfaces, path="saved.stl"), {"format": "obj", "ascii": True}),
     "as_surface": (lambda f: dict(value=f.surfaces[0]), {"name": "other", "role": "fault"}),
     "as_surfaces": (lambda f: dict(value=f.surfaces), {"place": None}),
@@ -187,7 +187,7 @@ METHODS = {
     "RoundedMesh": (lambda f: f.rounded, {
         "save": (lambda f: dict(path="r.vtp"), {"format": "obj", "keep_unverified": None, "ascii": None, "compress": False})}),
     "Mesh": (lambda f: f.model.mesh, {
-        "save": (lambda f: dict(path="m.vtp"), {"format": "obj", "ascii": (True, {"format": "stl"}), "compress": False}),
+        "save": (lambda f: dict(path="m.vtp"), {"format": "obj", "ascii": None, "compress": False}),
         "quality": (lambda f: {}, {})}),
     "Volumes": (lambda f: f.volumes, {
         "exact": (lambda f: {}, {}), "points": (lambda f: {}, {}), "locate": (lambda f: dict(points=[(1, 1, 0)]), {})}),
@@ -197,7 +197,7 @@ METHODS = {
     "Model": (lambda f: f.model, {
         "block_of": (lambda f: dict(points=[(1, 1, 0)]), {}), "names_of": (lambda f: dict(points=[(1, 1, 0)]), {}),
         "improved": (lambda f: {}, {"edge_length": 2, "passes": 1, "max_deviation": 1e-3}),
-        "tetrahedra": (lambda f: {}, {"edge_length": 2, "improve": None, "quality": 1.2}),
+        "tetrahedra": (lambda f: {}, {"edge_length": 2, "improve": None, "quality": 1.8}),
         "save": (lambda f: dict(folder="m"), {"format": "obj"}), "report": (lambda f: dict(path="m.html"), {})}),
     "Blocks": (lambda f: f.model.blocks, {"get": (lambda f: dict(key=1), {"default": None})}),
     "Tetrahedra": (lambda f: f.cells, {
