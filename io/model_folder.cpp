@@ -118,15 +118,15 @@ private:
     }
 
     Status write_parts_together(const Run& run) {
-        const auto names = names_of_blocks();
+        const auto block_names = names_of_blocks();
         const auto blocks = block_parts(model_.mesh, model_.volumes, structure());
-        if (auto done =
-                write_part(blocks.all, {{"block", as_cells(blocks.part_of)}}, names, all_blocks);
+        if (auto done = write_part(blocks.all, {{"block", as_cells(blocks.part_of)}}, block_names,
+                                   all_blocks);
             !done)
             return done;
         if (run.stop.stop_requested()) return stopped();
-        return write_part(interface_parts(model_.mesh, model_.volumes, structure()).all, {}, names,
-                          all_interfaces);
+        return write_part(interface_parts(model_.mesh, model_.volumes, structure()).all, {},
+                          block_names, all_interfaces);
     }
 
     static Error stopped() { return {ErrorCode::interrupted, "stopped on request", ""}; }
@@ -157,9 +157,9 @@ private:
     }
 
     [[nodiscard]] std::vector<std::string> names_of_blocks() const {
-        std::vector<std::string> names;
-        for (const ModelBlock& block : structure().blocks) names.push_back(block.name);
-        return names;
+        std::vector<std::string> result;
+        for (const ModelBlock& block : structure().blocks) result.push_back(block.name);
+        return result;
     }
 
     Status write_result() {

@@ -18,13 +18,13 @@ bool has_depths(std::optional<Format> format) {
 
 } // namespace
 
-Status check_reading(const std::vector<std::optional<Format>>& formats, const ReadOptions& options,
-                     const std::array<const char*, 2>& names) {
-    if (options.depth && std::none_of(formats.begin(), formats.end(), has_depths))
+Status check_reading(const std::vector<std::optional<Format>>& files, const ReadOptions& options,
+                     const std::array<const char*, 2>& option_names) {
+    if (options.depth && std::none_of(files.begin(), files.end(), has_depths))
         return Error{ErrorCode::bad_option, "is for grids and points, and no file is one",
-                     names[0]};
-    if (options.max_edge != 0 && std::none_of(formats.begin(), formats.end(), has_points))
-        return Error{ErrorCode::bad_option, "is for points, and no file has any", names[1]};
+                     option_names[0]};
+    if (options.max_edge != 0 && std::none_of(files.begin(), files.end(), has_points))
+        return Error{ErrorCode::bad_option, "is for points, and no file has any", option_names[1]};
     return Done{};
 }
 

@@ -11,9 +11,9 @@
 namespace terrane {
 
 /// Refuses what a caller says of files of these formats if it is about none of them: `depth` of files that are neither
-/// grids nor points, `max_edge` of files that are not points. `names` are those two options, as the caller knows them.
+/// grids nor points, `max_edge` of files that are not points. `option_names` are those two options, as the caller knows them.
 /// Errors: bad_option.
-Status check_reading(const std::vector<std::optional<Format>>& formats, const ReadOptions& options,
-                     const std::array<const char*, 2>& names);
+Status check_reading(const std::vector<std::optional<Format>>& files, const ReadOptions& options,
+                     const std::array<const char*, 2>& option_names);
 
 } // namespace terrane

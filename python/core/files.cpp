@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <terrane/io/files.hpp>
+#include <terrane/io/reading.hpp>
 
 #include "handles.hpp"
 #include "surfaces.hpp"
@@ -33,12 +34,25 @@ py::list read(const py::object& path, const std::optional<std::string>& format, 
     }));
 }
 
+/// Refuses options of reading that no file makes use of.
+void check_all(const std::vector<std::string>& paths, const std::optional<std::string>& format,
+               bool depth, double max_edge) {
+    std::vector<std::optional<Format>> formats;
+    for (const std::string& path : paths)
+        formats.push_back(format ? to_format(format) : format_of(path));
+    const auto sound =
+        check_reading(formats, {.depth = depth, .max_edge = max_edge}, {"depth", "max_edge"});
+    if (!sound) throw Failure{sound.error()};
+}
+
 void write(const MeshPointer& mesh, const py::object& path,
            const std::optional<std::string>& format, bool ascii, bool compress,
            const HowToRun& how) {
     const std::filesystem::path to = to_path(path);
     WriteOptions options;
     options.format = to_format(format);
+    if (ascii && (options.format ? options.format : format_of(to)) != Format::stl)
+        throw Failure{{ErrorCode::bad_option, "is for STL files", "ascii"}};
     options.ascii = ascii;
     options.compress = compress;
     run_stage(how, [mesh, to, options](const Run&) { return write_mesh(mesh->mesh, to, options); });
@@ -50,9 +64,7 @@ void bind_files(py::module_& module) {
     module.def("read", &read, "path"_a, "format"_a, "depth"_a, "max_edge"_a, "unit"_a, "how"_a);
     module.def("write_mesh", &write, "mesh"_a, "path"_a, "format"_a, "ascii"_a, "compress"_a,
                "how"_a);
-    module.def(
-        "format_of", [](const py::object& path) { return format_of(to_path(path)).has_value(); },
-        "path"_a);
+    module.def("check_reading", &check_all, "paths"_a, "format"_a, "depth"_a, "max_edge"_a);
 }
 
 } // namespace terrane::python

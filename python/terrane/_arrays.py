@@ -87,6 +87,10 @@ def as_text(value: Any, place: str) -> str:
     """Return a str."""
     if not isinstance(value, str):
         raise TypeError(f"{place} is a str, not {type(value).__name__}")
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"{place} holds surrogates, which are no text") from None
     return value
 
 

@@ -70,7 +70,9 @@ def read(path: Any, *, format: Optional[str] = None, depth: bool = False, max_ed
     options = (as_format(format), as_flag(depth, "depth"), as_number(max_edge, "max_edge", least=0),
                as_text(unit, "unit"))
     of = as_mapping(roles, "roles")
-    surfaces = [surface_of_parts(parts) for name in _paths(path)
+    names = _paths(path)
+    _core.check_reading([os.path.basename(name).encode(errors="replace") for name in names], *options[:3])
+    surfaces = [surface_of_parts(parts) for name in names
                 for parts in _core.read(name, *options, how(threads, progress))]
     return with_roles(surfaces, of)
 

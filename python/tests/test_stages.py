@@ -65,6 +65,21 @@ def test_points_and_depths():
     assert np.array_equal(up.vertices[:, 2], -down.vertices[:, 2]) and len(up.triangles) == 18
 
 
+def test_options_that_no_file_uses_are_refused():
+    with open("p.xyz", "w") as file:
+        file.writelines(f"{i} {j} {i + j}\n" for i in range(4) for j in range(4))
+    sheet(name="a").save("a.ts")
+    assert len(terrane.read(["a.ts", "p.xyz"], depth=True, max_edge=9)) == 2
+    for option in ({"depth": True}, {"max_edge": 9}):
+        with pytest.raises(terrane.Error, match=f"{[*option][0]}: is for .*, and no file"):
+            terrane.read("a.ts", **option)
+    with pytest.raises(terrane.Error, match="ascii: is for STL files"):
+        terrane.save([sheet()], "a.vtp", ascii=True)
+    for call in (lambda: terrane.read("a.ts", unit="\ud800"), lambda: sheet().save("a.vtp", "\ud800")):
+        with pytest.raises(ValueError, match="surrogates"):
+            call()
+
+
 def test_frames_are_kept():
     s, = terrane.read(DATA / "top.ts")
     assert s.frame.vertical_axis in (0, 1, 2)
