@@ -123,8 +123,8 @@ TEST_CASE("stoppable: a request within another one") {
         return verify_conforming(points, triangles).size();
     };
     const auto both = stoppable(outer.get_token(), [&]() -> Result<std::size_t> {
-        const auto within = stoppable(inner.get_token(), judged);
-        CHECK_FALSE(within.ok());
+        const auto stopped = stoppable(inner.get_token(), judged);
+        CHECK_FALSE(stopped.ok());
         return judged(); // the outer one again
     });
     REQUIRE(both.ok());
