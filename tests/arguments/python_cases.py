@@ -65,8 +65,13 @@ class Fixtures:
         return terrane.model(self.surfaces, box=BOX)
 
     @functools.cached_property
+    def even(self):
+        """The model with even triangles, which take few tetrahedra."""
+        return self.model.improved(1.0)
+
+    @functools.cached_property
     def cells(self):
-        return terrane.tetrahedralize(self.model)
+        return terrane.tetrahedralize(self.even, optimise=False)
 
     @functools.cached_property
     def improved(self):
@@ -152,9 +157,9 @@ FUNCTIONS = {
         "seal": None, "extend": None, "min_volume": 15.0,
         "column": [{"unit": "upper", "surface": "top"}, {"unit": "middle", "surface": "base"}, {"unit": "lower"}], "max_rounds": None,
         "max_move": None}),
-    "tetrahedralize": (lambda f: dict(model=f.model), {
+    "tetrahedralize": (lambda f: dict(model=f.even), {
         "edge_length": 1.0, "size_of": {"top": 0.4}, "size_in": {1: 0.5}, "quality": 1.8, "max_volume": 0.2, "split": ["F1"],
-        "split_surfaces": (True, {"quality": 1.8}), "optimise": False, "outside": True,
+        "split_surfaces": None, "optimise": False, "outside": True,
         "around": ((( -3, -3, -4), (8, 8, 4)), {"outside": True}), "margin": (0.5, {"outside": True}), "mesher": None,
         "time_limit": None, "helper": None, "gmsh_helper": None}),
     "verify": (lambda f: dict(result=f.certificate), {
@@ -164,7 +169,7 @@ FUNCTIONS = {
         "folder": None, "seed": 2, "contacts": 0.5, "grid": 7, "workers": None, "scheduler": None, "retries": None,
         "keep": None}),
     "read": (lambda f: dict(path=str(f.files / "points.xyz")), {
-        "format": None, "depth": True, "max_edge": 1.2, "unit": None, "roles": {"points": "fault"}}),
+        "format": None, "depth": True, "max_edge": 1.5, "unit": None, "roles": {"points": "fault"}}),
     "save": (lambda f: dict(surfaces=f.surfaces, path="saved.stl"), {"format": "obj", "ascii": True}),
     "as_surface": (lambda f: dict(value=f.surfaces[0]), {"name": "other", "role": "fault"}),
     "as_surfaces": (lambda f: dict(value=f.surfaces), {"place": None}),
