@@ -12,6 +12,7 @@
 #include <terrane/algorithms/core/sha256.hpp>
 #include <terrane/algorithms/distribution/detail/over_blocks.hpp>
 #include <terrane/algorithms/distribution/detail/steps.hpp>
+#include <terrane/algorithms/rounding/moved_input.hpp>
 
 namespace terrane::distribution {
 
@@ -150,6 +151,26 @@ Status detail::arrange_moved(Supersteps& blocks, const StepsBeside& beside, cons
     return perform(blocks, arranging_steps, beside, run);
 }
 
+namespace {
+
+/// Repairs the doubles of an arrangement, or moves the input, where they are not conforming.
+Status make_conforming(Supersteps& blocks, DistributedReport& report, std::uint64_t most_gathered,
+                       const Run& run) {
+    if (report.clean || report.deviation > report.limit) return Done{};
+    const bool has_triangles = report.triangles > 0;
+    const RepairInput input{
+        std::max<std::uint64_t>(most_gathered, 2 * report.triangles / blocks.blocks())};
+    auto repaired = repair_few(blocks, report, input, run);
+    if (!repaired) return repaired.error();
+    if (!report.clean && repaired->is_done)
+        if (auto done = move_input(blocks, report, std::move(*repaired), input, run); !done)
+            return done;
+    if (has_triangles && report.triangles == 0) return nothing_left();
+    return Done{};
+}
+
+} // namespace
+
 Result<DistributedReport> arrange_in_blocks(Supersteps& blocks, const FileReader& read,
                                             const DistributedOptions& options, const Run& run) {
     const auto reading = [&](Block& b, Inbox&, Outbox& out) {
@@ -167,13 +188,7 @@ Result<DistributedReport> arrange_in_blocks(Supersteps& blocks, const FileReader
         if (!digest) return digest.error();
         report->digest = std::move(*digest);
     }
-    if (report->clean || report->deviation > report->limit) return report;
-    const RepairInput input{
-        std::max<std::uint64_t>(options.most_gathered, 2 * report->triangles / blocks.blocks())};
-    auto repaired = repair_few(blocks, *report, input, run);
-    if (!repaired) return repaired.error();
-    if (report->clean || !repaired->is_done) return report;
-    if (auto done = move_input(blocks, *report, std::move(*repaired), input, run); !done)
+    if (auto done = make_conforming(blocks, *report, options.most_gathered, run); !done)
         return done.error();
     return report;
 }

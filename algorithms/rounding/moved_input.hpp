@@ -7,6 +7,7 @@
 #include <terrane/algorithms/rounding/detail/contact_clusters.hpp>
 #include <terrane/algorithms/rounding/detail/moved_attempts.hpp>
 #include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
+#include <terrane/algorithms/rounding/detail/vanished.hpp>
 
 namespace terrane {
 
@@ -21,6 +22,7 @@ using rounding::detail::InputFrame;
 using rounding::detail::KeptPlanes;
 using rounding::detail::MovableInput;
 using rounding::detail::move_bound;
+using rounding::detail::nothing_left;
 using rounding::detail::ParentsInContact;
 using rounding::detail::SnapCells;
 using rounding::detail::SnapGrid;

@@ -193,11 +193,7 @@ Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& optio
     if (!rounded) return rounded;
     const RoundingReport& report = rounded->report;
     if (!report.vanished.empty()) {
-        if (rounded->mesh->triangles.empty())
-            return Error{ErrorCode::nothing_to_do,
-                         "rounding would take the area of all triangles, so that nothing would be "
-                         "left; allow surfaces to move less, or put them nearer to the origin",
-                         ""};
+        if (rounded->mesh->triangles.empty()) return nothing_left();
         state_lost_length(a, *rounded, run);
     }
     if (report.collapsed_triangles > 0 || !report.vanished.empty())

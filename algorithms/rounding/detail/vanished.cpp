@@ -164,6 +164,13 @@ std::vector<std::uint32_t> vanished(const Arrangement& a,
     return result;
 }
 
+Error nothing_left() {
+    return {ErrorCode::nothing_to_do,
+            "rounding would take the area of all triangles, so that nothing would be left; allow "
+            "surfaces to move less, or put them nearer to the origin",
+            ""};
+}
+
 void state_lost_length(const Arrangement& a, RoundedMesh& rounded, const Run& run) {
     RoundingReport& report = rounded.report;
     const Remains remains(*rounded.mesh);

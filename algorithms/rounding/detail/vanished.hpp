@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 
@@ -17,6 +18,9 @@ namespace terrane::rounding::detail {
 /// ascending.
 std::vector<std::uint32_t> vanished(const Arrangement& arrangement,
                                     const IndexLists<std::uint32_t>& parents_of);
+
+/// The error where no triangle would be left.
+Error nothing_left();
 
 /// Enlarges report.lost_length, and report.deviation with it, until each point of the sides of each
 /// input triangle that vanished is shown to be at most report.deviation away from the mesh. Of an

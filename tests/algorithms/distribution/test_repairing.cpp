@@ -143,6 +143,15 @@ void check_left(const Expected& expected, Supersteps& blocks) {
     CHECK(whole->piece.mesh.parents_of == expected.rounded.mesh->parents_of);
 }
 
+/// Rounding leaves nothing of these surfaces, and blocks say the same.
+void check_refused(const std::vector<Surface>& surfaces, Supersteps& blocks) {
+    const auto whole = round_to_doubles(*arrange(surfaces));
+    const auto report = arrange_in_blocks(blocks, reader_of(surfaces), {surfaces.size()});
+    REQUIRE_FALSE(report);
+    CHECK(report.error().code == ErrorCode::nothing_to_do);
+    CHECK(report.error().message() == whole.error().message());
+}
+
 DistributedReport check(const Expected& expected, Supersteps& blocks, Seen& seen,
                         std::uint64_t most_gathered = DistributedOptions{}.most_gathered) {
     const auto& rounding = expected.rounded.report;
@@ -398,12 +407,20 @@ TEST_CASE("repair in blocks: in files and in threads", "[distribution]") {
 TEST_CASE("repair in blocks: what lies in few doubles costs what it costs one process",
           "[distribution]") {
     Seen seen;
-    std::size_t many = 0;
+    std::size_t many = 0, refused = 0;
     for (const std::uint32_t count : {10, 20, 40, 60, 90, 130, 200})
         for (const unsigned range : {4U, 7U}) {
             CAPTURE(count, range);
             const Point3 at = range == 4 ? Point3{1e6, 1e6, 1e6} : far_away;
-            const Expected expected(heap_on_lattice(count, count, at, 0x1p-30, range));
+            const auto heap = heap_on_lattice(count, count, at, 0x1p-30, range);
+            if (!round_to_doubles(*arrange(heap))) {
+                const Run run;
+                LocalSupersteps local({5, {}}, run);
+                check_refused(heap, local);
+                ++refused;
+                continue;
+            }
+            const Expected expected(heap);
             const std::uint64_t triangles = expected.exact.triangles.size(),
                                 pairs = overlapping_pairs(expected.exact);
             many += triangles > 10'000 ? 1 : 0;
@@ -421,4 +438,5 @@ TEST_CASE("repair in blocks: what lies in few doubles costs what it costs one pr
     CHECK(seen.repaired >= 20);
     CHECK(seen.moved >= 8);
     CHECK(many >= 4);
+    CHECK(refused >= 1);
 }

@@ -69,7 +69,8 @@ TEST_CASE("JSON: braces make what they make in nlohmann/json") {
 
 TEST_CASE("JSON: what can't be written is replaced") {
     CHECK(Json("a\xff").dump() == "\"a\xEF\xBF\xBD\"");
-    CHECK(Json(std::numeric_limits<double>::infinity()).dump() == "null");
+    CHECK(Json(std::numeric_limits<double>::infinity()).dump() == "1.7976931348623157e+308");
+    CHECK(Json(-std::numeric_limits<double>::infinity()).dump() == "-1.7976931348623157e+308");
     CHECK(Json(std::nan("")).dump() == "null");
 }
 
