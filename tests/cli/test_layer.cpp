@@ -55,9 +55,9 @@ TEST_CASE("cli: layer replaces the soft horizon beyond the hard one", "[cli][lay
         CHECK(mesh.find(keep == "upper" ? "\nv 0 0 -4" : "\nv 8 0 4") == std::string::npos);
         CHECK(folder.run("check " + keep + ".obj").status == 0);
         const auto json = Json::parse(folder.read(keep + ".json"));
-        const auto& layers = json["layers"];
-        REQUIRE(layers.size() == 2);
-        const auto& report = layers[0]["name"] == "shale" ? layers[0] : layers[1];
+        const auto& listed = json["layers"];
+        REQUIRE(listed.size() == 2);
+        const auto& report = listed[0]["name"] == "shale" ? listed[0] : listed[1];
         CHECK(report["parts"] == 1);
         CHECK(report["taken_area"].get<double>() == Approx(32));
         CHECK(report["largest_move"].get<double>() == Approx(4));

@@ -122,11 +122,11 @@ TEST_CASE("stoppable: a request within another one") {
     const auto judged = [&]() -> Result<std::size_t> {
         return verify_conforming(points, triangles).size();
     };
-    const auto both = stoppable(outer.get_token(), [&]() -> Result<std::size_t> {
+    const auto finished = stoppable(outer.get_token(), [&]() -> Result<std::size_t> {
         const auto stopped = stoppable(inner.get_token(), judged);
         CHECK_FALSE(stopped.ok());
         return judged(); // the outer one again
     });
-    REQUIRE(both.ok());
+    REQUIRE(finished.ok());
     CHECK(verifier::stop_request == nullptr);
 }
