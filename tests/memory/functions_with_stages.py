@@ -60,6 +60,7 @@ WITHIN = {
     "triangulate_inside": "fill_closed_line",
     "validate": "check",
     "validate_areas": "improve",
+    "validate_indices": "improve",
     "validate_mesh": "improve",
     "write_file": "write_mesh",
     "write_file_at_once": "write_mesh",

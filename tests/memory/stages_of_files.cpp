@@ -11,6 +11,7 @@
 #include <terrane/io/meshes/pvtp.hpp>
 #include <terrane/io/points/outline.hpp>
 #include <terrane/io/points/shape_outline.hpp>
+#include <terrane/io/reading.hpp>
 #include <terrane/io/uncertainty_maps.hpp>
 
 #include "fixture.hpp"
@@ -97,6 +98,13 @@ std::vector<Stage> reading() {
         written("surfaces with a long name.obj", needed(format_mesh(*f.mesh, Format::obj)));
     stages.push_back(stage(
         "read_surfaces", [obj] { return read_surfaces(obj); }, as_text));
+    stages.push_back(stage(
+        "check_reading",
+        [] {
+            return check_reading({Format::xyz}, {.depth = true}, {"depth", "max_edge"});
+        },
+        [](const Done&) { return std::string("sound"); }));
+    stages.back().returns_errors = false; // its arguments are made here
     const auto model =
         written("model with a long name.ml",
                 to_gocad_model(*f.mesh, f.model.volumes, f.model.structure, "model"));

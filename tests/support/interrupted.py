@@ -6,7 +6,7 @@
 
 SIGNAL is a name without SIG, or a number. MOMENT is a number of processor seconds that the command has used, or "waits":
 all its threads sleep, as when it reads a pipe. Either comes only after the program waits for, catches or ignores the signal.
---then makes its standard input a pipe, which gets the contents of FILE after the signal. The status is
+--then makes its standard input a pipe, which gets the contents of FILE once the signal was ignored. The status is
 that of the command, as a shell tells it, and the last line of standard error states the processor seconds from the
 signal to the end. A command that ends before the signal gives the status 125.
 """
@@ -21,13 +21,15 @@ from pathlib import Path
 LOOKS = 5  # at which all threads must sleep, one after the other
 
 
+def has_mask(process, number, *names):
+    masks = [line.split()[1] for line in Path(f"/proc/{process}/status").read_text().splitlines() if line.startswith(names)]
+    return any(int(mask, 16) >> (number - 1) & 1 for mask in masks)
+
+
 def answers(process, number):
     """Whether the program, and no longer the shell or nohup that starts it, waits for, catches or ignores the signal."""
-    if Path(os.readlink(f"/proc/{process}/exe")).name in ("sh", "bash", "dash", "nohup"):
-        return False
-    masks = [line.split()[1] for line in Path(f"/proc/{process}/status").read_text().splitlines()
-             if line.startswith(("SigBlk:", "SigCgt:", "SigIgn:"))]
-    return any(int(mask, 16) >> (number - 1) & 1 for mask in masks)
+    is_program = Path(os.readlink(f"/proc/{process}/exe")).name not in ("sh", "bash", "dash", "nohup")
+    return is_program and has_mask(process, number, "SigBlk:", "SigCgt:", "SigIgn:")
 
 
 def sleeps(process):
@@ -67,12 +69,10 @@ def main():
         if used is None:
             print("interrupted.py: the command ended before the signal", file=sys.stderr)
             sys.exit(125)
+        is_ignored = has_mask(running.pid, number, "SigIgn:")
         running.send_signal(number)
-        if contents is not None:
-            try:
-                running.communicate(contents)
-            except BrokenPipeError:
-                pass
+        if contents is not None and is_ignored:
+            running.communicate(contents)
         status = running.wait()
     times = resource.getrusage(resource.RUSAGE_CHILDREN)
     print(f"{times.ru_utime + times.ru_stime - used:.2f}", file=sys.stderr)
