@@ -9,7 +9,7 @@ from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, IndexLists, Point, SurfaceInfo, UInt32Array, as_count, as_flag, as_number, as_text
+from ._arrays import Float64Array, IndexLists, Point, SurfaceInfo, UInt32Array, as_count, as_flag, as_number, as_word
 from ._errors import bad_option
 from ._mesh import CheckReport, Contact, Mesh, Path, Region, Regions, mesh_of, require_conforming
 from ._report import facts
@@ -390,7 +390,7 @@ def arrange(surfaces: Any, *, search: str = "auto", threads: Optional[int] = Non
     >>> terrane.arrange([flat, wall])
     <Arrangement: 2 surfaces, 8 vertices, 8 triangles, 1 intersection edge>
     """
-    return _arranged(as_surfaces(surfaces), as_text(search, "search"), threads, progress)
+    return _arranged(as_surfaces(surfaces), as_word(search, "search"), threads, progress)
 
 
 def round(arrangement: Any, *, max_rounds: int = 8, max_move: Optional[float] = None,

@@ -87,11 +87,16 @@ def as_text(value: Any, place: str) -> str:
     """Return a str."""
     if not isinstance(value, str):
         raise TypeError(f"{place} is a str, not {type(value).__name__}")
+    return value
+
+
+def as_word(value: Any, place: str) -> str:
+    """Return a str that is no name of a user's, and therefore holds no surrogates."""
     try:
-        value.encode()
+        as_text(value, place).encode()
     except UnicodeEncodeError:
         raise ValueError(f"{place} holds surrogates, which are no text") from None
-    return value
+    return str(value)
 
 
 def as_flag(value: Any, place: str) -> bool:

@@ -8,7 +8,7 @@ import os
 from typing import Any, Dict, List, Mapping, Optional
 
 from . import _core
-from ._arrays import as_flag, as_mapping, as_number, as_text
+from ._arrays import as_flag, as_mapping, as_number, as_word
 from ._errors import Error
 from ._mesh import Path, as_format, mesh
 from ._run import how
@@ -68,7 +68,7 @@ def read(path: Any, *, format: Optional[str] = None, depth: bool = False, max_ed
     [<Surface 'top': horizon, 3 vertices, 1 triangle>]
     """
     options = (as_format(format), as_flag(depth, "depth"), as_number(max_edge, "max_edge", least=0),
-               as_text(unit, "unit"))
+               as_word(unit, "unit"))
     of = as_mapping(roles, "roles")
     names = _paths(path)
     _core.check_reading([os.path.basename(name).encode(errors="replace") for name in names], *options[:3])

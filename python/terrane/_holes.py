@@ -10,7 +10,7 @@ from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, Int32Array, Point, UInt32Array, as_count, as_flag, as_list, as_number, as_text
+from ._arrays import Float64Array, Int32Array, Point, UInt32Array, as_count, as_flag, as_list, as_number, as_word
 from ._errors import Error, bad_option
 from ._mesh import Path
 from ._report import facts
@@ -309,7 +309,7 @@ def fill(surface: Any, *, method: str = "kriging", holes: Optional[Sequence[int]
     >>> len(filled.holes), filled.given_triangles, terrane.holes(filled.surface)
     (1, 48, [])
     """
-    if as_text(method, "method") not in ("kriging", "rbf"):
+    if as_word(method, "method") not in ("kriging", "rbf"):
         raise bad_option(f"{method!r} is neither kriging nor rbf", "method")
     if smoothing is not None and method != "rbf":
         raise bad_option("is for the method rbf", "smoothing")
@@ -317,7 +317,7 @@ def fill(surface: Any, *, method: str = "kriging", holes: Optional[Sequence[int]
         raise bad_option(f"{smoothing!r} is neither a number nor 'auto'", "smoothing")
     smooth = None if smoothing is None else 0.0 if smoothing == "auto" \
         else as_number(smoothing, "smoothing", positive=True)
-    options = {"method": method, "model": as_text(model, "model"),
+    options = {"method": method, "model": as_word(model, "model"),
                "max_area": math.inf if isinstance(max_area, float) and max_area == math.inf else as_number(max_area, "max_area", positive=True),
                "mesh_size": as_number(mesh_size, "mesh_size", least=0),
                "rings": as_count(rings, "rings", 1, 1000),

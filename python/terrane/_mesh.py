@@ -9,7 +9,7 @@ from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, IndexLists, Point, SurfaceInfo, UInt32Array, as_flag, as_text
+from ._arrays import Float64Array, IndexLists, Point, SurfaceInfo, UInt32Array, as_flag, as_word
 from ._errors import Error
 from ._results import Result, counted
 from ._run import how
@@ -20,7 +20,7 @@ Path = Union[str, "os.PathLike[str]"]
 
 def as_format(value: Any) -> Optional[str]:
     """Return the name of a format; None: the extension tells."""
-    return None if value is None else as_text(value, "format")
+    return None if value is None else as_word(value, "format")
 
 
 class Mesh(Result):

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrangement import as_move
-from ._arrays import Point, as_count, as_flag, as_list, as_number, as_text
+from ._arrays import Point, as_count, as_flag, as_list, as_number, as_text, as_word
 from ._blocks import Structure, Volumes
 from ._errors import Error, bad_option
 from ._mesh import Mesh, Path
@@ -242,7 +242,7 @@ class Model(Result):
         >>> len(terrane.read("folder/result.vtp"))
         7
         """
-        self._core.save(folder, as_text(format, "format"), how(threads, None))
+        self._core.save(folder, as_word(format, "format"), how(threads, None))
 
     def report(self, path: Path, *, threads: Optional[int] = None) -> None:
         """Write the page of ``terrane report``: one HTML file that shows the model, what is wrong with it, and its numbers.

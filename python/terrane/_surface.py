@@ -9,7 +9,7 @@ from typing import Any, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tu
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, UInt32Array, as_count, as_flag, as_points, as_text, as_triangles
+from ._arrays import Float64Array, UInt32Array, as_count, as_flag, as_points, as_text, as_triangles, as_word
 from ._errors import Error, bad_option
 
 #: The roles that a surface can have.
@@ -231,8 +231,8 @@ def _as_frame(value: Any) -> Frame:
     if not isinstance(value, (tuple, list)) or len(value) != len(Frame._fields):
         raise TypeError(f"frame is a terrane.Frame, not {type(value).__name__}")
     horizontal, vertical, system, axis, depths = value
-    return Frame(as_text(horizontal, "frame.horizontal_unit"), as_text(vertical, "frame.vertical_unit"),
-                 as_text(system, "frame.system"), as_count(axis, "frame.vertical_axis", 0, 2),
+    return Frame(as_word(horizontal, "frame.horizontal_unit"), as_word(vertical, "frame.vertical_unit"),
+                 as_word(system, "frame.system"), as_count(axis, "frame.vertical_axis", 0, 2),
                  as_flag(depths, "frame.column_of_depths"))
 
 

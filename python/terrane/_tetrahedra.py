@@ -9,7 +9,7 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tup
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, IndexLists, SurfaceInfo, UInt32Array, as_count, as_flag, as_list, as_mapping, as_number, as_point, as_text
+from ._arrays import Float64Array, IndexLists, SurfaceInfo, UInt32Array, as_count, as_flag, as_list, as_mapping, as_number, as_point, as_text, as_word
 from ._errors import Error, bad_option
 from ._mesh import Path, as_format
 from ._model import Model, number_of
@@ -391,7 +391,7 @@ def tetrahedralize(model: Model, *, edge_length: Optional[float] = None,
     if corners is not None and len(corners) != 2:
         raise bad_option("is not two corners", "around")
     options = {
-        "mesher": as_text(mesher, "mesher"), "box": corners, "margin": as_number(margin, "margin"),
+        "mesher": as_word(mesher, "mesher"), "box": corners, "margin": as_number(margin, "margin"),
         "edge_length": number(edge_length, "edge_length"), "quality": number(quality, "quality"),
         "split_surfaces": as_flag(split_surfaces, "split_surfaces"), "max_volume": number(max_volume, "max_volume"),
         "time_limit": as_number(time_limit, "time_limit", positive=True),

