@@ -71,7 +71,7 @@ def read(path: Any, *, format: Optional[str] = None, depth: bool = False, max_ed
                as_word(unit, "unit"))
     of = as_mapping(roles, "roles")
     names = _paths(path)
-    _core.check_reading([os.path.basename(name).encode(errors="replace") for name in names], *options[:3])
+    _core.check_reading([os.path.basename(name).encode(errors="replace").decode() for name in names], *options[:3])
     surfaces = [surface_of_parts(parts) for name in names
                 for parts in _core.read(name, *options, how(threads, progress))]
     return with_roles(surfaces, of)
