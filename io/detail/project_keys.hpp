@@ -54,7 +54,8 @@ inline constexpr std::array<std::string_view, 2> fill_methods{"kriging", "rbf"};
 inline constexpr std::array<std::string_view, 6> variogram_models{
     "auto", "spherical", "exponential", "gaussian", "matern", "power"};
 inline constexpr std::array<std::string_view, 13> block_formats{
-    "auto", "vtp", "obj", "ts", "ply", "off", "stl", "msh", "msh22", "inp", "mesh", "poly", "smesh"};
+    "auto", "vtp",   "obj", "ts",   "ply",  "off",  "stl",
+    "msh",  "msh22", "inp", "mesh", "poly", "smesh"};
 inline constexpr auto surface_formats = std::span(block_formats).subspan<1>();
 inline constexpr std::array<std::string_view, 10> tetrahedra_formats{
     "vtu", "msh", "msh22", "inp", "mesh", "exo", "ugi", "ogs", "geos", "pylith"};

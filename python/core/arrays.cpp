@@ -34,8 +34,9 @@ void require_rows(const py::array& array, const py::dtype& type, std::size_t len
     if (has_rows && py::detail::npy_api::get().PyArray_EquivTypes_(array.dtype().ptr(), type.ptr()))
         return;
     const std::string shape = length == 0 ? "(n,)" : "(n, " + std::to_string(length) + ")";
-    throw py::value_error("an array of " + std::string(py::str(py::handle(type))) + " with the shape " + shape +
-                          " is needed, not of " + std::string(py::str(array.dtype())) + " with " +
+    throw py::value_error("an array of " + std::string(py::str(py::handle(type))) +
+                          " with the shape " + shape + " is needed, not of " +
+                          std::string(py::str(array.dtype())) + " with " +
                           std::string(py::str(array.attr("shape"))));
 }
 
