@@ -111,7 +111,7 @@ LocalSupersteps::Spool::create(const LocalOptions& options) {
          odd = UnnamedFile::create(options.spool);
     for (const auto* made : {&states, &even, &odd})
         if (!*made) return made->error();
-    return std::unique_ptr<Spool>(new Spool{
+    return std::make_unique<Spool>(Spool{
         options.spool,
         std::move(*states),
         {},

@@ -42,7 +42,7 @@ fs::path state_folder() {
         const fs::path path = value == nullptr ? "" : value;
         return path.is_absolute() ? path : fs::path();
     };
-    if (const fs::path state = named("XDG_STATE_HOME"); !state.empty()) return state;
+    if (fs::path state = named("XDG_STATE_HOME"); !state.empty()) return state;
     const fs::path home = named("HOME");
     std::error_code ignored;
     return fs::is_directory(home, ignored) ? home / ".local" / "state" : fs::path();

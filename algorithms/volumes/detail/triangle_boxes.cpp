@@ -32,7 +32,8 @@ TriangleBoxes::TriangleBoxes(const TriangleComplex& sheets, std::uint32_t count)
 
 void TriangleBoxes::build_tree() {
     if (!order_.empty()) add_node(0, static_cast<std::uint32_t>(order_.size()));
-    for (std::size_t n = 0; n < nodes_.size(); ++n) { // nodes are added on the way
+    // NOLINTNEXTLINE(modernize-loop-convert): nodes are added on the way
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
         const std::uint32_t first = nodes_[n].first, last = nodes_[n].last;
         if (last - first <= most_triangles_in_leaf) continue;
         const std::size_t longest = axis_of_split(std::span(order_).subspan(first, last - first));
