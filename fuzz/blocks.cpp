@@ -170,7 +170,7 @@ std::vector<Surface> input(Bytes& bytes) {
 }
 
 std::string flaw(std::span<const Surface> surfaces) {
-    // What is larger takes seconds to round. What is in few doubles does not, as most of it collapses.
+    // Larger arrangements take seconds to round. Those in few doubles do not, as most triangles collapse.
     const std::size_t most_triangles = is_in_few_doubles(surfaces) ? 12'000 : 300;
     const auto exact = arrange(surfaces);
     if (!exact) return exact.error().message();

@@ -25,8 +25,8 @@ inline thread_local StopRequest* stop_request = nullptr;
 /// Unwinds the verifier.
 struct Stopped {};
 
-/// Throws Stopped where a stop is requested. All exact numbers and all tokens of files look for it, so loops need not.
-/// Cost: nanoseconds.
+/// Throws Stopped if a stop is requested. Each operation on exact numbers and each token of a file calls it, so that loops
+/// need not. Cost: nanoseconds.
 inline void look_for_stop() {
     StopRequest* const request = stop_request;
     if (request == nullptr) return;

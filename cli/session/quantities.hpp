@@ -8,7 +8,7 @@
 
 namespace terrane::cli {
 
-/// Writes a number with so many significant digits: "> 1.8e308" beyond the largest double, "?" for what is no number.
+/// Writes a number with `digits` significant digits: an infinite one as "> 1.8e308", NaN as "?".
 std::string figure(double value, int digits);
 
 /// Writes numbers with a unit. From 10 km on, 0.1 square kilometres and 0.1 cubic kilometres,

@@ -18,7 +18,7 @@ import sys
 import time
 from pathlib import Path
 
-LOOKS = 5  # at which all threads must sleep, one after the other
+LOOKS = 5  # All threads must sleep in this many consecutive looks.
 
 
 def has_mask(process, number, *names):

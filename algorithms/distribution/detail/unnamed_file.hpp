@@ -35,7 +35,7 @@ private:
 /// The parts of a file that are not in use.
 class FreeSpace {
 public:
-    /// Returns the lowest place where so many bytes are free, and takes them.
+    /// Takes the lowest `size` free bytes that lie together, and returns where they begin.
     std::uint64_t take(std::uint64_t size);
     /// Frees bytes that were taken.
     void give_back(std::uint64_t at, std::uint64_t size);

@@ -37,8 +37,8 @@ std::string key_of(const Model& model, const TetrahedraRequest& request);
 /// Returns the bytes of tetrahedra.
 std::string bytes_of(const TetrahedralMesh& mesh);
 
-/// Takes tetrahedra from bytes; none if the bytes are none. Nothing is checked but lengths of lists and
-/// that numbers are finite: check_tetrahedra() comes before any use.
+/// Reads tetrahedra; returns nothing for malformed bytes. It checks the lengths of lists and that numbers are finite.
+/// The caller must run check_tetrahedra() before any other use.
 std::optional<TetrahedralMesh> tetrahedra_from(std::string_view bytes);
 
 } // namespace terrane::project::detail

@@ -68,7 +68,7 @@ public:
             });
     }
 
-    /// Returns the lowest hit of a line with these triangles. Throws std::logic_error if there is none.
+    /// Returns the lowest hit of a line with these triangles. Throws std::logic_error if the line hits no triangle.
     [[nodiscard]] Hit lowest_of(std::uint32_t line, std::span<const std::uint32_t> triangles,
                                 const TriangleBoxes& boxes) const;
     /// Returns the hit that comes next below another one of the same line, if there is one.

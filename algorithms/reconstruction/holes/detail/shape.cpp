@@ -175,7 +175,7 @@ double diagonal_of(std::span<const Point3> points, std::span<const std::uint32_t
 
 void measure_loop(const Soup& soup, const TracedLoop& traced, BorderLoop& loop) {
     const auto n = traced.vertices.size();
-    // Products of the largest and of the smallest doubles are none. A power of two changes no digit.
+    // Products of very large doubles overflow, and those of very small ones vanish. A power of two changes no digit.
     double largest = 0;
     for (const auto v : traced.vertices)
         for (const double c : {soup.points[v].x, soup.points[v].y, soup.points[v].z})
