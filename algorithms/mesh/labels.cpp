@@ -2,8 +2,7 @@
 #include <terrane/algorithms/mesh/labels.hpp>
 
 #include <algorithm>
-#include <map>
-#include <set>
+#include <unordered_map>
 
 #include <terrane/algorithms/core/spelling.hpp>
 
@@ -27,15 +26,14 @@ std::vector<SurfaceInfo> infos_of(std::span<const Surface> surfaces) {
 std::vector<std::string> unique_names(std::span<const SurfaceInfo> surfaces,
                                       const std::function<std::string(std::string_view)>& change) {
     std::vector<std::string> names;
-    std::set<std::string> taken;
-    std::map<std::string, unsigned> next_number;
+    std::unordered_map<std::string, unsigned> next_number; // of each name that is taken
     for (const auto& surface : surfaces) {
         auto base = change(surface.name);
         if (base.empty()) base = "surface";
         auto name = base;
-        auto& number = next_number.try_emplace(base, 2).first->second;
-        while (!taken.insert(name).second) name = base + '_' + std::to_string(number++);
-        names.push_back(name);
+        while (!next_number.try_emplace(name, 2).second)
+            name = base + '_' + std::to_string(next_number[base]++);
+        names.push_back(std::move(name));
     }
     return names;
 }
