@@ -46,7 +46,6 @@ void FaceTriangulation::divide(const PointStore& points, std::span<const std::ui
     start(face);
     is_reversed_ = cells_[0].v[1] != 1;
     insert_edge_points(face);
-    legalise();
     insert_inner_points(face);
     order_segments();
     for (std::uint32_t k = 0; k < segment_order_.size() && !face.stop.stop_requested(); ++k)
@@ -217,28 +216,31 @@ void FaceTriangulation::order_segments() {
         }
 }
 
-// Cuts each edge from its start to its end, so that the rest is always the edge of one known cell.
+// Cuts each edge in its middle, then its halves, and so on: a point then gets few edges, since those
+// before it have divided the face. From one end to the other, all would first be joined to a corner.
 void FaceTriangulation::insert_edge_points(const FaceInput& face) {
-    Local x = 3;
+    Local last = 2; // of the points that are no edge points, or on the edges before
     for (Local e = 0; e < 3; ++e) {
-        if (face.edge_points[e].empty()) continue;
-        const Local end = (e + 1) % 3;
-        Side rest = border_side(e, end);
-        for (std::size_t k = 0; k < face.edge_points[e].size(); ++k, ++x) {
-            const Local fresh = static_cast<Local>(cells_.size());
-            const bool end_stays = cells_[rest.cell].v[next(rest.i)] == end;
-            split_edge(rest, x);
-            rest = {end_stays ? rest.cell : fresh, 0};
-        }
+        const auto count = static_cast<Local>(face.edge_points[e].size());
+        for (Local step = std::bit_floor(count); step > 0; step /= 2)
+            for (Local i = step; i <= count; i += 2 * step) {
+                const Local before = i == step ? e : last + i - step;
+                const Local after = i + step > count ? (e + 1) % 3 : last + i + step;
+                split_edge(border_from(is_reversed_ ? after : before), last + i);
+                legalise();
+            }
+        last += count;
     }
 }
 
-FaceTriangulation::Side FaceTriangulation::border_side(Local a, Local b) const {
-    for (Local cell = 0;; ++cell)
-        for (unsigned i = 0; i < 3; ++i) {
-            const Local from = cells_[cell].v[next(i)], to = cells_[cell].v[previous(i)];
-            if ((from == a && to == b) || (from == b && to == a)) return {cell, i};
-        }
+// Returns the edge of the border that starts at p and has the face on its left.
+FaceTriangulation::Side FaceTriangulation::border_from(Local p) const {
+    for (Local cell = cell_of_[p];;) {
+        const Cell& c = cells_[cell];
+        const unsigned right = previous(c.v[0] == p ? 0 : c.v[1] == p ? 1 : 2);
+        if (c.n[right] == none) return {cell, right};
+        cell = c.n[right];
+    }
 }
 
 void FaceTriangulation::insert_inner_points(const FaceInput& face) {

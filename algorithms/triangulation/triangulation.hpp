@@ -4,7 +4,7 @@
 // and segments in one triangle. The triangulation is exact and unique: it is Delaunay in a
 // projection, and ties are broken by a symbolic perturbation that depends only on the order of the
 // points. Two coplanar triangles therefore triangulate a common part in the same way.
-// Source: Lawson flips; Sloan (1993) for constraints; Devillers and Teillaud (2003) for ties.
+// Source: Lawson flips; Avis and Toussaint (1982) for constraints; Devillers and Teillaud (2003) for ties.
 // detail/segments.cpp inserts segments; triangulation.cpp defines all other functions.
 #pragma once
 
@@ -104,6 +104,28 @@ private:
         unsigned i;
     };
 
+    struct Rim {              ///< an edge of a polygon
+        Side beyond;          ///< in the cell on its other side; none: there is no cell
+        bool fixed;           ///< whether it is a constraint
+        bool is_slit = false; ///< both sides belong to polygons; `beyond` is outdated
+    };
+
+    struct Slit { ///< an edge with a new cell on one of its sides
+        std::array<Local, 2> ends;
+        Side side;
+    };
+
+    /// What a segment's insertion leaves empty on one side of it.
+    struct Polygon {
+        std::vector<Local> points; ///< along it, both ends of the segment included
+        std::vector<Rim> rims;     ///< rims[k] between points[k] and points[k + 1]
+
+        void start(Local point) {
+            points.assign(1, point);
+            rims.clear();
+        }
+    };
+
     struct Inner { ///< an inner point
         ApproximatePoint at;
         PointIndex point;
@@ -123,8 +145,11 @@ private:
     void sort_points();
     void insert_segment(std::uint32_t segment);
     bool advance(Local u, Local v, Local& reached);
-    void collect_crossed(Local u, Local v, Side first, Local& reached);
-    void remove_crossed(Local u, Local v);
+    void cross(Local u, Local v, Side first, Local& reached);
+    void replace_crossed();
+    Side fill(Polygon& polygon);
+    void join(Side s, Rim rim);
+    [[nodiscard]] Rim rim_at(Side s) const;
     void fix(Side s);
 
     void split_cell(Local cell, Local p);
@@ -135,7 +160,7 @@ private:
     void link(Local cell, unsigned i, Local neighbour);
     void replace_neighbour(Local cell, Local old_cell, Local new_cell);
 
-    [[nodiscard]] Side border_side(Local a, Local b) const;
+    [[nodiscard]] Side border_from(Local p) const;
     [[nodiscard]] Side locate(Local p, Local from) const;
     [[nodiscard]] unsigned index_in(Local cell, Local neighbour) const;
     [[nodiscard]] Sign turn(Local a, Local b, Local c) const;
@@ -149,7 +174,6 @@ private:
     [[nodiscard]] ExactPoint exact(PointIndex p) const;
     [[nodiscard]] std::uint32_t rank_of(Local p) const;
     [[nodiscard]] bool in_perturbed_circle(const Cell& c, Local d) const;
-    [[nodiscard]] bool is_convex(Side s) const;
 
     [[no_unique_address]] UpwardWitness upward_;
     const PointStore* store_ = nullptr;
@@ -167,7 +191,9 @@ private:
     std::vector<Local> cell_of_;          ///< per point: a cell that has it as a corner
     std::vector<Cell> cells_;
     std::vector<Side> todo_;
-    std::vector<std::array<Local, 2>> crossed_;
+    std::vector<Local> crossed_; ///< cells that a segment crosses, until new ones take their place
+    Polygon left_, right_;       ///< of the segment
+    std::vector<Slit> slits_;    ///< whose second cell is not made yet
     std::vector<std::pair<std::uint64_t, PointIndex>> order_; ///< inner points by level and rank
     std::vector<Inner> inner_;                                ///< inner points as inserted
     std::vector<SegmentEdge> segment_edges_;

@@ -2,6 +2,7 @@
 //
 // Finds where the segments inside one triangle cross: points of three planes (or of lines).
 #include <algorithm>
+#include <numeric>
 
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/intersection/contacts.hpp>
@@ -71,7 +72,7 @@ bool have_common_end(const FaceConstraint& a, const FaceConstraint& b) {
            a.ends[1] == b.ends[1];
 }
 
-/// Finds all crossings in a face by a sweep along the first axis of its projection.
+/// Finds all crossings in a face by a sweep along an axis of its projection.
 class FaceSweep {
 public:
     FaceSweep(UpwardWitness upward, const TriangleSoup& soup, const Contacts& contacts,
@@ -86,8 +87,9 @@ public:
         std::sort(segments_.begin(), segments_.end(), [](const auto& a, const auto& b) {
             return std::pair{a.low[0], a.piece} < std::pair{b.low[0], b.piece};
         });
+        if (segments_.size() >= many && extent(1) < extent(0)) return sweep_along_second_axis();
         for (std::size_t i = 0; i < segments_.size(); ++i) {
-            if (i % 64 == 63 && run_.stop.stop_requested()) return; // a pool has very many
+            if (is_stopped(i)) return;
             for (std::size_t j = i + 1;
                  j < segments_.size() && segments_[j].low[0] <= segments_[i].high[0]; ++j)
                 test(segments_[i], segments_[j]);
@@ -95,6 +97,44 @@ public:
     }
 
 private:
+    static constexpr std::size_t many = 64; ///< segments, for which the axis is chosen
+
+    /// A pool has very many segments.
+    bool is_stopped(std::size_t i) const { return i % 64 == 63 && run_.stop.stop_requested(); }
+
+    /// Returns the sum of the extents of the segments along an axis, as a multiple of that of them all.
+    double extent(unsigned axis) const {
+        double low = segments_[0].low[axis], high = segments_[0].high[axis], sum = 0;
+        for (const InnerSegment& s : segments_) {
+            low = std::min(low, s.low[axis]);
+            high = std::max(high, s.high[axis]);
+            sum += s.high[axis] - s.low[axis];
+        }
+        return high > low ? sum / (high - low) : static_cast<double>(segments_.size());
+    }
+
+    /// Tests the same pairs in the same order, but finds them faster where most segments run along the
+    /// first axis, as those of horizons in a wall.
+    void sweep_along_second_axis() {
+        std::vector<std::uint32_t> order(segments_.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::ranges::sort(order, {}, [&](std::uint32_t s) { return segments_[s].low[1]; });
+        std::vector<std::array<std::uint32_t, 2>> pairs;
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            if (is_stopped(i)) return;
+            const InnerSegment& a = segments_[order[i]];
+            for (std::size_t j = i + 1; j < order.size() && segments_[order[j]].low[1] <= a.high[1];
+                 ++j) {
+                const auto [first, second] = std::minmax(order[i], order[j]);
+                if (segments_[second].low[0] <= segments_[first].high[0])
+                    pairs.push_back({first, second});
+            }
+        }
+        std::ranges::sort(pairs);
+        for (std::size_t k = 0; k < pairs.size() && !is_stopped(k); ++k)
+            test(segments_[pairs[k][0]], segments_[pairs[k][1]]);
+    }
+
     const FaceConstraint& piece(const InnerSegment& s) const { return contacts_.pieces[s.piece]; }
 
     void collect(std::uint32_t first, std::uint32_t last) {

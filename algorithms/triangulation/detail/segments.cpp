@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Defines the functions of FaceTriangulation that insert segments into a triangulation of the
-// points. Source: Sloan (1993).
+// points: the cells that a segment crosses are removed, and the polygons on its two sides are
+// triangulated by a Graham scan, which takes linear time as all their points see the segment.
+// Source: Avis and Toussaint (1982).
 #include <terrane/algorithms/triangulation/triangulation.hpp>
+
+#include <algorithm>
+#include <stdexcept>
 
 #include <terrane/algorithms/triangulation/detail/corners.hpp>
 
@@ -21,14 +26,14 @@ void FaceTriangulation::insert_segment(std::uint32_t segment) {
     auto [u, v] = segments_[segment];
     while (u != v) {
         Local reached = none;
-        if (!advance(u, v, reached)) remove_crossed(u, reached);
+        if (!advance(u, v, reached)) replace_crossed();
         if (frame_ != nullptr) segment_edges_.push_back({segment, {u, reached}});
         u = reached;
     }
 }
 
 // Searches the cells around u for the segment to v. Returns true if the edge from u to `reached`,
-// which is part of the segment, exists already; false if the edges now in crossed_ lie between u
+// which is part of the segment, exists already; false if the cells now in crossed_ lie between u
 // and `reached`.
 bool FaceTriangulation::advance(Local u, Local v, Local& reached) {
     // The search visits the cells counterclockwise, and from the border on clockwise, for the one
@@ -62,7 +67,7 @@ bool FaceTriangulation::advance(Local u, Local v, Local& reached) {
             return true;
         }
         if (right == Sign::Positive && left == Sign::Positive) {
-            collect_crossed(u, v, {cell, k}, reached);
+            cross(u, v, {cell, k}, reached);
             return false;
         }
         Local onward = clockwise ? c.n[previous(k)] : c.n[next(k)];
@@ -76,92 +81,106 @@ bool FaceTriangulation::advance(Local u, Local v, Local& reached) {
     }
 }
 
+FaceTriangulation::Rim FaceTriangulation::rim_at(Side s) const {
+    const Cell& c = cells_[s.cell];
+    const Local beyond = c.n[s.i];
+    return {{beyond, beyond == none ? 0 : index_in(beyond, s.cell)}, c.fixed[s.i]};
+}
+
 // Walks from u towards v across edges until a vertex lies on the segment, and returns it in
-// `reached`.
-void FaceTriangulation::collect_crossed(Local u, Local v, Side first, Local& reached) {
-    crossed_.clear();
-    Side s = first;
-    for (;;) {
-        const Cell& c = cells_[s.cell];
-        if (c.fixed[s.i]) throw std::logic_error("two segments of a triangle cross");
-        crossed_.push_back({c.v[next(s.i)], c.v[previous(s.i)]}); // right end, left end
-        const Local o = c.n[s.i];
+// `reached`. Lists the cells on the way and their outer edges on both sides.
+void FaceTriangulation::cross(Local u, Local v, Side first, Local& reached) {
+    const auto extend = [&](Polygon& polygon, Side s, Local to) {
+        polygon.rims.push_back(rim_at(s));
+        polygon.points.push_back(to);
+    };
+    const Cell& c = cells_[first.cell];
+    for (Polygon* polygon : {&left_, &right_}) polygon->start(u);
+    extend(left_, {first.cell, next(first.i)}, c.v[previous(first.i)]);
+    extend(right_, {first.cell, previous(first.i)}, c.v[next(first.i)]);
+    crossed_.assign(1, first.cell);
+    for (Side s = first;;) {
+        if (cells_[s.cell].fixed[s.i]) throw std::logic_error("two segments of a triangle cross");
+        const Local o = cells_[s.cell].n[s.i];
         const unsigned j = index_in(o, s.cell);
         const Local apex = cells_[o].v[j];
-        if (apex == v) {
-            reached = v;
-            return;
-        }
-        const Sign side = turn(u, v, apex);
+        const Sign side = apex == v ? Sign::Zero : turn(u, v, apex);
+        crossed_.push_back(o);
+        // In o = (apex, left end, right end) the walk continues across the edge through which the
+        // segment leaves the cell.
+        if (side != Sign::Negative) extend(left_, {o, previous(j)}, apex);
+        if (side != Sign::Positive) extend(right_, {o, next(j)}, apex);
         if (side == Sign::Zero) {
             reached = apex;
             return;
         }
-        // In o = (apex, left end, right end) the walk continues across the edge through which the
-        // segment leaves the cell.
         s = {o, side == Sign::Positive ? next(j) : previous(j)};
     }
 }
 
-bool FaceTriangulation::is_convex(Side s) const {
-    const Cell& c = cells_[s.cell];
-    const Local o = c.n[s.i];
-    const Local p = c.v[s.i], a = c.v[next(s.i)], b = c.v[previous(s.i)];
-    const Local q = cells_[o].v[index_in(o, s.cell)];
-    return turn(p, a, q) == Sign::Positive && turn(q, b, p) == Sign::Positive;
+// Makes new cells of the crossed ones, which meet along the segment and are Delaunay apart from it.
+void FaceTriangulation::replace_crossed() {
+    constexpr Local removed = none - 1;
+    for (const Local cell : crossed_) cells_[cell].v[0] = removed;
+    // Both sides of an edge may have been crossed. Its two new cells then find each other by its ends.
+    for (Polygon* polygon : {&left_, &right_})
+        for (Rim& rim : polygon->rims)
+            if (rim.beyond.cell != none && cells_[rim.beyond.cell].v[0] == removed)
+                rim.is_slit = true;
+    std::ranges::reverse(left_.points); // so that the polygon lies to the left of its edges, too
+    std::ranges::reverse(left_.rims);
+    slits_.clear();
+    const Side left = fill(left_), right = fill(right_);
+    join(left, {right, true});
+    legalise();
 }
 
-// Flips crossed edges until none crosses the segment (Sloan), then restores the Delaunay property
-// around the new edges.
-void FaceTriangulation::remove_crossed(Local u, Local v) {
-    const auto side_of = [&](const std::array<Local, 2>& e) {
-        // Finds a cell that has both ends; e[0] lies to the right of the segment, seen from u.
-        Local cell = cell_of_[e[0]];
-        const Local begin = cell;
-        bool clockwise = false;
-        for (;;) {
-            const auto& w = cells_[cell].v;
-            const unsigned k = w[0] == e[0] ? 0u : w[1] == e[0] ? 1u : 2u;
-            if (w[next(k)] == e[1]) return Side{cell, previous(k)};
-            if (w[previous(k)] == e[1]) return Side{cell, next(k)};
-            Local onward = clockwise ? cells_[cell].n[previous(k)] : cells_[cell].n[next(k)];
-            if (onward == none) {
-                clockwise = true;
-                const auto& first = cells_[begin].v;
-                const unsigned f = first[0] == e[0] ? 0u : first[1] == e[0] ? 1u : 2u;
-                onward = cells_[begin].n[previous(f)];
-            }
-            cell = onward;
+// Divides a polygon with the last edge from its last point to its first, which it sees from all of
+// its edges. Returns the side of the new cell at that edge.
+FaceTriangulation::Side FaceTriangulation::fill(Polygon& polygon) {
+    auto& [points, rims] = polygon;
+    std::size_t top = 0; // points up to this one are a stack, with their rims between them
+    for (std::size_t k = 1; k < points.size(); ++k) {
+        Rim rim = rims[k - 1];
+        for (; top > 0 && turn(points[top - 1], points[top], points[k]) == Sign::Positive; --top) {
+            const Local cell = crossed_.back();
+            crossed_.pop_back();
+            cells_[cell].v = {points[top - 1], points[top], points[k]};
+            for (const Local p : cells_[cell].v) cell_of_[p] = cell;
+            join({cell, 0}, rim);
+            join({cell, 2}, rims[top - 1]);
+            rim = {{cell, 1}, false};
+            legalise_later(rim.beyond);
         }
-    };
-    std::vector<std::array<Local, 2>> made;
-    std::size_t head = 0;
-    while (head < crossed_.size()) {
-        const auto e = crossed_[head++];
-        const Side s = side_of(e);
-        if (!is_convex(s)) {
-            crossed_.push_back(e);
-            continue;
-        }
-        flip(s);
-        const Local p = cells_[s.cell].v[0], q = cells_[s.cell].v[2];
-        const bool reaches = p == u || p == v || q == u || q == v;
-        if (reaches || turn(u, v, p) * turn(u, v, q) == Sign::Positive) {
-            made.push_back({p, q});
+        points[++top] = points[k];
+        rims[top - 1] = rim;
+    }
+    if (top != 1) throw std::logic_error("a segment is not seen from all that it crosses");
+    return rims[0].beyond;
+}
+
+// Makes two cells neighbours: that of s, and the one beyond the rim.
+void FaceTriangulation::join(Side s, Rim rim) {
+    Cell& c = cells_[s.cell];
+    if (rim.is_slit) {
+        const std::array ends{c.v[next(s.i)], c.v[previous(s.i)]};
+        const auto mate = std::ranges::find(slits_, std::array{ends[1], ends[0]}, &Slit::ends);
+        rim.is_slit = false;
+        rim.beyond = {none, 0};
+        if (mate == slits_.end()) {
+            slits_.push_back({ends, s});
         } else {
-            const bool p_left = turn(u, v, p) == Sign::Positive;
-            crossed_.push_back(p_left ? std::array{q, p} : std::array{p, q});
+            rim.beyond = mate->side;
+            *mate = slits_.back();
+            slits_.pop_back();
+            legalise_later(s);
         }
     }
-    for (const auto& e : made) {
-        const Side s = side_of(e);
-        const bool is_segment = (e[0] == u && e[1] == v) || (e[0] == v && e[1] == u);
-        if (is_segment)
-            fix(s);
-        else
-            legalise_later(s);
-    }
-    legalise();
+    c.n[s.i] = rim.beyond.cell;
+    c.fixed[s.i] = rim.fixed;
+    if (rim.beyond.cell == none) return;
+    cells_[rim.beyond.cell].n[rim.beyond.i] = s.cell;
+    cells_[rim.beyond.cell].fixed[rim.beyond.i] = rim.fixed;
 }
 
 } // namespace terrane
