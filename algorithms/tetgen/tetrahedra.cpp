@@ -68,6 +68,8 @@ Status check_options(const TetrahedraOptions& options) {
     if (ratio && !(std::isfinite(*ratio) && *ratio >= constants.least_ratio))
         return bad_option(fmt::format("radius_edge_ratio must be at least {}, not {}",
                                       constants.least_ratio, *ratio));
+    if (options.split_surfaces && !ratio && options.mesher != Mesher::gmsh)
+        return bad_option("split_surfaces changes nothing without a bound of shapes");
     if (!(options.time_limit > 0)) return bad_option("time_limit must be positive");
     if (options.mesher == Mesher::gmsh && !sizes_for_gmsh(options))
         return bad_option("Gmsh has no sizes of single blocks or surfaces, and divides no surface");

@@ -57,8 +57,8 @@ struct TetrahedraOptions {
                                                ///< tetrahedra as possible
     std::optional<double> radius_edge_ratio{}; ///< TetGen's quality bound (>= 1.1); none: no bound,
                                                ///< or 2 with any size
-    bool split_surfaces = false; ///< triangles may be divided for radius_edge_ratio. Any size
-                                 ///< allows it, too
+    bool split_surfaces = false; ///< triangles may be divided for radius_edge_ratio, which must be
+                                 ///< given. Any size allows it, too
     std::optional<double> max_volume{};       ///< largest volume of a tetrahedron, cubic unit
     std::vector<BlockSize> block_sizes{};     ///< instead of edge_length and max_volume there
     std::vector<SurfaceSize> surface_sizes{}; ///< where they are less than any other size there

@@ -31,7 +31,7 @@ BASES = {
     "arrange": "top.ts fault.ts -o out.stl", "volume": f"top.ts base.ts fault.ts -o out {BOX}",
     "tetrahedralize": f"top.ts -o out.vtu {BOX}", "improve": "top.ts fault.ts -o out.stl --edge-length=300",
     "build": "project.json -o out", "ensemble": "project.json -o out --realisations=2 --grid=5 --engine=serial",
-    "check": "top.ts fault.ts", "fill": "fold.ts -o out.stl", "layer": "--hard=salt.ts --soft=shale.ts --keep=upper -o out.stl",
+    "check": "top.ts fault.ts", "fill": "dish.obj -o out.stl", "layer": "--hard=salt.ts --soft=shale.ts --keep=upper -o out.stl",
     "report": f"top.ts fault.ts -o out.html {BOX}", "view": f"top.ts fault.ts {BOX}", "convert": "top.ts out.stl",
     "verify": "certificate.json", "completion": "bash", "manual": "arrange"}
 #: Commands that are not run, with the reason; their options are only refused.
@@ -57,8 +57,8 @@ SENSE = {
     "--split": ("top", ""), "--blocks-only": ("", "BASE=body.ts -o out.vtu"), "--quality": ("1.3", ""), "--split-surfaces": ("", "--quality=1.3"),
     "--curve-length": ("80", ""), "--histogram": ("h.svg", ""), "--realisations": ("3", ""), "--seed": ("7", ""),
     "--contact": ("-1000", ""), "--only": ("1", "BASE=project.json -o out"), "--json": ("", ""), "--method": ("rbf", ""),
-    "--model": ("gaussian", ""), "--isotropic": ("", ""), "--smoothing": ("3", "--method=rbf"), "--mesh-size": ("90", ""),
-    "--rings": ("3", ""), "--holes": ("1", ""), "--max-area": ("1", ""), "--list": ("", "BASE=fold.ts"), "--map": ("m.svg", ""),
+    "--model": ("gaussian", ""), "--isotropic": ("", ""), "--smoothing": ("3", "--method=rbf"), "--mesh-size": ("9", ""),
+    "--rings": ("1", ""), "--holes": ("1", ""), "--max-area": ("1", ""), "--list": ("", "BASE=fold.ts"), "--map": ("m.svg", ""),
     "--points": ("p.csv", ""), "--keep": ("lower", ""), "--min-thickness": ("5", ""),
     "--layer": ("salt=2", "BASE=salt.ts shale.ts -o out.stl --layer=shale=1")}
 #: The same option of another command.
@@ -69,6 +69,8 @@ ALSO = {("ensemble", "--grid"): ("7", ""), ("layer", "--certificate"): ("c.json"
         ("fill", "--depth"): ("", "IN=seabed.asc"), ("improve", "--edge-length"): ("150", "BASE=top.ts fault.ts -o out.stl"),
         ("layer", "--min-thickness"): ("5", "BASE=salt.ts shale.ts -o out.stl --layer=shale=1 --layer=salt=2"),
         ("layer", "--depth"): None, ("layer", "--max-edge"): None, ("verify", "--depth"): None, ("verify", "--max-edge"): None,
+        ("volume", "--seal-plot"): ("p.svg", f"BASE=top.ts base.ts fault.ts {BOX} --suggest-seal"),
+        ("volume", "--grid"): ("grid.grdecl", "--cells=cells.grdecl"),
         ("fill", "--max-edge"): None, ("tetrahedralize", "--seal"): None, ("report", "--seal"): None, ("view", "--seal"): None,
         ("tetrahedralize", "--column"): None, ("fill", "--model"): None, ("fill", "--isotropic"): None,
         ("build", "--report"): ("r.html", ""), ("check", "--depth"): None, ("fill", "--holes"): None}
@@ -77,7 +79,7 @@ NONSENSE = ["", "nonsense", "-1", "nan", "inf", "-inf", "1e999", "99999999999999
 VOLUMES = ("--rotated-box", "--polygon", "--between", "--within")
 #: Limits that large numbers do not reach.
 LIMITS = {"--rounds", "--max-move", "--max-volume-change", "--max-triangles", "--max-deviation", "--max-change", "--time-limit",
-          "--max-area", "--smallest", "--growth", "--curve-length", "--turn", "--thickness-share", "--least-quality", "--max-edge", "--rings", "--max-volume", "--retries"}
+          "--max-area", "--smallest", "--growth", "--curve-length", "--turn", "--thickness-share", "--least-quality", "--max-edge", "--rings", "--mesh-size", "--gap-slope", "--max-volume", "--retries"}
 
 
 class Program:
@@ -112,6 +114,10 @@ class Program:
             "volume_of_interest": {"box": {"low": [0, 0, -1700], "high": [2000, 1500, -700]}},
             "uncertainty": [{"surface": "top", "shift": 5}]}))
         (self.inputs / "grid.grdecl").write_text(GRID)
+        corners = [(i, j) for i in range(13) for j in range(13)]
+        squares = [13 * i + j + 1 for i, j in corners if i < 12 and j < 12 and not (4 < i < 8 and 4 < j < 8)]
+        (self.inputs / "dish.obj").write_text("".join(f"v {10 * i} {10 * j} {(i - 6) ** 2 + i * j % 5}\n" for i, j in corners) + "".join(
+            f"f {s} {s + 13} {s + 14}\nf {s} {s + 14} {s + 1}\n" for s in squares))
         subprocess.run([self.program, "arrange", "top.ts", "fault.ts", "-o", "arranged.obj", "--certificate", "certificate.json"],
                        cwd=self.inputs, check=True, capture_output=True)
 
@@ -158,7 +164,7 @@ def base_of(command, needs):
     if needs.startswith("OUT="):
         return [command, *re.sub(r"\bout\.\w+", needs[4:], words).split()]
     if needs.startswith("IN="):
-        return [command, needs[3:], *[w for w in words.split() if not w.endswith(".ts") and not w.startswith("--box")]]
+        return [command, needs[3:], *[w for w in words.split() if not w.endswith((".ts", ".obj")) and not w.startswith("--box")]]
     return [command, *words.split(), *needs.split()]
 
 
