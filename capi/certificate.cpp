@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,8 +12,7 @@
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
-#include <terrane/io/block_certificate.hpp>
-#include <terrane/io/certificate.hpp>
+#include <terrane/io/certify.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/model_folder.hpp>
 #include <terrane/io/text/utf8.hpp>
@@ -28,28 +26,13 @@ Error unfit(const char* sentence, const char* member) {
     return {ErrorCode::bad_option, sentence, std::string("certified.") + member};
 }
 
-Result<std::string> name_in(const fs::path& certificate, const char* path) {
-    const fs::path file = needed_file(path);
-    auto name = certified_name(file, certificate);
-    if (!terrane::detail::is_utf8(name))
-        return Error{ErrorCode::bad_option,
-                     "a certificate cannot name this file, as its path is not UTF-8",
-                     file.string()};
-    return name;
-}
-
-Result<std::vector<InputRecord>> records_of(const terrane_input_file* files, std::size_t count,
-                                            const char* member, const fs::path& certificate) {
+std::vector<SourceFile> files_of(const terrane_input_file* files, std::size_t count,
+                                 const char* member) {
     need_array(files, count, member);
-    std::vector<InputRecord> records;
-    for (const terrane_input_file& file : std::span(files, count)) {
-        auto name = name_in(certificate, file.path);
-        if (!name) return name.error();
-        auto record = record_input(file.path, *std::move(name), file.surface_count);
-        if (!record) return record.error();
-        records.push_back(*std::move(record));
-    }
-    return records;
+    std::vector<SourceFile> sources;
+    for (const terrane_input_file& file : std::span(files, count))
+        sources.push_back({needed_file(file.path), file.surface_count});
+    return sources;
 }
 
 /// Returns the name of an output's format in certificates.
@@ -68,46 +51,27 @@ Result<std::string> format_in(const terrane_output_file& file) {
     return name;
 }
 
-Result<OutputRecord> output_of(const char* path, std::string format,
-                               const std::vector<SurfaceInfo>& surfaces,
-                               const fs::path& certificate) {
-    auto name = name_in(certificate, path);
-    if (!name) return name.error();
-    const auto contents = read_file(path);
-    if (!contents) return contents.error();
-    return record_output(*contents, *std::move(name), std::move(format), surfaces);
-}
-
-Result<std::vector<OutputRecord>> outputs_of(const terrane_certified& given,
-                                             const std::vector<SurfaceInfo>& surfaces,
-                                             const fs::path& certificate) {
+Result<std::vector<ResultFile>> outputs_of(const terrane_certified& given) {
     need_array(given.outputs, given.output_count, "certified.outputs");
-    std::vector<OutputRecord> records;
+    std::vector<ResultFile> files;
     if (given.model_folder)
-        for (const ModelFile& file : model_files(
-                 given.model->model, given.part_format ? given.part_format : automatic_parts)) {
-            auto record = output_of((fs::path(given.model_folder) / file.path).c_str(), file.format,
-                                    surfaces, certificate);
-            if (!record) return record.error();
-            records.push_back(*std::move(record));
-        }
+        files = terrane::outputs_of(given.model->model, given.model_folder,
+                                    given.part_format ? given.part_format : automatic_parts);
     for (const terrane_output_file& file : std::span(given.outputs, given.output_count)) {
         auto format = format_in(file);
         if (!format) return format.error();
-        auto record = output_of(file.path, *std::move(format), surfaces, certificate);
-        if (!record) return record.error();
-        records.push_back(*std::move(record));
+        files.push_back({file.path, *std::move(format)});
     }
-    return records;
+    return files;
 }
 
 /// Checks what a certificate states of the surfaces, of which the last ones are the boundary.
 Status check_surfaces(const terrane_certified& given, std::span<const Surface> surfaces,
-                      std::span<const InputRecord> inputs) {
+                      std::span<const SourceFile> inputs) {
     if (given.boundary_count > surfaces.size())
         return unfit("is more than there are surfaces", "boundary_count");
     std::size_t read = given.boundary_count;
-    for (const InputRecord& file : inputs) {
+    for (const SourceFile& file : inputs) {
         if (file.surfaces > surfaces.size() - read)
             return unfit("have more surfaces than `surfaces`", "inputs");
         read += file.surfaces;
@@ -140,32 +104,27 @@ Status check_arranged(const terrane_arrangement& arrangement, const terrane_mesh
     return Done{};
 }
 
-/// Returns the volume of interest; none without a boundary.
-Result<std::optional<VolumeRecord>> volume_of(const terrane_certified& given,
-                                              const fs::path& certificate) {
-    if (given.boundary_count == 0) return std::optional<VolumeRecord>();
-    need_array(given.corners, given.corner_count, "certified.corners");
+/// Returns the volume of interest; monostate without a boundary.
+Result<ProjectVolume> volume_of(const terrane_certified& given) {
+    if (given.boundary_count == 0) return ProjectVolume();
     if (given.corner_count > 0) {
-        VolumeRecord prism;
+        ProjectPolygon prism{{}, {given.low, given.high}};
         for (std::size_t c = 0; c < given.corner_count; ++c)
             prism.corners.push_back({given.corners[2 * c], given.corners[2 * c + 1]});
-        if (prism.corners.front() == prism.corners.back()) prism.corners.pop_back();
-        prism.between = {std::min(given.low, given.high), std::max(given.low, given.high)};
-        return std::optional(std::move(prism));
+        return ProjectVolume(std::move(prism));
     }
-    VolumeRecord record{given.volume_file_count > 0 ? "surface" : "hexahedron"};
-    auto files = records_of(given.volume_files, given.volume_file_count, "certified.volume_files",
-                            certificate);
-    if (!files) return files.error();
-    record.files = *std::move(files);
-    for (std::size_t f = 0; f < record.files.size(); ++f) {
-        auto read = read_surfaces(given.volume_files[f].path);
+    const auto files =
+        files_of(given.volume_files, given.volume_file_count, "certified.volume_files");
+    if (files.empty()) return ProjectVolume(RotatedBox{});
+    ProjectWithin within;
+    for (const SourceFile& source : files) {
+        const auto read = read_surfaces(source.file);
         if (!read) return read.error();
-        if (read->size() != record.files[f].surfaces)
+        if (read->size() != source.surfaces)
             return unfit("have another number of surfaces than is stated", "volume_files");
-        std::ranges::move(*read, std::back_inserter(record.surfaces));
+        within.files.push_back(source.file);
     }
-    return std::optional(std::move(record));
+    return ProjectVolume(std::move(within));
 }
 
 /// Returns what was added to the surfaces of the inputs.
@@ -184,14 +143,6 @@ Result<std::vector<SurfaceGrowth>> growth_of(const terrane_certified& given,
         growth.push_back({own, extended});
     }
     return growth;
-}
-
-/// Returns the surfaces as the output files call them.
-const std::vector<SurfaceInfo>& names_of(const terrane_certified& given,
-                                         const terrane_mesh& rounded) {
-    if (given.tetrahedra) return given.tetrahedra->filled.tetrahedra.surfaces;
-    if (given.model) return given.model->model.mesh->surfaces;
-    return given.improved ? given.improved->improved.mesh->surfaces : rounded.mesh->surfaces;
 }
 
 /// Checks that the handles which were made of the rounded mesh are of this one.
@@ -214,71 +165,49 @@ Status check_made(const terrane_certified& given, const terrane_mesh& rounded) {
     return Done{};
 }
 
-/// Makes the text of what has a rounded mesh.
-Result<std::string> arranged_text(const terrane_certified& given, const fs::path& path,
-                                  std::span<const InputRecord> inputs, const Run& run) {
+/// Adds what has a rounded mesh; `growth` is kept by the caller.
+Status add_arranged(const terrane_certified& given, std::vector<SurfaceGrowth>& growth,
+                    CertifiedResult& result) {
     const auto& arrangement = needed(given.arrangement, "certified.arrangement");
     const auto& rounded = needed(given.rounded, "certified.rounded");
-    const std::span<const Surface> surfaces = given.surfaces->list;
-    if (auto fit = check_arranged(arrangement, rounded, surfaces); !fit) return fit.error();
-    if (auto fit = check_made(given, rounded); !fit) return fit.error();
-    const auto outputs = outputs_of(given, names_of(given, rounded), path);
-    if (!outputs) return outputs.error();
-    const auto volume = volume_of(given, path);
+    if (auto fit = check_arranged(arrangement, rounded, result.surfaces); !fit) return fit;
+    if (auto fit = check_made(given, rounded); !fit) return fit;
+    auto volume = volume_of(given);
     if (!volume) return volume.error();
-    const auto growth = growth_of(given, surfaces);
-    if (!growth) return growth.error();
-    Certified certified{inputs, surfaces, *arrangement.exact, &*rounded.rounded, *outputs};
-    const CutRecord record{*volume ? &**volume : nullptr, given.boundary_count, *growth};
-    const bool is_changed = *volume || !growth->empty();
-    std::optional<CutSections> sections;
-    if (is_changed && !given.model && !given.improved)
-        return to_cut_certificate(certified, record, {}, run);
-    if (is_changed) {
-        auto made = cut_sections(certified, record, {}, run);
-        if (!made) return made.error();
-        certified.cut = &sections.emplace(*std::move(made));
-    }
-    if (given.improved)
-        return to_improved_certificate(certified, given.improved->improved.mesh,
-                                       given.improved->improved.report.bound_of, run);
-    if (!given.model) return to_certificate(certified, run);
-    const Model& model = given.model->model;
-    const CertifiedBlocks blocks{model.volumes, model.block_count()};
-    return given.tetrahedra
-               ? to_certificate(certified, blocks, given.tetrahedra->filled.tetrahedra, run)
-               : to_certificate(certified, blocks, run);
+    auto grown = growth_of(given, result.surfaces);
+    if (!grown) return grown.error();
+    growth = *std::move(grown);
+    result.exact = &*arrangement.exact;
+    result.rounded = &*rounded.rounded;
+    if (given.improved) result.improved = &given.improved->improved;
+    if (given.model) result.model = &given.model->model;
+    if (given.tetrahedra) result.tetrahedra = &given.tetrahedra->filled.tetrahedra;
+    result.volume = *std::move(volume);
+    result.boundary_count = given.boundary_count;
+    result.growth = growth;
+    return Done{};
 }
 
-Result<std::string> filled_text(const terrane_certified& given, const fs::path& path,
-                                std::span<const InputRecord> inputs) {
+Status add_filled(const terrane_certified& given, CertifiedResult& result) {
     const terrane_holes& holes = needed(given.holes, "certified.holes");
-    const std::span<const Surface> surfaces = given.surfaces->list;
-    if (holes.work.surfaces.size() != surfaces.size())
+    if (holes.work.surfaces.size() != result.surfaces.size())
         return unfit("need a task for each of `surfaces`", "holes");
-    std::vector<SurfaceInfo> infos;
-    std::vector<FilledRecord> filled;
-    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    for (std::size_t s = 0; s < result.surfaces.size(); ++s) {
         const HoledSurface& done = holes.work.surfaces[s];
-        const Surface& made = holes.surfaces.list[s];
-        if (done.task.surface != s || done.given_triangles != surfaces[s].triangles.size())
+        if (done.task.surface != s || done.given_triangles != result.surfaces[s].triangles.size())
             return unfit("are not those of `surfaces`, in their order", "holes");
-        infos.push_back({made.name, made.role});
-        filled.push_back(
-            {&made, done.given_vertices, done.given_triangles, done.invented, done.deviation});
+        result.filled.push_back({&holes.surfaces.list[s], done.given_vertices, done.given_triangles,
+                                 done.invented, done.deviation});
     }
-    const auto outputs = outputs_of(given, infos, path);
-    if (!outputs) return outputs.error();
-    return to_filled_certificate(inputs, surfaces, *outputs, filled);
+    return Done{};
 }
 
-Result<std::string> layered_text(const terrane_certified& given, const fs::path& path,
-                                 std::span<const InputRecord> inputs) {
+/// Adds a stack; `order` is kept by the caller.
+Status add_layered(const terrane_certified& given, std::vector<Layer>& order,
+                   CertifiedResult& result) {
     const Layered& layered = needed(given.layered, "certified.layered").layered;
     if (!layered.is_stack())
         return Error{ErrorCode::improper_contact, "the layers are no stack", "certified.layered"};
-    need_array(given.layers, given.layer_count, "certified.layers");
-    std::vector<Layer> order;
     for (const terrane_layer& layer : std::span(given.layers, given.layer_count))
         order.push_back({SurfaceId(layer.surface), layer.hardness});
     const auto fits = [](const Layer& layer, const LayerReport& report) {
@@ -286,9 +215,9 @@ Result<std::string> layered_text(const terrane_certified& given, const fs::path&
     };
     if (!std::ranges::equal(order, layered.reports, fits))
         return unfit("are not those of the stack", "layers");
-    const auto outputs = outputs_of(given, layered.rounded.mesh->surfaces, path);
-    if (!outputs) return outputs.error();
-    return to_layered_certificate(inputs, given.surfaces->list, *outputs, order, layered);
+    result.layered = &layered;
+    result.order = order;
+    return Done{};
 }
 
 /// Refuses members that would be ignored.
@@ -304,18 +233,25 @@ Status check_use(const terrane_certified& given) {
 
 Result<std::string> text_of(const terrane_certified& given, const fs::path& path, const Run& run) {
     if (const auto used = check_use(given); !used) return used.error();
-    const std::span<const Surface> surfaces = needed(given.surfaces, "certified.surfaces").list;
-    const auto inputs = records_of(given.inputs, given.input_count, "certified.inputs", path);
-    if (!inputs) return inputs.error();
-    if (auto fit = check_surfaces(given, surfaces, *inputs); !fit) return fit.error();
+    CertifiedResult result;
+    result.surfaces = needed(given.surfaces, "certified.surfaces").list;
+    result.inputs = files_of(given.inputs, given.input_count, "certified.inputs");
+    if (auto fit = check_surfaces(given, result.surfaces, result.inputs); !fit) return fit.error();
     if (given.holes && given.layered) return unfit("a certificate is about one result", "layered");
     if (given.model_folder && !given.model) return unfit("needs the model", "model_folder");
-    if (given.holes || given.layered) {
-        if (given.boundary_count > 0 || given.growth_count > 0)
-            return unfit("filled surfaces and layers have no volume of interest", "boundary_count");
-        return given.holes ? filled_text(given, path, *inputs) : layered_text(given, path, *inputs);
-    }
-    return arranged_text(given, path, *inputs, run);
+    const bool is_rounded = !given.holes && !given.layered;
+    if (!is_rounded && (given.boundary_count > 0 || given.growth_count > 0))
+        return unfit("filled surfaces and layers have no volume of interest", "boundary_count");
+    std::vector<SurfaceGrowth> growth;
+    std::vector<Layer> order;
+    const auto added = given.holes     ? add_filled(given, result)
+                       : given.layered ? add_layered(given, order, result)
+                                       : add_arranged(given, growth, result);
+    if (!added) return added.error();
+    auto outputs = outputs_of(given);
+    if (!outputs) return outputs.error();
+    result.outputs = *std::move(outputs);
+    return certify(result, path, run);
 }
 
 } // namespace

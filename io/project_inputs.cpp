@@ -11,6 +11,7 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/io/text/units.hpp>
 
 namespace terrane {
 namespace {
@@ -77,9 +78,19 @@ Result<std::vector<Surface>> boundary_within(const ProjectWithin& within, const 
     return closed_boundary(all, run);
 }
 
-/// The boundary of the volume of interest; empty where the project has none.
-Result<std::vector<Surface>> boundary_of(const Project& project, const Run& run) {
-    auto made = std::visit(
+/// Says at which key an error about the volume of interest arose, unless it is about a file.
+Error at_volume(const Project& project, Error error) {
+    const bool has_files = std::holds_alternative<ProjectWithin>(project.volume);
+    if (!has_files || error.place.empty())
+        error.place = place_of_key(project, "volume_of_interest");
+    return error;
+}
+
+} // namespace
+
+Result<std::vector<Surface>> boundary_of(const ProjectVolume& wanted, const std::string& unit,
+                                         const Run& run) {
+    return std::visit(
         [&](const auto& volume) -> Result<std::vector<Surface>> {
             using Volume = std::decay_t<decltype(volume)>;
             if constexpr (std::is_same_v<Volume, ProjectBox>)
@@ -89,19 +100,12 @@ Result<std::vector<Surface>> boundary_of(const Project& project, const Run& run)
             else if constexpr (std::is_same_v<Volume, ProjectPolygon>)
                 return polygon_boundary(volume.corners, volume.between[0], volume.between[1]);
             else if constexpr (std::is_same_v<Volume, ProjectWithin>)
-                return boundary_within(volume, project.unit, run);
+                return boundary_within(volume, unit, run);
             else
                 return std::vector<Surface>();
         },
-        project.volume);
-    const bool has_files = std::holds_alternative<ProjectWithin>(project.volume);
-    if (made || (has_files && !made.error().place.empty())) return made;
-    Error error = made.error();
-    error.place = place_of_key(project, "volume_of_interest");
-    return error;
+        wanted);
 }
-
-} // namespace
 
 std::vector<std::filesystem::path> named_files(const Project& project) {
     std::vector<std::filesystem::path> files;
@@ -134,8 +138,9 @@ Result<ProjectInputs> read_inputs(const Project& project, const Run& run) {
         }
         if (std::max(read.vertices, read.triangles) >= UINT32_MAX)
             return Error{ErrorCode::unsupported, "more than 4294967294 vertices or triangles", ""};
-        auto boundary = boundary_of(project, run);
-        if (!boundary) return boundary.error();
+        read.unit = detail::common_unit(read.build.surfaces);
+        auto boundary = boundary_of(project.volume, project.unit, run);
+        if (!boundary) return at_volume(project, boundary.error());
         read.build.boundary = std::move(*boundary);
         return read;
     });

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
@@ -20,9 +21,16 @@ struct ProjectInputs {
     BuildInput build;                             ///< the input of terrane::build
     std::vector<SurfaceInfo> as_read{};           ///< per surface: name and role in its file
     std::vector<std::size_t> surfaces_of_entry{}; ///< per entry of "surfaces": how many
+    std::string unit{};                           ///< of all coordinates, where files state one
     std::size_t vertices = 0,                     ///< number in all surfaces
         triangles = 0;                            ///< number in all surfaces
 };
+
+/// Makes the boundary of a volume of interest; empty where there is none. Coordinates of files are
+/// converted to `unit`, unless that is empty. Errors: those of read_surfaces and of the makers in
+/// boundary_surfaces.hpp.
+Result<std::vector<Surface>> boundary_of(const ProjectVolume& volume, const std::string& unit,
+                                         const Run& run = {});
 
 /// Returns the files that a project names: of surfaces, of its volume of interest, and maps of how
 /// uncertain they are.

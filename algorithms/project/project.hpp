@@ -47,6 +47,10 @@ struct ProjectWithin {
     std::vector<std::filesystem::path> files; ///< >= 1
 };
 
+/// A volume of interest; monostate: there is none.
+using ProjectVolume =
+    std::variant<std::monostate, ProjectBox, RotatedBox, ProjectPolygon, ProjectWithin>;
+
 /// Filling the holes of a surface, which is the first step (holes.hpp, fill_kriging.hpp, rbf.hpp).
 struct ProjectFill {
     std::string surface{};             ///< name of a surface, or "horizon" for all of that role
@@ -159,8 +163,7 @@ struct Project {
     std::string source{};                    ///< the project file, for messages; empty: none
     std::filesystem::path folder{};          ///< of the results; empty: not stated
     std::vector<ProjectSurfaces> surfaces{}; ///< >= 1
-    std::variant<std::monostate, ProjectBox, RotatedBox, ProjectPolygon, ProjectWithin>
-        volume{};                          ///< the volume of interest
+    ProjectVolume volume{};                ///< the volume of interest
     std::string unit{};                    ///< coordinates whose file states their unit are
                                            ///< converted to this one; empty: they stay
     StratigraphicColumn column{};          ///< empty: none

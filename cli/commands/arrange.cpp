@@ -41,6 +41,24 @@ Status check_certificate(const ArrangeCommand& command) {
     return check_certified_names(command.proof.certificate, command.settings.volume.within);
 }
 
+/// Writes the certificate and the exact coordinates, if they are wanted. Rounded coordinates need not
+/// be conforming, as the exact result holds anyway.
+Status write_proof(const ArrangeCommand& command, const Inputs& inputs, const Arranged& arranged,
+                   const std::vector<Output>& outputs, Session& session) {
+    std::FILE* const told = summary_stream(command.files);
+    if (!command.proof.certificate.empty()) {
+        auto result =
+            certified_arrangement(command.files.inputs, inputs, command.settings, arranged);
+        if (!result) return result.error();
+        auto files = certified_outputs(outputs, arranged.rounded.mesh, command.files.ascii);
+        if (!files) return files.error();
+        result->outputs = *std::move(files);
+        if (auto done = write_certificate(command.proof.certificate, *result, told, session); !done)
+            return done;
+    }
+    return write_exact(command.proof, arranged.exact, told, session);
+}
+
 Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session) {
     if (command.blockwise.digest)
         return usage("it needs --memory; a certificate has the digest, too", "--digest");
@@ -85,12 +103,10 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
     if (!keep)
         print(stderr, complaint(std::string(proves ? "the mesh is not" : "nothing") +
                                 " written (see --keep-unverified)"));
-    const ProofFiles certified{files.inputs, keep ? outputs.value() : std::vector<Output>(),
-                               files.ascii, summary_stream(files),
-                               cut_request(command.settings, *arranged)};
-    const auto proved =
-        write_proof(command.proof, certified, inputs.value(), arranged.value(), session);
-    if (!proved) return proved.error();
+    if (const auto proved = write_proof(command, *inputs, *arranged,
+                                        keep ? outputs.value() : std::vector<Output>(), session);
+        !proved)
+        return proved.error();
     add_page_certificate(*page, files, command.proof.certificate, true, session);
     return write_run(*page, statistics, files, session, clean);
 }

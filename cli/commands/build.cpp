@@ -11,7 +11,6 @@
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
-#include <terrane/algorithms/volumes/region_points.hpp>
 #include <terrane/cli/commands/build_help.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/commands/file_options.hpp>
@@ -22,7 +21,6 @@
 #include <terrane/cli/reports/resolution_report.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
 #include <terrane/cli/session/journal.hpp>
-#include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/blocks.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/kept_stages.hpp>
@@ -32,10 +30,9 @@
 #include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
-#include <terrane/io/gocad/gocad_model.hpp>
-#include <terrane/io/model_folder.hpp>
 #include <terrane/io/project.hpp>
 #include <terrane/io/project_inputs.hpp>
+#include <terrane/io/results.hpp>
 
 namespace terrane::cli {
 
@@ -52,9 +49,6 @@ struct BuildCommand {
     bool strict = false; ///< warnings about the inputs are errors
     bool resume = false; ///< stages that take long are kept until the run ends well
 };
-
-constexpr const char* blocks_certificate = "certificate_blocks.json";
-constexpr const char* tetrahedra_certificate = "certificate_tetrahedra.json";
 
 /// Returns the paths of the input files, one per entry of "surfaces".
 std::vector<std::string> surface_files(const Project& project) {
@@ -122,11 +116,7 @@ private:
         if (folder_.empty())
             return Error{ErrorCode::bad_option, "the key folder is missing, and there is no -o",
                          source_};
-        for (std::size_t i = 0; i < project_.surfaces.size(); ++i)
-            if (project_.outputs.certificate && !project_.surfaces[i].objects.empty())
-                return Error{ErrorCode::bad_option,
-                             "a certificate is about whole files, not about some of their objects",
-                             fmt::format("{}: surfaces[{}].objects", source_, i)};
+        if (auto possible = check_certifiable(project_); !possible) return possible;
         if (project_.outputs.certificate) {
             auto certified = surface_files(project_);
             if (const auto* within = std::get_if<ProjectWithin>(&project_.volume))
@@ -296,8 +286,7 @@ private:
         if (!folder) return folder.error();
         const fs::path& to = folder.value().temporary();
         for (const auto step :
-             {&Build::write_surfaces, &Build::write_cells, &Build::write_blocks,
-              &Build::write_gocad, &Build::write_invented, &Build::write_certificates}) {
+             {&Build::write_outputs, &Build::write_invented, &Build::write_certificates}) {
             if (auto done = (this->*step)(to); !done) return done;
             if (session_.stopped()) return Error{ErrorCode::interrupted, "", ""};
         }
@@ -317,59 +306,21 @@ private:
         return published;
     }
 
-    Status write_surfaces(const fs::path& to) {
-        WriteOptions options;
-        options.ascii = true; // binary STL would round the checked coordinates
-        std::vector<RegionPoint> points;
-        for (const std::string& format : project_.outputs.surfaces) {
-            options.format = format_named(format);
-            if (points.empty() && (format == "poly" || format == "smesh")) {
-                auto found =
-                    region_points(built_.model->mesh, built_.model->volumes, session_.run());
-                if (!found) return found.error();
-                points = std::move(found).value();
-                options.regions = points;
-            }
-            written_.push_back(file_name("surfaces", format));
-            if (auto done = write_mesh(built_.model->mesh, to / written_.back(), options); !done)
-                return done;
-        }
+    /// Returns what was built. It refers to this object.
+    [[nodiscard]] Results results() const {
+        return {project_,
+                *built_.model,
+                built_.filled ? &*built_.filled : nullptr,
+                built_.arranged.sealed,
+                leaks_,
+                inputs_.unit};
+    }
+
+    Status write_outputs(const fs::path& to) {
+        const auto written = write_results(results(), to, session_.run());
+        if (!written) return written.error();
+        written_.insert(written_.end(), written->begin(), written->end());
         return Done{};
-    }
-
-    Status write_cells(const fs::path& to) {
-        if (!built_.filled) return Done{};
-        WriteOptions options;
-        options.region_names = built_.filled->block_names;
-        options.order = project_.tetrahedra.order;
-        for (const std::string& format : project_.outputs.tetrahedra) {
-            options.format = format_named(format);
-            const auto files = write_tetrahedra_files(
-                built_.filled->tetrahedra, to / file_name("tetrahedra", format), options);
-            if (!files) return files.error();
-            for (const fs::path& file : *files) written_.push_back(file.filename().string());
-        }
-        return Done{};
-    }
-
-    Status write_blocks(const fs::path& to) {
-        if (project_.outputs.blocks.empty()) return Done{};
-        std::error_code failed;
-        fs::create_directory(to / "model", failed);
-        if (failed)
-            return Error{ErrorCode::cannot_open, "cannot be made: " + failed.message(),
-                         (folder_ / "model").string()};
-        written_.emplace_back("model/");
-        return write_model_files({*built_.model, built_.arranged.sealed, leaks_},
-                                 project_.outputs.blocks, to / "model", session_.run());
-    }
-
-    Status write_gocad(const fs::path& to) {
-        if (!project_.outputs.gocad) return Done{};
-        const Model& model = *built_.model;
-        written_.emplace_back("model.ml");
-        return write_file(to / "model.ml", to_gocad_model(model.mesh, model.volumes,
-                                                          model.structure, "model", inputs_.unit));
     }
 
     Status write_invented(const fs::path& to) {
@@ -380,62 +331,15 @@ private:
         return write_file(to / "filled.svg", map_of(*built_.preprocessed.filled));
     }
 
-    /// Writes a certificate of the surfaces, one of the blocks and one of the tetrahedra, as far as
-    /// the project asks for their files.
     Status write_certificates(const fs::path& to) {
-        if (!project_.outputs.certificate) return Done{};
-        Arranged& arranged = built_.arranged; // the verifier reads the files, not the project
-        for (std::size_t s = 0; s < read_.as_read.size(); ++s) {
-            arranged.surfaces[s].name = read_.as_read[s].name;
-            arranged.surfaces[s].role = read_.as_read[s].role;
+        const auto written =
+            terrane::write_certificates(results(), read_, built_.arranged, to, session_.run());
+        if (!written) return written.error();
+        for (const WrittenCertificate& c : *written) {
+            warn_of_deviation(c.name, c.deviation, built_.arranged.surfaces);
+            written_.push_back(c.name);
         }
-        const auto path = [&](const char* name) { return (to / name).string(); };
-        const auto cut = request_of_cut();
-        const ProofFiles certified{surface_files(project_),
-                                   outputs_in(to, "surfaces", project_.outputs.surfaces), true,
-                                   stdout, cut};
-        if (auto done = write_certificate(
-                to, "certificate.json",
-                certificate_text(path("certificate.json"), certified, inputs_, arranged, session_));
-            !done)
-            return done;
-        FileOptions files_of_inputs;
-        files_of_inputs.inputs = surface_files(project_);
-        const auto proof = [&](const char* name) {
-            return BlockProof{path(name), files_of_inputs, inputs_, {}, arranged, cut};
-        };
-        if (!project_.outputs.blocks.empty())
-            if (auto done = write_certificate(to, blocks_certificate,
-                                              certificate_text(proof(blocks_certificate),
-                                                               *built_.model, to / "model",
-                                                               project_.outputs.blocks, session_));
-                !done)
-                return done;
-        if (!built_.filled) return Done{};
-        return write_certificate(
-            to, tetrahedra_certificate,
-            certificate_text(proof(tetrahedra_certificate), *built_.model,
-                             built_.filled->tetrahedra,
-                             outputs_in(to, "tetrahedra", project_.outputs.tetrahedra), session_));
-    }
-
-    /// Returns what the project cuts, seals and extends; none if it leaves surfaces as they are.
-    [[nodiscard]] std::optional<CutRequest> request_of_cut() const {
-        if (project_.volume.index() == 0 && !built_.arranged.sealed) return std::nullopt;
-        CutRequest request;
-        if (project_.volume.index() != 0)
-            request.volume = [this](const std::string& path) { return record_of(project_, path); };
-        return request;
-    }
-
-    Status write_certificate(const fs::path& to, const char* name,
-                             const Result<std::string>& text) {
-        if (!text) return text.error();
-        written_.emplace_back(name);
-        const Arranged& arranged = built_.arranged;
-        warn_of_deviation(name, stated_deviation(arranged.exact, arranged.rounded),
-                          arranged.surfaces);
-        return write_file(to / name, *text);
+        return Done{};
     }
 
     const Project& project_;

@@ -106,10 +106,16 @@ Status write_all(const FillCommand& command, const std::vector<Output>& outputs,
     if (!command.points.empty())
         if (auto written = write_file(command.points, csv_of(work)); !written) return written;
     if (command.proof.certificate.empty()) return Done{};
-    const ProofFiles certified{command.files.inputs, outputs, command.files.ascii,
-                               summary_stream(command.files)};
-    return write_filled_certificate(command.proof.certificate, certified, inputs, work, mesh,
-                                    session);
+    auto certified = certified_outputs(outputs, mesh, command.files.ascii);
+    if (!certified) return certified.error();
+    CertifiedResult result{.inputs = certified_inputs(command.files.inputs, inputs),
+                           .outputs = *std::move(certified),
+                           .surfaces = inputs.surfaces};
+    for (const HoledSurface& s : work.surfaces)
+        result.filled.push_back(
+            {&s.filled, s.given_vertices, s.given_triangles, s.invented, s.deviation});
+    return write_certificate(command.proof.certificate, result, summary_stream(command.files),
+                             session);
 }
 
 Result<std::vector<Output>> plan(const FillCommand& command) {

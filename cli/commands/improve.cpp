@@ -149,11 +149,14 @@ Status write_all(const ImproveCommand& command, const Inputs& inputs, const Arra
     }
     auto written = write_outputs(measured.improved.mesh, true, command.files, outputs, session);
     if (!written || command.proof.certificate.empty()) return written;
-    const ProofFiles certified{command.files.inputs, outputs, command.files.ascii,
-                               summary_stream(command.files),
-                               cut_request(command.settings, arranged)};
-    return write_improved_certificate(command.proof.certificate, certified, inputs, arranged,
-                                      measured.improved, session);
+    auto result = certified_arrangement(command.files.inputs, inputs, command.settings, arranged);
+    if (!result) return result.error();
+    auto files = certified_outputs(outputs, measured.improved.mesh, command.files.ascii);
+    if (!files) return files.error();
+    result->outputs = *std::move(files);
+    result->improved = &measured.improved;
+    return write_certificate(command.proof.certificate, *result, summary_stream(command.files),
+                             session);
 }
 
 /// Checks the options before any work is done.

@@ -156,11 +156,15 @@ Result<ExitStatus> layer_files(LayerCommand& command, Session& session) {
         if (const auto written = write_all(rounded.mesh, files, outputs.value(), session); !written)
             return written.error();
     if (is_stack && !command.proof.certificate.empty()) {
-        const ProofFiles certified{files.inputs, outputs.value(), files.ascii,
-                                   summary_stream(files)};
+        auto certified = certified_outputs(*outputs, rounded.mesh, files.ascii);
+        if (!certified) return certified.error();
+        CertifiedResult result{.inputs = certified_inputs(files.inputs, *inputs),
+                               .outputs = *std::move(certified),
+                               .surfaces = inputs->surfaces,
+                               .layered = &*layered,
+                               .order = *order};
         const auto proved =
-            write_layered_certificate(command.proof.certificate, certified, inputs.value(),
-                                      order.value(), layered.value(), session);
+            write_certificate(command.proof.certificate, result, summary_stream(files), session);
         if (!proved) return proved.error();
     }
     page->set_verdict(is_stack ? "The layers are in order, and their mesh is conforming, by exact "

@@ -23,7 +23,6 @@
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
 #include <terrane/cli/session/quantities.hpp>
-#include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/page_output.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
@@ -234,10 +233,15 @@ Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Se
         const auto written = write_all(filled.value(), outputs.value(), files, session);
         if (!written) return written.error();
         if (!command.certificate.empty()) {
-            const auto proved = write_certificate(
-                {command.certificate, files, inputs.value(), roles, arranged.value(),
-                 cut_request(command.settings, arranged.value())},
-                model.value(), filled.value().tetrahedra, outputs.value(), session);
+            set_read_roles(roles, *arranged);
+            auto result = certified_arrangement(files.inputs, *inputs, command.settings, *arranged);
+            if (!result) return result.error();
+            result->model = &*model;
+            result->tetrahedra = &filled->tetrahedra;
+            for (const Output& output : *outputs)
+                result->outputs.push_back({output.path, certified_format(output.format)});
+            const auto proved =
+                write_certificate(command.certificate, *result, summary_stream(files), session);
             if (!proved) return proved.error();
         }
     } else {

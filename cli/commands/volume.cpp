@@ -12,7 +12,6 @@
 #include <terrane/cli/reports/relation_report.hpp>
 #include <terrane/cli/reports/seal_plot.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
-#include <terrane/cli/stages/block_certificate.hpp>
 #include <terrane/cli/stages/blocks.hpp>
 #include <terrane/cli/stages/cells.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
@@ -271,10 +270,13 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
             tell_when_written(summary_stream(files), *said);
         }
         if (!command.certificate.empty()) {
-            const auto proved = write_certificate(
-                {command.certificate, files, inputs.value(), roles, arranged.value(),
-                 cut_request(command.settings, arranged.value())},
-                model.value(), command.folder, command.part_format, session);
+            set_read_roles(roles, *arranged);
+            auto result = certified_arrangement(files.inputs, *inputs, command.settings, *arranged);
+            if (!result) return result.error();
+            result->model = &*model;
+            result->outputs = outputs_of(*model, command.folder, command.part_format);
+            const auto proved =
+                write_certificate(command.certificate, *result, summary_stream(files), session);
             if (!proved) return proved.error();
         }
     }

@@ -38,6 +38,12 @@ void add_roles(CLI::App& command, std::vector<std::string>& roles) {
         ->type_name("NAME=ROLE");
 }
 
+std::vector<Role> roles_of(const Inputs& inputs) {
+    std::vector<Role> roles;
+    for (const Surface& s : inputs.surfaces) roles.push_back(s.role);
+    return roles;
+}
+
 Status set_roles(const std::vector<std::string>& roles, Inputs& inputs) {
     for (const std::string& role : roles)
         if (auto set = set_role(role, inputs); !set) return set;

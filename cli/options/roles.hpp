@@ -21,6 +21,9 @@ void add_roles(CLI::App& command, std::vector<std::string>& roles);
 /// Sets the roles given as NAME=ROLE. Errors: bad_option.
 Status set_roles(const std::vector<std::string>& roles, Inputs& inputs);
 
+/// Returns the roles of the surfaces.
+std::vector<Role> roles_of(const Inputs& inputs);
+
 /// A length for a surface or block, given as NAME=L and split at the last '='.
 struct NamedLength {
     std::string name;

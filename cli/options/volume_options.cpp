@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -19,6 +17,7 @@
 #include <terrane/cli/session/quantities.hpp>
 #include <terrane/cli/session/text_width.hpp>
 #include <terrane/io/points/outline.hpp>
+#include <terrane/io/project_inputs.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -64,13 +63,13 @@ Result<std::vector<Point2>> polygon_of(const std::string& text) {
     return corners;
 }
 
-Result<std::vector<Surface>> box_of(const std::string& text) {
+Result<ProjectVolume> box_of(const std::string& text) {
     const auto n = numbers_in(text);
     if (!n || n->size() != 6) return bad("--box", "needs six numbers: x0,y0,z0,x1,y1,z1");
-    return box_boundary({(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]});
+    return ProjectVolume(ProjectBox{{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]}});
 }
 
-Result<std::vector<Surface>> rotated_box_of(const VolumeOptions& options) {
+Result<ProjectVolume> rotated_box_of(const VolumeOptions& options) {
     const auto n = numbers_in(options.rotated_box);
     if (!n || (n->size() != 7 && n->size() != 9))
         return bad("--rotated-box",
@@ -84,29 +83,15 @@ Result<std::vector<Surface>> rotated_box_of(const VolumeOptions& options) {
         box.plunge = (*n)[7];
         box.roll = (*n)[8];
     }
-    return rotated_box_boundary(box);
+    return ProjectVolume(box);
 }
 
-Result<std::vector<Surface>> prism_of(const VolumeOptions& options) {
+Result<ProjectVolume> prism_of(const VolumeOptions& options) {
     const auto depths = numbers_in(options.between);
     if (!depths || depths->size() != 2) return bad("--between", "needs two numbers: z0,z1");
-    const auto corners = polygon_of(options.polygon);
+    auto corners = polygon_of(options.polygon);
     if (!corners) return corners.error();
-    return polygon_boundary(corners.value(), (*depths)[0], (*depths)[1]);
-}
-
-Result<std::vector<Surface>> closed_of(const VolumeOptions& options, const Run& run) {
-    std::vector<Surface> all;
-    for (const std::string& path : options.within) {
-        auto read = read_surfaces(path);
-        if (!read) return read.error();
-        std::move(read.value().begin(), read.value().end(), std::back_inserter(all));
-    }
-    auto closed = closed_boundary(all, run);
-    if (closed) return closed;
-    Error error = closed.error();
-    error.sentence = "--within " + options.within.front() + ": " + error.sentence;
-    return error;
+    return ProjectVolume(ProjectPolygon{*std::move(corners), {(*depths)[0], (*depths)[1]}});
 }
 
 } // namespace
@@ -168,86 +153,26 @@ Status check_volume_options(const VolumeOptions& o) {
     return Done{};
 }
 
-namespace {
-
-Result<std::vector<Surface>> make_boundary(const VolumeOptions& options, Session& session) {
+Result<ProjectVolume> volume_of(const VolumeOptions& options) {
     if (!options.box.empty()) return box_of(options.box);
     if (!options.rotated_box.empty()) return rotated_box_of(options);
     if (!options.polygon.empty()) return prism_of(options);
-    return closed_of(options, session.run());
+    if (options.within.empty()) return ProjectVolume();
+    return ProjectVolume(ProjectWithin{{options.within.begin(), options.within.end()}});
 }
 
-} // namespace
-
 Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& session) {
-    auto made = make_boundary(options, session);
+    const auto volume = volume_of(options);
+    if (!volume) return volume.error();
+    auto made = boundary_of(*volume, {}, session.run());
     if (made) return made;
     Error error = made.error();
+    const auto is_about = [&](const std::string& file) { return error.place.starts_with(file); };
+    if (!options.within.empty() && std::ranges::none_of(options.within, is_about))
+        error.sentence = "--within " + options.within.front() + ": " + error.sentence;
     if (error.code == ErrorCode::not_closed || error.code == ErrorCode::improper_contact)
         error.code = ErrorCode::bad_option; // the options are wrong, the surfaces may be good
     return error;
-}
-
-namespace {
-
-VolumeRecord record_of_box(const Point3& low, const Point3& high) {
-    VolumeRecord record;
-    record.corners = {{low.x, low.y}, {high.x, low.y}, {high.x, high.y}, {low.x, high.y}};
-    record.between = {low.z, high.z};
-    return record;
-}
-
-VolumeRecord record_of_prism(const std::vector<std::array<double, 2>>& corners,
-                             const std::array<double, 2>& between) {
-    VolumeRecord record;
-    record.corners = corners;
-    if (record.corners.front() == record.corners.back()) record.corners.pop_back();
-    record.between = {std::min(between[0], between[1]), std::max(between[0], between[1])};
-    return record;
-}
-
-Result<VolumeRecord> record_of_files(const std::vector<std::string>& files,
-                                     const std::string& path) {
-    VolumeRecord record{"surface"};
-    for (const std::string& file : files) {
-        auto surfaces = read_surfaces(file);
-        if (!surfaces) return surfaces.error();
-        auto input = record_input(file, certified_name(file, path), surfaces->size());
-        if (!input) return input.error();
-        record.files.push_back(std::move(input).value());
-        std::ranges::move(surfaces.value(), std::back_inserter(record.surfaces));
-    }
-    return record;
-}
-
-} // namespace
-
-Result<VolumeRecord> record_of(const VolumeOptions& options, const std::string& path) {
-    if (!options.box.empty()) {
-        const auto n = *numbers_in(options.box);
-        return record_of_box({n[0], n[1], n[2]}, {n[3], n[4], n[5]});
-    }
-    if (!options.polygon.empty()) {
-        const auto corners = polygon_of(options.polygon);
-        if (!corners) return corners.error();
-        const auto between = *numbers_in(options.between);
-        return record_of_prism(corners.value(), {between[0], between[1]});
-    }
-    if (!options.rotated_box.empty()) return VolumeRecord{"hexahedron"};
-    return record_of_files(options.within, path);
-}
-
-Result<VolumeRecord> record_of(const Project& project, const std::string& path) {
-    if (const auto* box = std::get_if<ProjectBox>(&project.volume))
-        return record_of_box(box->low, box->high);
-    if (const auto* prism = std::get_if<ProjectPolygon>(&project.volume))
-        return record_of_prism(prism->corners, prism->between);
-    if (const auto* within = std::get_if<ProjectWithin>(&project.volume)) {
-        std::vector<std::string> files;
-        for (const std::filesystem::path& file : within->files) files.push_back(file.string());
-        return record_of_files(files, path);
-    }
-    return VolumeRecord{"hexahedron"};
 }
 
 std::string text_of(const VolumeReport& report, const Inputs& inputs) {

@@ -15,7 +15,6 @@
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/session/session.hpp>
-#include <terrane/io/certificate.hpp>
 
 namespace terrane::cli {
 
@@ -42,15 +41,13 @@ bool is_polygon_file(const std::string& value);
 /// Checks, before any work is done, that the options fit together. Errors: bad_option.
 Status check_volume_options(const VolumeOptions& options);
 
-/// Makes the boundary that the options define. Precondition: wanted(). Errors: those of the makers
-/// (boundary_surfaces.hpp) and of reading files; bad_option.
-Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& session);
+/// Returns the volume of interest that the options define, if any. Errors: bad_option; those of
+/// reading a polygon.
+Result<ProjectVolume> volume_of(const VolumeOptions& options);
 
-/// Returns the volume of interest as a certificate describes it; `path` is that of the certificate.
-/// Precondition: boundary_of() succeeded.
-Result<VolumeRecord> record_of(const VolumeOptions& options, const std::string& path);
-/// Does the same for the volume of a project. Precondition: it has one.
-Result<VolumeRecord> record_of(const Project& project, const std::string& path);
+/// Makes its boundary. Precondition: wanted(). Errors: those of the makers (boundary_surfaces.hpp) and
+/// of reading files; bad_option.
+Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& session);
 
 /// Reports what the cut left of each surface, and where surfaces end inside.
 std::string text_of(const VolumeReport& report, const Inputs& inputs);

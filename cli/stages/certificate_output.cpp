@@ -27,65 +27,7 @@ Status write(const std::string& path, const std::string& text, std::FILE* told, 
     return status;
 }
 
-/// The contents of an output as it was written. A standard stream can't be read again: what went
-/// there is made once more.
-Result<std::string> contents_of(const Output& output, const Mesh& mesh, bool ascii) {
-    if (output.path != "-") return read_file(output.path);
-    WriteOptions options;
-    options.ascii = ascii;
-    return format_mesh(mesh, output.format, options);
-}
-
-Result<std::vector<OutputRecord>> record_outputs(const std::string& certificate,
-                                                 const ProofFiles& files, const Mesh& mesh) {
-    std::vector<OutputRecord> records;
-    for (const Output& output : files.outputs) {
-        const auto contents = contents_of(output, mesh, files.ascii);
-        if (!contents) return contents.error();
-        records.push_back(record_output(
-            contents.value(),
-            output.path == "-" ? output.path : certified_name(output.path, certificate),
-            certified_format(output.format, files.ascii), mesh.surfaces));
-    }
-    return records;
-}
-
 } // namespace
-
-std::optional<CutRequest> cut_request(const ArrangeSettings& settings, const Arranged& arranged) {
-    const VolumeOptions& volume = settings.volume;
-    if (!volume.wanted() && !arranged.sealed) return std::nullopt;
-    CutRequest request{{}, settings.search};
-    if (volume.wanted())
-        request.volume = [&volume](const std::string& path) { return record_of(volume, path); };
-    return request;
-}
-
-Result<ChangeRecord> change_of(const CutRequest& request, const std::string& path,
-                               const Inputs& inputs, const Arranged& arranged) {
-    ChangeRecord change{std::nullopt, 0, arranged.growth};
-    if (!request.volume) return change;
-    auto volume = request.volume(path);
-    if (!volume) return volume.error();
-    change.volume = std::move(volume).value();
-    std::size_t own = 0;
-    for (const std::size_t count : inputs.surfaces_of_file) own += count;
-    change.boundary_count = arranged.surfaces.size() - own;
-    return change;
-}
-
-Result<std::optional<CutSections>> sections_of(const std::optional<CutRequest>& request,
-                                               const std::string& path, const Inputs& inputs,
-                                               const Certified& certified, const Arranged& arranged,
-                                               const Session& session) {
-    if (!request) return std::optional<CutSections>();
-    const auto change = change_of(*request, path, inputs, arranged);
-    if (!change) return change.error();
-    auto sections =
-        cut_sections(certified, change->record(), {.search = request->search}, session.run());
-    if (!sections) return sections.error();
-    return std::optional(std::move(sections).value());
-}
 
 Status check_certified_names(const std::string& certificate,
                              const std::vector<std::string>& files) {
@@ -117,20 +59,6 @@ Result<Inputs> read_certified_inputs(const std::string& certificate, const FileO
     if (const auto sound = check_certified_surfaces(names, inputs->files); !sound)
         return sound.error();
     return inputs;
-}
-
-Result<std::vector<InputRecord>> record_inputs(const std::string& certificate,
-                                               const std::vector<std::string>& files,
-                                               const Inputs& inputs) {
-    std::vector<InputRecord> records;
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        const std::string& path = files[i];
-        auto record =
-            record_input(path, certified_name(path, certificate), inputs.surfaces_of_file[i]);
-        if (!record) return record.error();
-        records.push_back(std::move(record.value()));
-    }
-    return records;
 }
 
 bool is_certifiable(Format format, unsigned order) {
@@ -196,89 +124,73 @@ Status plan_proof(const ProofOptions& options, const FileOptions& files) {
     return check_certified_names(options.certificate, files.outputs);
 }
 
-Result<std::string> certificate_text(const std::string& path, const ProofFiles& files,
-                                     const Inputs& inputs, const Arranged& arranged,
-                                     const Session& session) {
-    const auto records = record_inputs(path, files.inputs, inputs);
-    if (!records) return records.error();
-    const auto outputs = record_outputs(path, files, arranged.rounded.mesh);
-    if (!outputs) return outputs.error();
-    const Certified certified{records.value(), arranged.surfaces, arranged.exact, &arranged.rounded,
-                              outputs.value()};
-    if (!files.cut) return to_certificate(certified, session.run());
-    const auto change = change_of(*files.cut, path, inputs, arranged);
-    if (!change) return change.error();
-    return to_cut_certificate(certified, change->record(), {.search = files.cut->search},
-                              session.run());
+Status plan_certificate(const std::string& path, const FileOptions& files,
+                        const ArrangeSettings& settings) {
+    if (path.empty()) return Done{};
+    if (auto possible = check_certifiable(settings); !possible) return possible;
+    if (path == "-" || std::ranges::count(files.outputs, "-") > 0)
+        return Error{ErrorCode::bad_option, "a certificate is about files, and is one",
+                     "--certificate"};
+    if (std::ranges::count(files.inputs, "-") > 0)
+        return Error{ErrorCode::bad_option, "a certificate is about files, not standard input",
+                     "--certificate"};
+    for (const auto& names : {files.inputs, files.outputs, settings.volume.within})
+        if (auto status = check_certified_names(path, names); !status) return status;
+    return check_folder(path);
 }
 
-Status write_proof(const ProofOptions& options, const ProofFiles& files, const Inputs& inputs,
-                   const Arranged& arranged, Session& session) {
-    if (!options.certificate.empty()) {
-        session.begin("certificate", Phase::computing);
-        const auto text = certificate_text(options.certificate, files, inputs, arranged, session);
-        if (!text) return text.error();
-        if (auto status = write(options.certificate, text.value(), files.told, session); !status)
-            return status;
-        warn_of_deviation(options.certificate, stated_deviation(arranged.exact, arranged.rounded),
-                          arranged.surfaces);
+std::vector<SourceFile> certified_inputs(const std::vector<std::string>& files,
+                                         const Inputs& inputs) {
+    std::vector<SourceFile> certified;
+    for (std::size_t f = 0; f < files.size(); ++f)
+        certified.push_back({files[f], inputs.surfaces_of_file[f]});
+    return certified;
+}
+
+Result<CertifiedResult> certified_arrangement(const std::vector<std::string>& files,
+                                              const Inputs& inputs, const ArrangeSettings& settings,
+                                              const Arranged& arranged) {
+    auto volume = volume_of(settings.volume);
+    if (!volume) return volume.error();
+    CertifiedResult result = result_of(arranged);
+    result.inputs = certified_inputs(files, inputs);
+    result.volume = *std::move(volume);
+    result.search = settings.search;
+    return result;
+}
+
+void set_read_roles(const std::vector<Role>& roles, Arranged& arranged) {
+    for (std::size_t s = 0; s < roles.size(); ++s) arranged.surfaces[s].role = roles[s];
+}
+
+Result<std::vector<ResultFile>> certified_outputs(const std::vector<Output>& outputs,
+                                                  const Mesh& mesh, bool ascii) {
+    std::vector<ResultFile> certified;
+    for (const Output& output : outputs) {
+        certified.push_back({output.path, certified_format(output.format, ascii)});
+        if (output.path != "-") continue;
+        auto contents = format_mesh(mesh, output.format, {.ascii = ascii});
+        if (!contents) return contents.error();
+        certified.back().contents = *std::move(contents);
     }
+    return certified;
+}
+
+Status write_certificate(const std::string& path, const CertifiedResult& result, std::FILE* told,
+                         Session& session) {
+    session.begin("certificate", Phase::computing);
+    const auto text = certify(result, path, session.run());
+    if (!text) return text.error();
+    auto status = write(path, *text, told, session);
+    if (status) warn_of_deviation(path, stated_deviation(result), result.surfaces);
+    return status;
+}
+
+Status write_exact(const ProofOptions& options, const Arrangement& exact, std::FILE* told,
+                   Session& session) {
     if (options.exact.empty()) return Done{};
     session.begin("write", Phase::computing);
-    return write(options.exact, to_text(to_exact(arranged.exact, session.run())), files.told,
-                 session);
-}
-
-Status write_improved_certificate(const std::string& path, const ProofFiles& files,
-                                  const Inputs& inputs, const Arranged& before,
-                                  const Improved& improved, Session& session) {
-    session.begin("certificate", Phase::computing);
-    const auto records = record_inputs(path, files.inputs, inputs);
-    if (!records) return records.error();
-    const auto outputs = record_outputs(path, files, improved.mesh);
-    if (!outputs) return outputs.error();
-    Certified certified{records.value(), before.surfaces, before.exact, &before.rounded,
-                        outputs.value()};
-    const auto sections = sections_of(files.cut, path, inputs, certified, before, session);
-    if (!sections) return sections.error();
-    if (sections.value()) certified.cut = &*sections.value();
-    const auto text =
-        to_improved_certificate(certified, improved.mesh, improved.report.bound_of, session.run());
-    auto status = write(path, text, files.told, session);
-    if (status)
-        warn_of_deviation(path, stated_deviation(before.exact, before.rounded), before.surfaces);
-    return status;
-}
-
-Status write_filled_certificate(const std::string& path, const ProofFiles& files,
-                                const Inputs& inputs, const FillWork& work, const Mesh& mesh,
-                                Session& session) {
-    session.begin("certificate", Phase::computing);
-    const auto records = record_inputs(path, files.inputs, inputs);
-    if (!records) return records.error();
-    const auto outputs = record_outputs(path, files, mesh);
-    if (!outputs) return outputs.error();
-    std::vector<FilledRecord> filled;
-    for (const HoledSurface& s : work.surfaces)
-        filled.push_back({&s.filled, s.given_vertices, s.given_triangles, s.invented, s.deviation});
-    const auto text =
-        to_filled_certificate(records.value(), inputs.surfaces, outputs.value(), filled);
-    return write(path, text, files.told, session);
-}
-
-Status write_layered_certificate(const std::string& path, const ProofFiles& files,
-                                 const Inputs& inputs, std::span<const Layer> order,
-                                 const Layered& layered, Session& session) {
-    session.begin("certificate", Phase::computing);
-    const auto records = record_inputs(path, files.inputs, inputs);
-    if (!records) return records.error();
-    const auto outputs = record_outputs(path, files, layered.rounded.mesh);
-    if (!outputs) return outputs.error();
-    const auto text =
-        to_layered_certificate(records.value(), inputs.surfaces, outputs.value(), order, layered);
-    auto status = write(path, text, files.told, session);
-    if (status) warn_of_deviation(path, stated_deviation(layered), inputs.surfaces);
-    return status;
+    return write(options.exact, to_text(to_exact(exact, session.run())), told, session);
 }
 
 } // namespace terrane::cli

@@ -71,21 +71,4 @@ Status write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
     return Done{};
 }
 
-std::string file_name(const std::string& start, const std::string& format) {
-    if (format == "msh22") return start + "_22.msh";
-    if (format == "ogs") return start + "_ogs.vtu";
-    if (format == "geos") return start + "_geos.vtm";
-    if (format == "pylith") return start + "_pylith.msh";
-    return start + "." + format;
-}
-
-std::vector<Output> outputs_in(const std::filesystem::path& folder, const std::string& start,
-                               const std::vector<std::string>& formats) {
-    std::vector<Output> outputs;
-    for (const std::string& format : formats)
-        outputs.push_back(
-            {(folder / file_name(start, format)).string(), format_named(format).value()});
-    return outputs;
-}
-
 } // namespace terrane::cli

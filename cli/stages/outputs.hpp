@@ -27,12 +27,4 @@ Result<bool> stl_is_conforming(const Mesh& mesh, const FileOptions& files,
 Status write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
                      const std::vector<Output>& outputs, Session& session);
 
-/// Returns a name such as "surfaces.obj". MSH 2.2 gets "surfaces_22.msh", so that both versions
-/// can be written, and formats of simulators "tetrahedra_ogs.vtu" and so on.
-std::string file_name(const std::string& start, const std::string& format);
-
-/// Returns the files "START.obj" and so on of these formats in a folder.
-std::vector<Output> outputs_in(const std::filesystem::path& folder, const std::string& start,
-                               const std::vector<std::string>& formats);
-
 } // namespace terrane::cli

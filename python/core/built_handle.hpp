@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
@@ -8,6 +9,7 @@
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/project/project.hpp>
+#include <terrane/io/project_inputs.hpp>
 
 #include "model_handle.hpp"
 #include "tetrahedra_handle.hpp"
@@ -20,6 +22,9 @@ struct BuiltHandle {
     ModelPointer model;
     TetrahedraPointer tetrahedra;  ///< nullptr: the project asks for none
     std::vector<Surface> surfaces; ///< after preprocessing, sealing and so on
+    ProjectInputs read{};          ///< what was read, without the surfaces
+    std::shared_ptr<const Arranged>
+        certified{}; ///< what certificates are about; nullptr: none are wanted
 };
 
 /// Builds a project from its surfaces. `judges_leaks`: whether it is found which gaps separate blocks.

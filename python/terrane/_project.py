@@ -63,8 +63,8 @@ class Built(Result):
     def save(self, folder: Optional[Path] = None, *, threads: Optional[int] = None) -> None:
         """Write the files that the project asks for, with the bytes that ``terrane build`` writes.
 
-        The folder must not exist, or be empty; that of the project unless given. Statistics, logs, tables of
-        fillings and certificates are the program's.
+        The folder must not exist, or be empty; that of the project unless given. Statistics, logs and tables of
+        fillings are the program's.
 
         Examples
         --------
