@@ -208,14 +208,31 @@ def nonsense_of(kind, own):
             yield f"{bad} of null", without
 
 
+#: Arrays whose name is not that of their count with an s.
+ARRAY_OF = {f"{name}_count": name for name in ("growth", "edge_length_of", "size_of", "size_in", "split")} | {"unit_count": "column"}
+
+
+def of_null(put, count):
+    """Puts a count; an array of the struct that is there, whose length it is, becomes null."""
+    def change(c):
+        put(count)(c)
+        put(count, array=True)(c)
+    return change
+
+
 def nonsense_of_struct(base, own, inside=()):
     """The same for the members of a struct of options."""
     for member, kind, length in STRUCTS[base].members:
         place = (*inside, member)
 
-        def put(value, place=place, length=length):
+        def put(value, place=place, length=length, array=False):
             def change(c):
                 struct = functools.reduce(getattr, place[:-1], c.structs[own])
+                if array:
+                    name = ARRAY_OF.get(place[-1], place[-1].removesuffix("_count") + "s")
+                    if hasattr(struct, name):
+                        setattr(struct, name, None)
+                    return
                 made = value(c) if callable(value) else value
                 if length:
                     getattr(struct, place[-1])[0] = made
@@ -241,8 +258,8 @@ def nonsense_of_struct(base, own, inside=()):
             for bad in (0, 7, 4096, 2**63):
                 yield f"{label}: {bad}", put(bad)
         elif member.endswith("_count"):
-            for bad in (5, 2**61, 2**64 - 1):  # of an array that is null
-                yield f"{label}: {bad}", put(bad)
+            for bad in (5, 2**61, 2**64 - 1):
+                yield f"{label}: {bad}", of_null(put, bad)
         elif kind in NUMBERS and kind not in ("size_t",):
             if member not in FLAGS:
                 yield f"{label}: -7", put(-7)
