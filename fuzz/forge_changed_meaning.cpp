@@ -86,12 +86,12 @@ std::string difference_of_regions(const RegionPart& was, const RegionPart& is, d
 } // namespace
 
 std::string difference_of_improved(const Subject& s, const Certificate& changed) {
-    const ImprovedClaim& claim = *changed.improved;
+    const ImprovedClaim& claim = *changed.improved();
     if (!is_conforming(claim.vertices, claim.triangles))
         return "whether the improved mesh is conforming";
     const auto before = mesh_of(s, [&] {
         Certificate c = changed;
-        c.improved.reset();
+        c.beside = {};
         return c;
     }());
     if (!before) return "lists that make no mesh";

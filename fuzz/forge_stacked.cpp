@@ -37,7 +37,7 @@ void relabel(LayeredClaim& m, const std::function<void(std::size_t, Numbers&)>& 
 
 /// Exchanges two layers in the order, with their triangles or without.
 void exchange_layers(Certificate& c, const Arguments& n) {
-    LayeredClaim& m = *c.layered;
+    LayeredClaim& m = *c.layered();
     if (m.order.empty()) return;
     const auto one = static_cast<std::uint32_t>(pick(n.a, m.order.size()));
     const auto other = static_cast<std::uint32_t>(pick(n.b, m.order.size()));
@@ -50,7 +50,7 @@ void exchange_layers(Certificate& c, const Arguments& n) {
 }
 
 void change_hardness(Certificate& c, const Arguments& n) {
-    auto& order = c.layered->order;
+    auto& order = c.layered()->order;
     if (order.empty()) return;
     double& hardness = order[pick(n.a, order.size())].hardness;
     if (n.b % 3 == 0)
@@ -63,7 +63,7 @@ void change_hardness(Certificate& c, const Arguments& n) {
 
 /// Leaves a layer out, of the order and of all triangles.
 void drop_layer(Certificate& c, const Arguments& n) {
-    LayeredClaim& m = *c.layered;
+    LayeredClaim& m = *c.layered();
     if (m.order.empty()) return;
     const auto gone = static_cast<std::uint32_t>(pick(n.a, m.order.size()));
     erase_at(m.order, gone);
@@ -76,7 +76,7 @@ void drop_layer(Certificate& c, const Arguments& n) {
 
 /// Puts another surface into the order, with the triangles of an old layer or none.
 void add_layer(Certificate& c, const Arguments& n) {
-    LayeredClaim& m = *c.layered;
+    LayeredClaim& m = *c.layered();
     const auto at = static_cast<std::uint32_t>(pick(n.a, m.order.size() + 1));
     m.order.insert(m.order.begin() + at, {n.b % 4, static_cast<double>(n.c % 8)});
     relabel(m, [&](std::size_t, Numbers& layers) {
@@ -88,7 +88,7 @@ void add_layer(Certificate& c, const Arguments& n) {
 
 /// Gives all triangles of the same layers those of another triangle.
 void move_triangles(Certificate& c, const Arguments& n) {
-    LayeredClaim& m = *c.layered;
+    LayeredClaim& m = *c.layered();
     const auto layers = unpacked(m.surfaces_of);
     if (layers.empty()) return;
     const Numbers& from = layers[pick(n.a, layers.size())];
@@ -100,7 +100,7 @@ void move_triangles(Certificate& c, const Arguments& n) {
 
 /// Drops all triangles that have the layers of one.
 void drop_places(Certificate& c, const Arguments& n) {
-    LayeredClaim& m = *c.layered;
+    LayeredClaim& m = *c.layered();
     const auto layers = unpacked(m.surfaces_of);
     if (layers.empty()) return;
     const Numbers& gone = layers[pick(n.a, layers.size())];
@@ -111,7 +111,7 @@ void drop_places(Certificate& c, const Arguments& n) {
 
 /// Moves all vertices of a layer along an axis.
 void move_layer(Certificate& c, const Arguments& n) {
-    LayeredClaim& m = *c.layered;
+    LayeredClaim& m = *c.layered();
     std::vector<bool> moves(m.vertices.size());
     for (std::size_t t = 0; t < m.triangles.size() && t < m.surfaces_of.size(); ++t)
         if (std::ranges::count(m.surfaces_of[t], n.a % 4) > 0)
@@ -126,13 +126,13 @@ void move_layer(Certificate& c, const Arguments& n) {
 }
 
 void change_layer_deviation(Certificate& c, const Arguments& n) {
-    double& deviation = c.layered->deviation;
+    double& deviation = c.layered()->deviation;
     deviation = n.a % 2 == 0 ? deviation * (n.b + 1.0) / 64 : moved(deviation, n.b, n.c);
 }
 
 /// Gives the thickness another value, or none.
 void change_thickness(Certificate& c, const Arguments& n) {
-    auto& thickness = c.layered->thickness;
+    auto& thickness = c.layered()->thickness;
     const double old = thickness.value_or(0);
     switch (n.a % 5) {
     case 0:
@@ -153,7 +153,7 @@ void change_thickness(Certificate& c, const Arguments& n) {
 }
 
 void change_layer_surface(Certificate& c, const Arguments& n) {
-    auto& order = c.layered->order;
+    auto& order = c.layered()->order;
     if (!order.empty()) change_number(order[pick(n.a, order.size())].surface, n);
 }
 

@@ -91,7 +91,9 @@ set(terrane_headers
     io/structure_json.hpp)
 set(verify_headers
     algorithms/verify/block_claims.hpp
+    algorithms/verify/certificate.hpp
     algorithms/verify/changed_claims.hpp
+    algorithms/verify/verdict.hpp
     algorithms/verify/verify.hpp
     algorithms/verify/verify_certificate.hpp)
 # The C interface. terrane.h includes the others.
