@@ -75,6 +75,15 @@ def judge(root: Path, order=ORDER):
     return arrows, problems
 
 
+def arrows_within(root: Path, folder: str):
+    """Arrows between the units of a folder: a header and the source of the same name are one unit."""
+    files = [path for path in sources(root) if folder_of(path) == folder]
+    units = {path.with_suffix("") for path in files}
+    return {(str(path.with_suffix("")), str(other)) for path in files
+            for other in (Path(target).with_suffix("") for target in INCLUDE.findall((root / path).read_text()))
+            if other in units and other != path.with_suffix("")}
+
+
 def judge_modules(package: Path, order=MODULES):
     """Return what is wrong with the imports of one module of a Python package by another."""
     files = {path.stem: path for path in sorted(package.glob("*.py"))}

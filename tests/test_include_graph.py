@@ -26,6 +26,12 @@ class TheTree(unittest.TestCase):
         folders = {include_graph.folder_of(path) for path in include_graph.sources(ROOT)}
         self.assertEqual(folders, set(include_graph.ORDER))
 
+    def test_has_folders_without_circles(self):
+        for folder in ("algorithms/rounding", "algorithms/quality", "algorithms/verify"):
+            arrows = include_graph.arrows_within(ROOT, folder)
+            self.assertEqual(include_graph.cycle_in(arrows), [], folder)
+            self.assertGreater(len(arrows), 50)
+
     def test_has_imports_in_one_direction(self):
         self.assertEqual(include_graph.judge_modules(ROOT / "python/terrane"), [])
         self.assertGreater(len(include_graph.MODULES), 30)
@@ -70,6 +76,15 @@ class Damage(unittest.TestCase):
         self.assertEqual(len(problems), 1)
         self.assertIn("points back", problems[0])
         self.assertEqual(cycle, ["algorithms/check", "algorithms/mesh", "algorithms/check"])
+
+    def test_circle_within_a_folder(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "io/detail").mkdir(parents=True)
+            (Path(folder) / "io/obj.cpp").write_text("#include <terrane/io/detail/lines.hpp>\n")
+            (Path(folder) / "io/obj.hpp").write_text("")
+            (Path(folder) / "io/detail/lines.hpp").write_text("#include <terrane/io/obj.hpp>\n")
+            arrows = include_graph.arrows_within(Path(folder), "io")
+            self.assertEqual(include_graph.cycle_in(arrows), ["io/detail/lines", "io/obj", "io/detail/lines"])
 
     def test_kernel_knows_nothing(self):
         problems, _ = self.judge(files={
