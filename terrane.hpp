@@ -39,6 +39,7 @@
 #include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
+#include <terrane/algorithms/quality/improved.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/algorithms/reconstruction/holes/filling.hpp>
@@ -48,6 +49,7 @@
 #include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 #include <terrane/algorithms/regions/quadrilaterals.hpp>
 #include <terrane/algorithms/regions/regions.hpp>
+#include <terrane/algorithms/rounding/rounded_mesh.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/sealing/gaps.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>

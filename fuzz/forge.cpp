@@ -66,7 +66,7 @@ void seal(const Subject& s, Certificate& certificate, const fuzz::Contents& cont
         certificate.outputs[i].sha256 = file.sha256;
         certificate.outputs[i].bytes = file.bytes;
     }
-    if (certificate.filled || certificate.layered) return; // they have no digest
+    if (certificate.filled() || certificate.layered()) return; // they have no digest
     const auto surfaces = fuzz::arranged_surfaces(s, certificate);
     for (const Surface& surface : surfaces)
         for (const Point3& p : surface.vertices)
@@ -100,7 +100,7 @@ std::string_view compared_part(const std::string& contents, const std::string& f
 /// mesh must have; empty if they do not.
 std::string difference_of_outputs(const Subject& s, const Certificate& changed,
                                   const fuzz::Contents& contents) {
-    const bool folder = s.certificate.kind == CertificateKind::volumes;
+    const bool folder = s.certificate.kind() == CertificateKind::volumes;
     const auto key = [&](const CertifiedOutput& output) { // what says what the file must hold
         return folder ? output.name : output.format;
     };

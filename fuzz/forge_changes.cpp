@@ -318,12 +318,12 @@ bool change_layered(LayeredClaim& layered, const PartChange& made, const Argumen
 std::string change_parts(Certificate& c, unsigned parts, const PartChange& made,
                          const Arguments& n) {
     std::string name = made.name;
-    if (c.filled) return change_filled(*c.filled, made, n) ? name : "nothing";
-    if (c.layered) return change_layered(*c.layered, made, n) ? name : "nothing";
+    if (c.filled()) return change_filled(*c.filled(), made, n) ? name : "nothing";
+    if (c.layered()) return change_layered(*c.layered(), made, n) ? name : "nothing";
     if (c.cut && parts % 5 == 4)
         return change_side(c.cut->volume, made, n) ? name + ", boundary" : "nothing";
-    if (c.improved && parts % 4 == 3) {
-        Part p = improved_part(*c.improved);
+    if (c.improved() && parts % 4 == 3) {
+        Part p = improved_part(*c.improved());
         if (!is_regular(p)) return "nothing";
         made.make(p, n);
         return name + ", improved";
@@ -348,7 +348,7 @@ std::string change(Certificate& certificate, Contents& contents, Bytes& bytes) {
     for (unsigned& b : byte) b = bytes.byte();
     const Arguments n{byte[2] | byte[3] << 8U, byte[4], byte[5], byte[6]};
     const auto parts = part_changes();
-    const auto of_kind = changes_of(certificate.kind);
+    const auto of_kind = changes_of(certificate.kind());
     std::size_t kind =
         byte[0] % (parts.size() + changes_of_arrangements.size() + of_kind.size() + 4);
     if (kind < parts.size()) return change_parts(certificate, byte[1], parts[kind], n);

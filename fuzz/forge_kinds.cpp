@@ -17,21 +17,21 @@ namespace {
 
 /// Exchanges the numbers of two blocks wherever they are.
 void exchange_blocks(Certificate& c, const Arguments& n) {
-    if (!c.blocks || c.blocks->volumes.empty()) return;
-    const auto one = static_cast<std::uint32_t>(pick(n.a, c.blocks->volumes.size()));
-    const auto other = static_cast<std::uint32_t>(pick(n.b, c.blocks->volumes.size()));
-    std::swap(c.blocks->volumes[one], c.blocks->volumes[other]);
+    if (!c.blocks() || c.blocks()->volumes.empty()) return;
+    const auto one = static_cast<std::uint32_t>(pick(n.a, c.blocks()->volumes.size()));
+    const auto other = static_cast<std::uint32_t>(pick(n.b, c.blocks()->volumes.size()));
+    std::swap(c.blocks()->volumes[one], c.blocks()->volumes[other]);
     const auto rename = [&](std::uint32_t& b) {
         if (b == one || b == other) b = b == one ? other : one;
     };
-    std::ranges::for_each(c.blocks->block_of_shell, rename);
-    if (c.tetrahedra) std::ranges::for_each(c.tetrahedra->block_of, rename);
+    std::ranges::for_each(c.blocks()->block_of_shell, rename);
+    if (c.tetrahedra()) std::ranges::for_each(c.tetrahedra()->block_of, rename);
 }
 
 /// Makes two blocks one, with the sum of their volumes; the higher numbers become lower by one.
 void merge_blocks(Certificate& c, const Arguments& n) {
-    if (!c.blocks || c.blocks->volumes.size() < 3) return;
-    auto& volumes = c.blocks->volumes;
+    if (!c.blocks() || c.blocks()->volumes.size() < 3) return;
+    auto& volumes = c.blocks()->volumes;
     const auto from = static_cast<std::uint32_t>(1 + pick(n.a, volumes.size() - 1));
     const auto to = static_cast<std::uint32_t>(pick(n.b, volumes.size()));
     mpq_class one, other;
@@ -39,19 +39,19 @@ void merge_blocks(Certificate& c, const Arguments& n) {
         return;
     if (to != 0) volumes[to] = mpq_class(one + other).get_str();
     erase_at(volumes, from);
-    if (c.blocks->exact >= from) --c.blocks->exact;
+    if (c.blocks()->exact >= from) --c.blocks()->exact;
     const auto rename = [&](std::uint32_t& b) {
         if (b == from) b = to;
         if (b > from) --b;
     };
-    std::ranges::for_each(c.blocks->block_of_shell, rename);
-    if (c.tetrahedra) std::ranges::for_each(c.tetrahedra->block_of, rename);
+    std::ranges::for_each(c.blocks()->block_of_shell, rename);
+    if (c.tetrahedra()) std::ranges::for_each(c.tetrahedra()->block_of, rename);
 }
 
 /// Moves a side from one shell to another one.
 void move_side(Certificate& c, const Arguments& n) {
-    if (!c.blocks || c.blocks->shells.size() == 0) return;
-    auto shells = unpacked(c.blocks->shells);
+    if (!c.blocks() || c.blocks()->shells.size() == 0) return;
+    auto shells = unpacked(c.blocks()->shells);
     Numbers& from = shells[pick(n.a, shells.size())];
     Numbers& to = shells[pick(n.b, shells.size())];
     if (from.empty()) return;
@@ -59,13 +59,13 @@ void move_side(Certificate& c, const Arguments& n) {
     const std::uint32_t side = from[at];
     erase_at(from, at);
     to.insert(std::ranges::upper_bound(to, side), side);
-    c.blocks->shells = packed(shells);
+    c.blocks()->shells = packed(shells);
 }
 
 /// Makes two shells one.
 void merge_shells(Certificate& c, const Arguments& n) {
-    if (!c.blocks || c.blocks->shells.size() < 2) return;
-    BlocksClaim& b = *c.blocks;
+    if (!c.blocks() || c.blocks()->shells.size() < 2) return;
+    BlocksClaim& b = *c.blocks();
     auto shells = unpacked(b.shells);
     if (b.block_of_shell.size() != shells.size() || b.around.size() != shells.size()) return;
     const std::size_t from = pick(n.a, shells.size()), to = pick(n.b, shells.size());
@@ -81,15 +81,15 @@ void merge_shells(Certificate& c, const Arguments& n) {
 }
 
 void change_exact_count(Certificate& c, const Arguments& n) {
-    if (c.blocks) change_number(c.blocks->exact, n);
+    if (c.blocks()) change_number(c.blocks()->exact, n);
 }
 
 // --- Tetrahedra ---
 
 /// Divides a tetrahedron into four at its middle.
 void divide_tetrahedron(Certificate& c, const Arguments& n) {
-    if (!c.tetrahedra || c.tetrahedra->tetrahedra.empty()) return;
-    TetrahedraClaim& t = *c.tetrahedra;
+    if (!c.tetrahedra() || c.tetrahedra()->tetrahedra.empty()) return;
+    TetrahedraClaim& t = *c.tetrahedra();
     const std::size_t whole = pick(n.a, t.tetrahedra.size());
     if (t.block_of.size() != t.tetrahedra.size()) return;
     const auto corners = t.tetrahedra[whole];
@@ -114,15 +114,16 @@ void divide_tetrahedron(Certificate& c, const Arguments& n) {
 
 /// Gives all tetrahedra of a block to another one.
 void move_tetrahedra(Certificate& c, const Arguments& n) {
-    if (!c.tetrahedra) return;
-    for (std::uint32_t& b : c.tetrahedra->block_of)
+    if (!c.tetrahedra()) return;
+    for (std::uint32_t& b : c.tetrahedra()->block_of)
         if (b == n.a % 4) b = n.b % 4;
 }
 
 /// Drops all tetrahedra of a block.
 void drop_tetrahedra(Certificate& c, const Arguments& n) {
-    if (!c.tetrahedra || c.tetrahedra->block_of.size() != c.tetrahedra->tetrahedra.size()) return;
-    TetrahedraClaim& t = *c.tetrahedra;
+    if (!c.tetrahedra() || c.tetrahedra()->block_of.size() != c.tetrahedra()->tetrahedra.size())
+        return;
+    TetrahedraClaim& t = *c.tetrahedra();
     for (std::size_t i = t.tetrahedra.size(); i-- > 0;)
         if (t.block_of[i] == n.a % 4) {
             erase_at(t.tetrahedra, i);
@@ -133,8 +134,8 @@ void drop_tetrahedra(Certificate& c, const Arguments& n) {
 /// Exchanges the inner face of two tetrahedra for three around the line between their other
 /// corners.
 void flip_faces(Certificate& c, const Arguments& n) {
-    if (!c.tetrahedra || c.tetrahedra->tetrahedra.empty()) return;
-    TetrahedraClaim& t = *c.tetrahedra;
+    if (!c.tetrahedra() || c.tetrahedra()->tetrahedra.empty()) return;
+    TetrahedraClaim& t = *c.tetrahedra();
     const std::size_t one = pick(n.a, t.tetrahedra.size());
     if (t.block_of.size() != t.tetrahedra.size()) return;
     const auto a = t.tetrahedra[one];
@@ -163,8 +164,8 @@ void flip_faces(Certificate& c, const Arguments& n) {
 
 /// Exchanges two nodes and their numbers.
 void exchange_nodes(Certificate& c, const Arguments& n) {
-    if (!c.tetrahedra || c.tetrahedra->vertices.empty()) return;
-    TetrahedraClaim& t = *c.tetrahedra;
+    if (!c.tetrahedra() || c.tetrahedra()->vertices.empty()) return;
+    TetrahedraClaim& t = *c.tetrahedra();
     const auto one = static_cast<std::uint32_t>(pick(n.a, t.vertices.size()));
     const auto other = static_cast<std::uint32_t>(pick(n.b, t.vertices.size()));
     std::swap(t.vertices[one], t.vertices[other]);
@@ -177,13 +178,13 @@ void exchange_nodes(Certificate& c, const Arguments& n) {
 }
 
 void box_or_not(Certificate& c, const Arguments&) {
-    if (c.tetrahedra) c.tetrahedra->box = !c.tetrahedra->box;
+    if (c.tetrahedra()) c.tetrahedra()->box = !c.tetrahedra()->box;
 }
 
 /// Gives the face of one triangle to another one.
 void rename_faces(Certificate& c, const Arguments& n) {
-    if (!c.tetrahedra || c.tetrahedra->triangle_of.empty()) return;
-    auto& of = c.tetrahedra->triangle_of;
+    if (!c.tetrahedra() || c.tetrahedra()->triangle_of.empty()) return;
+    auto& of = c.tetrahedra()->triangle_of;
     of[pick(n.a, of.size())] = of[pick(n.b, of.size())];
 }
 
@@ -191,17 +192,17 @@ void rename_faces(Certificate& c, const Arguments& n) {
 
 /// Adds a new vertex to the last filled surface.
 void add_filled_vertex(Certificate& c, const Arguments& n) {
-    if (!c.filled || c.filled->surfaces.empty() || c.filled->vertices.empty()) return;
-    Point3 p = c.filled->vertices[pick(n.a, c.filled->vertices.size())];
+    if (!c.filled() || c.filled()->surfaces.empty() || c.filled()->vertices.empty()) return;
+    Point3 p = c.filled()->vertices[pick(n.a, c.filled()->vertices.size())];
     p.z = moved(p.z, n.b, n.c);
-    c.filled->vertices.push_back(p);
-    ++c.filled->surfaces.back().vertices;
+    c.filled()->vertices.push_back(p);
+    ++c.filled()->surfaces.back().vertices;
 }
 
 /// Adds a closed tetrahedron that is connected with nothing to the last filled surface.
 void add_filled_body(Certificate& c, const Arguments& n) {
-    if (!c.filled || c.filled->surfaces.empty()) return;
-    FilledClaim& f = *c.filled;
+    if (!c.filled() || c.filled()->surfaces.empty()) return;
+    FilledClaim& f = *c.filled();
     const auto first = static_cast<std::uint32_t>(f.vertices.size());
     const double x = n.a % 16, y = n.b % 16, z = n.c % 4;
     for (const Point3& p :

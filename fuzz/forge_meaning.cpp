@@ -209,22 +209,22 @@ bool is_conforming(const std::vector<Point3>& vertices, const std::vector<Triang
 std::optional<Mesh> mesh_of(const Subject& s, const Certificate& c) {
     Mesh mesh;
     mesh.surfaces = c.outputs.empty() ? infos_of(s) : c.outputs[0].surfaces;
-    if (mesh.surfaces.size() != (c.layered ? c.layered->order.size() : s.surfaces.size()))
+    if (mesh.surfaces.size() != (c.layered() ? c.layered()->order.size() : s.surfaces.size()))
         return std::nullopt;
-    if (c.layered) {
-        mesh.vertices = c.layered->vertices;
-        mesh.triangles = c.layered->triangles;
-        mesh.surfaces_of = c.layered->surfaces_of;
-    } else if (c.improved) {
-        mesh.vertices = c.improved->vertices;
-        mesh.triangles = c.improved->triangles;
-        mesh.surfaces_of = c.improved->surfaces_of;
-    } else if (c.filled) {
-        mesh.vertices = c.filled->vertices;
-        mesh.triangles = c.filled->triangles;
-        for (std::uint32_t i = 0; i < c.filled->surfaces.size(); ++i)
+    if (c.layered()) {
+        mesh.vertices = c.layered()->vertices;
+        mesh.triangles = c.layered()->triangles;
+        mesh.surfaces_of = c.layered()->surfaces_of;
+    } else if (c.improved()) {
+        mesh.vertices = c.improved()->vertices;
+        mesh.triangles = c.improved()->triangles;
+        mesh.surfaces_of = c.improved()->surfaces_of;
+    } else if (c.filled()) {
+        mesh.vertices = c.filled()->vertices;
+        mesh.triangles = c.filled()->triangles;
+        for (std::uint32_t i = 0; i < c.filled()->surfaces.size(); ++i)
             for (std::uint32_t t = 0;
-                 t < c.filled->surfaces[i].triangles && mesh.surfaces_of.size() < 1000; ++t)
+                 t < c.filled()->surfaces[i].triangles && mesh.surfaces_of.size() < 1000; ++t)
                 mesh.surfaces_of.push_back(std::array{i});
     } else if (c.rounded) {
         mesh.vertices = c.rounded->vertices;
@@ -239,8 +239,8 @@ std::optional<Mesh> mesh_of(const Subject& s, const Certificate& c) {
 }
 
 std::optional<TetrahedralMesh> tetrahedra_of(const Subject& s, const Certificate& c) {
-    if (!c.tetrahedra || !c.blocks || !c.rounded) return std::nullopt;
-    const TetrahedraClaim& claim = *c.tetrahedra;
+    if (!c.tetrahedra() || !c.blocks() || !c.rounded) return std::nullopt;
+    const TetrahedraClaim& claim = *c.tetrahedra();
     const auto of_triangles = surfaces_of(s, c.rounded->parents_of);
     if (!of_triangles || claim.triangle_of.size() != claim.faces.size() ||
         claim.block_of.size() != claim.tetrahedra.size())
@@ -253,7 +253,7 @@ std::optional<TetrahedralMesh> tetrahedra_of(const Subject& s, const Certificate
                          claim.triangle_of,
                          {},
                          claim.twins,
-                         static_cast<std::uint32_t>(c.blocks->volumes.size())};
+                         static_cast<std::uint32_t>(c.blocks()->volumes.size())};
     const std::array box{static_cast<std::uint32_t>(mesh.surfaces.size())};
     if (claim.box) mesh.surfaces.push_back({"box", Role::boundary});
     for (const std::uint32_t t : claim.triangle_of) {
@@ -280,26 +280,26 @@ std::optional<TetrahedralMesh> tetrahedra_of(const Subject& s, const Certificate
 bool writes_the_same(const Certificate& a, const Certificate& b) {
     if (a.rounded.has_value() != b.rounded.has_value()) return false;
     // Files with tetrahedra, and those with an improved mesh, do not hold the mesh before.
-    const bool has_doubles = a.rounded && !a.tetrahedra && !a.improved;
+    const bool has_doubles = a.rounded && !a.tetrahedra() && !a.improved();
     if (has_doubles && a.sealed && !same_mesh(*a.rounded, *b.rounded)) return false;
     // What was added to a surface and left out again changes the numbers of input triangles.
     if (has_doubles && !a.sealed && !same_doubles(*a.rounded, *b.rounded)) return false;
-    if (a.tetrahedra) {
-        const TetrahedraClaim &x = *a.tetrahedra, &y = *b.tetrahedra;
+    if (a.tetrahedra()) {
+        const TetrahedraClaim &x = *a.tetrahedra(), &y = *b.tetrahedra();
         if (!same_bits(x.vertices, y.vertices) || x.tetrahedra != y.tetrahedra ||
             x.block_of != y.block_of || x.faces != y.faces || x.triangle_of != y.triangle_of)
             return false;
     }
-    if (a.improved && (!same_bits(a.improved->vertices, b.improved->vertices) ||
-                       a.improved->triangles != b.improved->triangles ||
-                       a.improved->surfaces_of != b.improved->surfaces_of))
+    if (a.improved() && (!same_bits(a.improved()->vertices, b.improved()->vertices) ||
+                         a.improved()->triangles != b.improved()->triangles ||
+                         a.improved()->surfaces_of != b.improved()->surfaces_of))
         return false;
-    if (a.layered && (!same_bits(a.layered->vertices, b.layered->vertices) ||
-                      a.layered->triangles != b.layered->triangles ||
-                      a.layered->surfaces_of != b.layered->surfaces_of))
+    if (a.layered() && (!same_bits(a.layered()->vertices, b.layered()->vertices) ||
+                        a.layered()->triangles != b.layered()->triangles ||
+                        a.layered()->surfaces_of != b.layered()->surfaces_of))
         return false;
-    return !a.filled || (same_bits(a.filled->vertices, b.filled->vertices) &&
-                         a.filled->triangles == b.filled->triangles);
+    return !a.filled() || (same_bits(a.filled()->vertices, b.filled()->vertices) &&
+                           a.filled()->triangles == b.filled()->triangles);
 }
 
 std::string difference_of_doubles(const Subject& s, const RoundedClaim& claim, double accepted) {
@@ -330,7 +330,7 @@ std::string difference_of_doubles(const Subject& s, const RoundedClaim& claim, d
 }
 
 std::string difference_of_blocks(const Subject& s, const Certificate& changed, double accepted) {
-    const BlocksClaim &right = *s.certificate.blocks, &claim = *changed.blocks;
+    const BlocksClaim &right = *s.certificate.blocks(), &claim = *changed.blocks();
     if (claim.exact != right.exact || claim.volumes.size() != right.volumes.size())
         return "the number of blocks";
     if (same_doubles(*s.certificate.rounded, *changed.rounded) &&
@@ -364,22 +364,22 @@ std::string difference_of_tetrahedra(const Subject& s, const Certificate& change
 } // namespace
 
 std::string difference_in_meaning(const Subject& s, const Certificate& changed, double accepted) {
-    if (changed.filled) return difference_of_filled(s, *changed.filled);
-    if (changed.layered) return difference_of_layers(s, *changed.layered, accepted);
+    if (changed.filled()) return difference_of_filled(s, *changed.filled());
+    if (changed.layered()) return difference_of_layers(s, *changed.layered(), accepted);
     if (changed.sealed) return difference_of_sealed(s, changed, accepted);
     if (changed.cut) return difference_of_cut(s, changed, accepted);
     const Certificate& right = s.certificate;
     if (right.digest != changed.digest) return "the digest";
     if (has_turned(right.exact, changed.exact)) return "a side";
     if (right.rounded.has_value() != changed.rounded.has_value())
-        return right.kind == CertificateKind::arrangement && changed.outputs.empty()
+        return right.kind() == CertificateKind::arrangement && changed.outputs.empty()
                    ? ""
                    : "whether there are doubles";
     if (!right.rounded) return "";
     std::string what = difference_of_doubles(s, *changed.rounded, accepted);
-    if (what.empty() && changed.blocks) what = difference_of_blocks(s, changed, accepted);
-    if (what.empty() && changed.tetrahedra) what = difference_of_tetrahedra(s, changed);
-    if (what.empty() && changed.improved) what = difference_of_improved(s, changed);
+    if (what.empty() && changed.blocks()) what = difference_of_blocks(s, changed, accepted);
+    if (what.empty() && changed.tetrahedra()) what = difference_of_tetrahedra(s, changed);
+    if (what.empty() && changed.improved()) what = difference_of_improved(s, changed);
     return what;
 }
 

@@ -465,12 +465,12 @@ bool write_outputs(const Subject& subject, const Certificate& certificate, Conte
     if (certificate.outputs.size() != contents.size()) return false;
     for (std::size_t i = 0; i < contents.size(); ++i) {
         Result<std::string> text = Error{};
-        if (certificate.kind == CertificateKind::tetrahedra) {
+        if (certificate.kind() == CertificateKind::tetrahedra) {
             const auto mesh = tetrahedra_of(subject, certificate);
             if (!mesh) return false;
             text = certificate.outputs[i].format == "vtu" ? to_vtu(*mesh, false, {})
                                                           : Result<std::string>(to_msh(*mesh, {}));
-        } else if (certificate.kind != CertificateKind::volumes) {
+        } else if (certificate.kind() != CertificateKind::volumes) {
             const auto mesh = mesh_of(subject, certificate);
             if (!mesh) return false;
             text = format_mesh(*mesh, Format::obj);

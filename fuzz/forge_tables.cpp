@@ -226,10 +226,10 @@ void add_layered(LayeredClaim& m, std::vector<Table>& tables) {
 /// Returns the lists of a certificate, those of its kind first.
 std::vector<Table> tables_of(Certificate& c) {
     std::vector<Table> tables;
-    if (c.tetrahedra) add_tetrahedra(*c.tetrahedra, tables);
-    if (c.blocks) add_blocks(*c.blocks, tables);
-    if (c.improved) {
-        ImprovedClaim& m = *c.improved;
+    if (c.tetrahedra()) add_tetrahedra(*c.tetrahedra(), tables);
+    if (c.blocks()) add_blocks(*c.blocks(), tables);
+    if (c.improved()) {
+        ImprovedClaim& m = *c.improved();
         tables.push_back({"improved vertices", {column(m.vertices)}});
         tables.push_back({"improved triangles",
                           {column(m.triangles), column(m.surfaces_of), column(m.regions_of)}});
@@ -244,12 +244,12 @@ std::vector<Table> tables_of(Certificate& c) {
             tables.push_back({"sealing triangles", {column(part.sealed)}});
         }
     }
-    if (c.layered) {
-        add_layered(*c.layered, tables);
-    } else if (c.filled) {
-        tables.push_back({"filled vertices", {column(c.filled->vertices)}});
-        tables.push_back({"filled triangles", {column(c.filled->triangles)}});
-        tables.push_back({"filled surfaces", {column(c.filled->surfaces)}});
+    if (c.layered()) {
+        add_layered(*c.layered(), tables);
+    } else if (c.filled()) {
+        tables.push_back({"filled vertices", {column(c.filled()->vertices)}});
+        tables.push_back({"filled triangles", {column(c.filled()->triangles)}});
+        tables.push_back({"filled surfaces", {column(c.filled()->surfaces)}});
     } else {
         add_arrangement(c, tables);
     }

@@ -69,7 +69,8 @@ def members(name):
     if fields is not None:
         return f"- `{name}`: {', '.join(f'`{f}`' for f in fields)}"
     found = []
-    for base in cls.__mro__[:-1]:
+    ours = [base for base in cls.__mro__ if base.__module__.startswith("terrane.")]
+    for base in [*reversed(ours), *(base for base in cls.__mro__[:-1] if base not in ours)]:
         slots = getattr(base, "__slots__", ())
         for key in [*slots, *vars(base)]:
             value = vars(base).get(key)

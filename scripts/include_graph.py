@@ -4,12 +4,14 @@
 
     scripts/include_graph.py [--dot] [--files]
 
-A folder may include itself and the folders above it in ORDER. Headers in detail/ belong to their
-own folder alone. Prints, for each folder, the folders that it includes; --dot prints Graphviz
+A folder may include itself and the folders above it in the table of docs/explanation/architecture.md. Headers in
+detail/ belong to their own folder alone. A module of the Python package may import those before it in the list of that
+page, and only at its top. Prints, for each folder, the folders that it includes; --dot prints Graphviz
 instead, --files names the files behind each arrow. Exit status 1 if an arrow points back, if
 detail/ is used from outside, if a file stands in no known folder, or if the graph has a cycle.
 """
 import argparse
+import ast
 import re
 import sys
 from collections import defaultdict
@@ -17,18 +19,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 
-# Bottom-up: what stands lower in the tree includes what stands above it in this list.
-ORDER = (
-    "kernel algorithms/core algorithms/mesh algorithms/plausibility algorithms/search algorithms/intersection "
-    "algorithms/triangulation algorithms/arrangement algorithms/check algorithms/regions "
-    "algorithms/rounding algorithms/distribution algorithms/volumes algorithms/structure algorithms/layers "
-    "algorithms/quality algorithms/simplification algorithms/reconstruction/holes algorithms/reconstruction/joining "
-    "algorithms/reconstruction/kriging algorithms/reconstruction/rbf algorithms/reconstruction "
-    "algorithms/sealing algorithms/volume_of_interest algorithms/model algorithms/tetrahedra "
-    "algorithms/optimisation algorithms/tetgen algorithms/project algorithms/uncertainty algorithms/verify "
-    "io/text io/atomic io/surfaces io/gocad io/grids io/points io/meshes io io/page capi "
-    "cli/session cli/options cli/paper cli/reports cli/stages cli/commands cli/mpi cli"
-).split()
+# The order is written once, in the table and the list of modules of this page; CMakeLists.txt reads the table, too.
+PAGE = (ROOT / "docs/explanation/architecture.md").read_text()
+ORDER = re.findall(r"^\| `([a-z_/]+)` \|", PAGE, re.M)
+MODULES = re.findall(r"`(\w+)`", re.search(r"imports only modules before it in this list:(.*?)\n\n", PAGE, re.S).group(1))
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]terrane/([^>"]+)[>"]', re.M)
 
@@ -81,6 +75,36 @@ def judge(root: Path, order=ORDER):
     return arrows, problems
 
 
+def arrows_within(root: Path, folder: str):
+    """Arrows between the units of a folder: a header and the source of the same name are one unit."""
+    files = [path for path in sources(root) if folder_of(path) == folder]
+    units = {path.with_suffix("") for path in files}
+    return {(str(path.with_suffix("")), str(other)) for path in files
+            for other in (Path(target).with_suffix("") for target in INCLUDE.findall((root / path).read_text()))
+            if other in units and other != path.with_suffix("")}
+
+
+def judge_modules(package: Path, order=MODULES):
+    """Return what is wrong with the imports of one module of a Python package by another."""
+    files = {path.stem: path for path in sorted(package.glob("*.py"))}
+    problems = [f"{name}: is no module of {package.name}, but listed" for name in order if name not in files]
+    for name, path in files.items():
+        if name not in order:
+            problems.append(f"{path.name}: is not in the list of modules")
+            continue
+        above = order[:order.index(name)]
+        tree = ast.parse(path.read_text())
+        for node in ast.walk(tree):
+            if not isinstance(node, ast.ImportFrom) or node.level == 0:
+                continue
+            for other in [node.module] if node.module else [alias.name for alias in node.names]:
+                if other in files and other not in above:
+                    problems.append(f"{path.name}:{node.lineno}: imports {other}, which is not before it")
+            if node not in tree.body:
+                problems.append(f"{path.name}:{node.lineno}: imports a module of ours below its top")
+    return problems
+
+
 def cycle_in(arrows):
     """Folders of one cycle, in order, or an empty list: found without the order above."""
     after = defaultdict(set)
@@ -113,6 +137,7 @@ def main():
     parser.add_argument("--root", type=Path, default=ROOT, help="the tree to look at")
     options = parser.parse_args()
     arrows, problems = judge(options.root)
+    problems += judge_modules(options.root / "python/terrane")
     if cycle := cycle_in(arrows):
         problems.append("cycle: " + " -> ".join(cycle))
 

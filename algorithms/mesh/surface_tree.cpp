@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include <terrane/algorithms/mesh/median_tree.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 
@@ -50,9 +51,13 @@ struct SurfaceTree::Best {
 SurfaceTree::SurfaceTree(const TrianglesOfSurfaces& all) : all_(all) {
     for (std::uint32_t t = 0; t < all.triangles.size(); ++t)
         if (!all.surfaces_of[t].empty()) order_.push_back(t);
-    if (!order_.empty()) add_node(0, static_cast<std::uint32_t>(order_.size()));
-    for (std::uint32_t n = 0; n < nodes_.size(); ++n) // nodes are added on the way
-        if (nodes_[n].last - nodes_[n].first > most_in_a_leaf_of_surfaces) split(n);
+    const auto middle = [&](std::uint32_t t) {
+        const auto& [i, j, k] = all.triangles[t];
+        const Point3 &a = all.points[i], &b = all.points[j], &c = all.points[k];
+        return std::array{a.x + b.x + c.x, a.y + b.y + c.y, a.z + b.z + c.z};
+    };
+    build_median_tree(order_, nodes_, most_in_a_leaf_of_surfaces, middle,
+                      [&](std::uint32_t first, std::uint32_t last) { return node(first, last); });
 }
 
 void SurfaceTree::Node::name(std::uint32_t surface) {
@@ -70,39 +75,16 @@ bool SurfaceTree::Node::is_of(std::span<const std::uint32_t> listed) const {
            });
 }
 
-void SurfaceTree::add_node(std::uint32_t first, std::uint32_t last) {
+SurfaceTree::Node SurfaceTree::node(std::uint32_t first, std::uint32_t last) const {
     BoxOfTriangles box;
-    Node node{{}, {}, first, last, no_surface};
+    Node made{{}, {}, first, last, no_surface};
     for (std::uint32_t i = first; i < last; ++i) {
         for (const std::uint32_t v : all_.triangles[order_[i]]) box.add(all_.points[v]);
-        for (const std::uint32_t s : all_.surfaces_of[order_[i]]) node.name(s);
+        for (const std::uint32_t s : all_.surfaces_of[order_[i]]) made.name(s);
     }
-    node.low = box.low;
-    node.high = box.high;
-    nodes_.push_back(node);
-}
-
-/// Splits a node at the median along the axis on which the middles of its triangles spread most.
-void SurfaceTree::split(std::uint32_t node) {
-    const std::uint32_t first = nodes_[node].first, last = nodes_[node].last;
-    const auto middle = [&](std::uint32_t t) {
-        const auto& [i, j, k] = all_.triangles[t];
-        const Point3 &a = all_.points[i], &b = all_.points[j], &c = all_.points[k];
-        return Point3{a.x + b.x + c.x, a.y + b.y + c.y, a.z + b.z + c.z};
-    };
-    BoxOfTriangles middles;
-    for (std::uint32_t i = first; i < last; ++i) middles.add(middle(order_[i]));
-    const Point3 size = minus(middles.high, middles.low);
-    const auto longest = size.x >= size.y && size.x >= size.z ? &Point3::x
-                         : size.y >= size.z                   ? &Point3::y
-                                                              : &Point3::z;
-    const auto key = [&](std::uint32_t t) { return std::pair(middle(t).*longest, t); };
-    const std::uint32_t half = first + (last - first) / 2;
-    std::nth_element(order_.begin() + first, order_.begin() + half, order_.begin() + last,
-                     [&](std::uint32_t t, std::uint32_t u) { return key(t) < key(u); });
-    nodes_[node].children = static_cast<std::uint32_t>(nodes_.size());
-    add_node(first, half);
-    add_node(half, last);
+    made.low = box.low;
+    made.high = box.high;
+    return made;
 }
 
 std::array<double, 2> SurfaceTree::distances(const Point3& p, std::uint32_t triangle) const {

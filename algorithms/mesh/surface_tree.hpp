@@ -61,8 +61,8 @@ private:
     /// The best that a search has found.
     struct Best;
 
-    void add_node(std::uint32_t first, std::uint32_t last);
-    void split(std::uint32_t node);
+    /// Returns a node of some triangles, from `first` to before `last` in order_.
+    [[nodiscard]] Node node(std::uint32_t first, std::uint32_t last) const;
     /// Returns the distance to a triangle, and the same or that to its box, whichever is larger.
     [[nodiscard]] std::array<double, 2> distances(const Point3& p, std::uint32_t triangle) const;
     void visit(const Point3& p, std::span<const std::uint32_t> but, std::uint32_t triangle,

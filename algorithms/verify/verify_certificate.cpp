@@ -71,7 +71,7 @@ Verdict verify_certificate(std::span<const InputFile> files, const Certificate& 
     std::vector<Surface> surfaces;
     for (const InputFile& file : files)
         surfaces.insert(surfaces.end(), file.surfaces.begin(), file.surfaces.end());
-    const verifier::Kind& kind = verifier::find_kind(certificate.kind);
+    const verifier::Kind& kind = verifier::find_kind(certificate.kind());
     kind.judge(surfaces, certificate, options, verdict);
     if (found.empty() && !certificate.outputs.empty() && !kind.written(certificate))
         found.push_back({Rule::R21_output, {}, "there are output files, but no mesh of doubles"});

@@ -79,8 +79,8 @@ std::string blocks_text(const Judgement& judged) {
 /// Says how far the surfaces were changed, with a line end before it; nothing if they were not.
 std::string change_text(const Judgement& judged) {
     const auto& change = judged.verdict.change;
-    const auto& improved = judged.certificate.improved;
-    if (!change || !improved) return "";
+    const ImprovedClaim* improved = judged.certificate.improved();
+    if (!change || improved == nullptr) return "";
     const auto& limits = improved->limits;
     return fmt::format("\nimproved: {}, conforming; the same regions, curves and corners, at most "
                        "{:.3g} away, both ways",
@@ -90,7 +90,7 @@ std::string change_text(const Judgement& judged) {
 
 /// Says that layers are in their order: "2 layers: shale, salt".
 std::string layers_text(const Judgement& judged) {
-    const LayeredClaim& layered = *judged.certificate.layered;
+    const LayeredClaim& layered = *judged.certificate.layered();
     std::vector<std::string> names;
     for (const CertifiedInput& input : judged.certificate.inputs)
         for (const CertifiedSurface& s : input.surfaces) names.push_back(one_line(s.name));
@@ -157,8 +157,9 @@ std::string cut_text(const Certificate& certificate) {
 
 /// Says what a valid certificate states.
 std::string subject_text(const Judgement& judged) {
-    if (judged.certificate.layered) return layers_text(judged);
-    if (const auto& filled = judged.certificate.filled; filled && judged.verdict.change) {
+    if (judged.certificate.layered() != nullptr) return layers_text(judged);
+    if (const FilledClaim* filled = judged.certificate.filled();
+        filled != nullptr && judged.verdict.change) {
         std::size_t given = 0;
         for (const CertifiedInput& input : judged.certificate.inputs)
             for (const CertifiedSurface& s : input.surfaces) given += s.triangles;
@@ -193,7 +194,8 @@ std::string verdict_text(const Judgement& judged, const std::string& name) {
     const auto violations = judged.violations();
     if (violations.empty()) {
         auto text = fmt::format("{}: {} {}\n", name, good("valid:"), subject_text(judged));
-        const std::string cells = judged.certificate.tetrahedra ? "tetrahedra" : "triangles";
+        const std::string cells =
+            judged.certificate.tetrahedra() != nullptr ? "tetrahedra" : "triangles";
         text += blocks_text(judged);
         for (const JudgedOutput& output : judged.outputs) text += output_text(output, cells);
         if (judged.outputs.empty())

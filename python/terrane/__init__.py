@@ -20,7 +20,8 @@ from ._arrangement import Arrangement, RoundedMesh, arrange, check, regions, rou
 from ._arrays import IndexLists, SurfaceInfo
 from ._blocks import (NO_INDEX, BlockParts, Corner, InterfaceParts, Line, Patch, Structure, Volumes,
                       structure, volumes)
-from ._ensemble import BlockOutcome, Ensemble, Failure, Juxtaposed, ensemble
+from ._ensemble import Ensemble, ensemble
+from ._ensemble_results import BlockOutcome, Failure, Juxtaposed
 from ._errors import ERROR_CODES, Error, OutOfMemory
 from ._files import read, save
 from ._holes import BorderLoop, Filled, FilledHole, FillReport, fill, holes

@@ -4,19 +4,20 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Optional, Tuple
 
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, IndexLists, Point, SurfaceInfo, UInt32Array, as_count, as_flag, as_number, as_word
-from ._errors import bad_option
-from ._mesh import CheckReport, Contact, Mesh, Path, Region, Regions, mesh_of, require_conforming
+from ._arrays import Float64Array, IndexLists, Path, Point, SurfaceInfo, UInt32Array, as_count, as_flag, as_number, as_word
+from ._interop import polydata
+from ._mesh import CheckReport, Mesh, Region, Regions, mesh_of, require_conforming
+from ._picture import card
 from ._report import facts
 from ._results import Result, counted
 from ._rounding import RoundingReport, rounding_report
 from ._run import how
-from ._surface import Surface, as_surfaces, parts_of_surfaces, surface_of_parts
+from ._surface import Surface, as_surfaces, parts_of_surfaces
 
 
 class Arrangement(Result):
@@ -183,7 +184,6 @@ class Arrangement(Result):
         >>> terrane.arrange([flat]).to_pyvista().points.shape
         (3, 3)
         """
-        from ._interop import polydata
         return polydata(self.vertices, self.triangles, {"surface": self.surfaces_of.first})
 
     def _state(self) -> Tuple[Any, ...]:
@@ -241,9 +241,9 @@ def _cut_again(whole: Arrangement, boundary: List[int]) -> Arrangement:
 
 
 def _sealed_again(surfaces: List[Surface], distance: float, distance_of: Dict[str, float],
-                  _: Any) -> Arrangement:
-    from ._sealing import seal
-    return seal(surfaces, distance, distance_of=distance_of).arrangement
+                  changed: List[Surface]) -> Arrangement:
+    core, _, _ = _core.seal(parts_of_surfaces(surfaces), distance, distance_of, how(None, None))
+    return Arrangement(core, ("seal", surfaces, distance, distance_of, changed))
 
 
 class RoundedMesh(Result):
@@ -357,7 +357,6 @@ class RoundedMesh(Result):
                 "moved at most": f"{self.report.max_move:.3g}", **self.mesh._numbers()}
 
     def _repr_html_(self) -> str:
-        from ._picture import card
         return card("RoundedMesh", self._numbers(), self.mesh.vertices, self.mesh.triangles,
                     self.mesh.surfaces_of.first)
 

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import operator
-from typing import Any, Iterable, Iterator, List, Mapping, NamedTuple, Optional, Tuple
+import os
+from typing import Any, Iterable, Iterator, List, Mapping, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +16,7 @@ Float64Array = npt.NDArray[np.float64]
 UInt32Array = npt.NDArray[np.uint32]
 Int32Array = npt.NDArray[np.int32]
 Point = Tuple[float, float, float]
+Path = Union[str, "os.PathLike[str]"]
 
 _LARGEST = 2**32 - 1
 
@@ -97,6 +99,16 @@ def as_word(value: Any, place: str) -> str:
     except UnicodeEncodeError:
         raise ValueError(f"{place} holds surrogates, which are no text") from None
     return str(value)
+
+
+def as_format(value: Any) -> Optional[str]:
+    """Return the name of a format; None: the extension tells."""
+    return None if value is None else as_word(value, "format")
+
+
+def as_pair(name: Any, place: str) -> str:
+    """Return "F1" or "F1/F2" of a surface or a pair of surfaces by name."""
+    return "/".join(as_text(n, place) for n in (name if isinstance(name, tuple) else (name,)))
 
 
 def as_flag(value: Any, place: str) -> bool:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import logging
 import os
 import re
@@ -107,7 +108,6 @@ def _say_warnings() -> None:
 def _folder_of(arguments: Any) -> str:
     if arguments.output:
         return str(arguments.output)
-    import json
     try:
         with open(arguments.project, encoding="utf-8") as file:
             folder = str(json.load(file).get("folder", ""))

@@ -11,10 +11,10 @@ import os
 import shutil
 from typing import Iterator, Optional, Tuple
 
+from ._arrays import Path
 from ._ensemble_form import checked
 from ._ensemble_work import Task
 from ._errors import Error
-from ._mesh import Path
 
 
 class Kept:

@@ -13,17 +13,16 @@ import os
 import re
 import secrets
 import shutil
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, Iterator, List, Mapping, Sequence, Set
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Sequence, Set
 
 import numpy as np
 
 from ._ensemble_blocks import PERCENTILES
+from ._ensemble_report import page
+from ._ensemble_results import Outcomes
 from ._ensemble_work import Task, prepared
 from ._errors import Error
 from ._surface import surface_of_parts
-
-if TYPE_CHECKING:
-    from ._ensemble import Ensemble
 
 _STATISTICS = [*(name for name, _ in PERCENTILES), "mean", "sd", "least", "largest", "count"]
 _NOTHING = -9999.0
@@ -78,7 +77,7 @@ def _new(folder: str, before_last_step: Callable[[], None]) -> Iterator[str]:
         discard(made)
 
 
-def save(made: "Ensemble", folder: str, *, report: bool,
+def save(made: Outcomes, folder: str, *, report: bool,
          before_last_step: Callable[[], None] = lambda: None) -> List[str]:
     """Write everything; return the names of what is in the folder.
 
@@ -88,7 +87,7 @@ def save(made: "Ensemble", folder: str, *, report: bool,
         return _write_all(made, to, report)
 
 
-def _write_all(made: "Ensemble", to: str, report: bool) -> List[str]:
+def _write_all(made: Outcomes, to: str, report: bool) -> List[str]:
     _table(os.path.join(to, "blocks.csv"), list(made.table), zip(*made.table.values()))
     heads = sorted({k for row in made.realisations for k in row}, key=_order_of(made.realisations))
     _table(os.path.join(to, "realisations.csv"), heads, ([r.get(h, "") for h in heads] for r in made.realisations))
@@ -115,7 +114,6 @@ def _write_all(made: "Ensemble", to: str, report: bool) -> List[str]:
             _write_project(made._task, failure.number, inner, failure.reason)
         names.append("failures/")
     if report:
-        from ._ensemble_report import page
         with open(os.path.join(to, "report.html"), "w", encoding="utf-8") as file:
             file.write(page(made))
         names.append("report.html")
@@ -154,7 +152,7 @@ def _plain(value: Any) -> Any:
     return value
 
 
-def summary(made: "Ensemble") -> Dict[str, Any]:
+def summary(made: Outcomes) -> Dict[str, Any]:
     """Return what ensemble.json states."""
     return {
         "format": "terrane-ensemble 1",
@@ -179,7 +177,7 @@ def file_name(text: str) -> str:
     return re.sub(r"[^A-Za-z0-9.-]+", "_", text).strip("_.") or "block"
 
 
-def _write_maps(made: "Ensemble", to: str) -> None:
+def _write_maps(made: Outcomes, to: str) -> None:
     used: Dict[str, int] = {}
     for start, maps in (("probability", made.probability), ("depth_mean", made.depth_mean),
                         ("depth_sd", made.depth_sd)):
@@ -190,7 +188,7 @@ def _write_maps(made: "Ensemble", to: str) -> None:
             _write_grid(made, values, os.path.join(to, stem + ".csv"))
 
 
-def _write_grid(made: "Ensemble", values: Any, path: str) -> None:
+def _write_grid(made: Outcomes, values: Any, path: str) -> None:
     """Write a map as x, y and value of the centres of cells; cells without a value are left out."""
     x, y, width, height = made.frame
     rows, columns = np.nonzero(np.isfinite(values))
@@ -198,7 +196,7 @@ def _write_grid(made: "Ensemble", values: Any, path: str) -> None:
                                           values[rows, columns]))
 
 
-def _write_hdf5(made: "Ensemble", path: str) -> bool:
+def _write_hdf5(made: Outcomes, path: str) -> bool:
     """Write the tables and maps as HDF5; return False without h5py."""
     try:
         h5py = importlib.import_module("h5py")

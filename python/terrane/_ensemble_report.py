@@ -4,17 +4,15 @@
 from __future__ import annotations
 
 import html
-from typing import TYPE_CHECKING, List
+from typing import List
 
 import numpy as np
 
 from . import _core
 from ._ensemble_blocks import STATES
 from ._ensemble_plots import colour_map, histogram, table
+from ._ensemble_results import Outcomes
 from ._results import counted
-
-if TYPE_CHECKING:
-    from ._ensemble import Ensemble
 
 _STYLE = """
 :root{color-scheme:light dark;--line:#8886;--bar:#5b8bbd;--mark:#c2410c}
@@ -32,7 +30,7 @@ figure{margin:0}.map{image-rendering:pixelated;background:repeating-linear-gradi
 """
 
 
-def page(made: "Ensemble") -> str:
+def page(made: Outcomes) -> str:
     """Return the page."""
     title = f"Ensemble of {counted(made.count, 'realisation')}"
     body = [f"<h1>{title}</h1>", _verdict(made), _volumes(made), _histograms(made), _states(made), _contacts(made),
@@ -43,7 +41,7 @@ def page(made: "Ensemble") -> str:
             f'<body>{"".join(body)}</body></html>\n')
 
 
-def _verdict(made: "Ensemble") -> str:
+def _verdict(made: Outcomes) -> str:
     failed = len(made.failures)
     changed = sum(1 for b in made.blocks.values() if b.states["whole"] < made.count - failed)
     text = (f"All {made.count} realisations were built." if not failed else
@@ -59,7 +57,7 @@ def _row(name: str, values: "dict[str, float]", given: float) -> List[object]:
     return [name, given, *(values[s] for s in ("p90", "p50", "p10", "mean", "sd"))]
 
 
-def _volumes(made: "Ensemble") -> str:
+def _volumes(made: Outcomes) -> str:
     given = {b["name"]: b["volume"] for b in made.model_record["blocks"]}
     rows = [_row(n, b.measures["volume"], given[n]) for n, b in made.blocks.items()]
     return ("<h2>Volumes</h2><p>P90 is exceeded with a probability of 90 %. Volumes are in the cubic unit of the "
@@ -67,7 +65,7 @@ def _volumes(made: "Ensemble") -> str:
             + table(["Block", "Model", "P90", "P50", "P10", "Mean", "Standard deviation"], rows))
 
 
-def _histograms(made: "Ensemble") -> str:
+def _histograms(made: Outcomes) -> str:
     given = {b["name"]: b["volume"] for b in made.model_record["blocks"]}
     plots = []
     for name, block in made.blocks.items():
@@ -78,7 +76,7 @@ def _histograms(made: "Ensemble") -> str:
             'the model.</p><div class="grid">' + "".join(plots) + "</div>")
 
 
-def _states(made: "Ensemble") -> str:
+def _states(made: Outcomes) -> str:
     rows = [[n, *(b.states[s] for s in STATES)] for n, b in made.blocks.items()]
     new = [[n, c] for n, c in sorted(made.new.items())]
     return ("<h2>What became of the blocks</h2><p>In how many realisations a block is whole, split into several, "
@@ -86,7 +84,7 @@ def _states(made: "Ensemble") -> str:
             + ("<p>Blocks that the model has not:</p>" + table(["Block", "Realisations"], new) if new else ""))
 
 
-def _contacts(made: "Ensemble") -> str:
+def _contacts(made: Outcomes) -> str:
     if not made.contacts:
         return ""
     parts = []
@@ -102,7 +100,7 @@ def _contacts(made: "Ensemble") -> str:
     return "".join(parts)
 
 
-def _maps(made: "Ensemble") -> str:
+def _maps(made: Outcomes) -> str:
     deviations = [colour_map(v, 0.0, float(np.nanmax(v)), f"{n}: standard deviation of z", made.frame)
                   for n, v in made.depth_sd.items() if np.isfinite(v).any()]
     shares = [colour_map(np.where(v > 0, v, np.nan), 0.0, 1.0, f"{n}: probability", made.frame)
@@ -112,7 +110,7 @@ def _maps(made: "Ensemble") -> str:
             'place.</p><div class="grid">' + "".join(shares) + "</div>")
 
 
-def _juxtaposition(made: "Ensemble") -> str:
+def _juxtaposition(made: Outcomes) -> str:
     faults = set(made.model_record.get("faults", []))
     rows = [[j.surface, j.blocks[0], j.blocks[1], j.probability, *(j.area[s] for s in ("p90", "p50", "p10"))]
             for j in made.juxtaposed if j.surface in faults]
@@ -123,14 +121,14 @@ def _juxtaposition(made: "Ensemble") -> str:
             + table(["Fault", "Block", "Other block", "Probability", "Area P90", "P50", "P10"], rows))
 
 
-def _failures(made: "Ensemble") -> str:
+def _failures(made: Outcomes) -> str:
     if not made.failures:
         return ""
     return ("<h2>Failures</h2><p>The folder failures has the surfaces of each and a project that reproduces it.</p>"
             + table(["Realisation", "Code", "Reason"], [list(f) for f in made.failures]))
 
 
-def _method(made: "Ensemble") -> str:
+def _method(made: Outcomes) -> str:
     return (f"<h2>How it was made</h2><p>Terrane {html.escape(made._task.version)}, project "
             f"{html.escape(made._task.source)}, seed {made.seed}. Blocks are matched by the sides of surfaces that bound "
             "them. A realisation in which a block has vanished counts with the volume 0; one in which it is merged "

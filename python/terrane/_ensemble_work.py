@@ -78,7 +78,7 @@ def prepared(task: Task) -> _core.Ensemble:
 
 def built(task: Task, number: int) -> Built:
     """Build a realisation; 0 is the model as it was given."""
-    return Built(prepared(task).build(task.seed, number, how(task.threads, None)), ("realisation", task, number))
+    return Built(prepared(task).build(task.seed, number, how(task.threads, None)), (built, task, number))
 
 
 def run_one(task: Task, number: int) -> Tuple[bytes, float]:

@@ -8,9 +8,9 @@ import os
 from typing import Any, Dict, List, Mapping, Optional
 
 from . import _core
-from ._arrays import as_flag, as_mapping, as_number, as_word
+from ._arrays import Path, as_flag, as_format, as_mapping, as_number, as_word
 from ._errors import Error
-from ._mesh import Path, as_format, mesh
+from ._mesh import mesh
 from ._run import how
 from ._surface import Surface, as_surfaces, surface_of_parts
 

@@ -10,9 +10,10 @@ from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, Int32Array, Point, UInt32Array, as_count, as_flag, as_list, as_number, as_word
+from ._arrays import Float64Array, Int32Array, Path, Point, UInt32Array, as_count, as_flag, as_list, as_number, as_word
 from ._errors import Error, bad_option
-from ._mesh import Path
+from ._interop import meshio_mesh, polydata
+from ._picture import card
 from ._report import facts
 from ._results import Result, by_value, counted
 from ._run import how
@@ -205,7 +206,6 @@ class Filled(Result):
         >>> terrane.fill(holed).to_pyvista().points.shape
         (25, 3)
         """
-        from ._interop import polydata
         made = polydata(self.surface.vertices, self.surface.triangles, {"hole": self.hole_of})
         made.point_data["expected_error"] = np.array(self.expected_error)
         return made
@@ -223,7 +223,6 @@ class Filled(Result):
         >>> terrane.fill(holed).to_meshio().cells_dict["triangle"].shape
         (32, 3)
         """
-        from ._interop import meshio_mesh
         made = meshio_mesh(self.surface.vertices, {"triangle": self.surface.triangles},
                            {"hole": [np.array(self.hole_of)]})
         made.point_data["expected_error"] = np.array(self.expected_error)
@@ -263,7 +262,6 @@ class Filled(Result):
                 "triangles": len(self.surface.triangles)}
 
     def _repr_html_(self) -> str:
-        from ._picture import card
         return card("Filled", self._numbers(), self.surface.vertices, self.surface.triangles, self.hole_of)
 
 

@@ -8,10 +8,9 @@ from typing import Any, Dict, List
 
 import numpy as np
 
-from ._surface import Surface
 
-
-def _package(name: str, purpose: str) -> Any:
+def package(name: str, purpose: str) -> Any:
+    """Return a package that only `purpose` needs."""
     try:
         return importlib.import_module(name)
     except ImportError:
@@ -27,7 +26,7 @@ def _vtk_cells(cells: Any) -> Any:
 
 def polydata(vertices: Any, triangles: Any, arrays: Dict[str, Any]) -> Any:
     """Return a ``pyvista.PolyData`` with arrays per triangle."""
-    pyvista = _package("pyvista", "to_pyvista()")
+    pyvista = package("pyvista", "to_pyvista()")
     made = pyvista.PolyData(np.array(vertices), _vtk_cells(triangles).reshape(-1))
     for name, values in arrays.items():
         made.cell_data[name] = np.asarray(values).astype(np.int32)
@@ -36,7 +35,7 @@ def polydata(vertices: Any, triangles: Any, arrays: Dict[str, Any]) -> Any:
 
 def unstructured_grid(vertices: Any, tetrahedra: Any, arrays: Dict[str, Any]) -> Any:
     """Return a ``pyvista.UnstructuredGrid`` of tetrahedra with arrays per cell."""
-    pyvista = _package("pyvista", "to_pyvista()")
+    pyvista = package("pyvista", "to_pyvista()")
     kinds = np.full(len(tetrahedra), 10, dtype=np.uint8)  # VTK_TETRA
     made = pyvista.UnstructuredGrid(_vtk_cells(tetrahedra).reshape(-1), kinds, np.array(vertices))
     for name, values in arrays.items():
@@ -46,16 +45,6 @@ def unstructured_grid(vertices: Any, tetrahedra: Any, arrays: Dict[str, Any]) ->
 
 def meshio_mesh(vertices: Any, cells: Dict[str, Any], arrays: Dict[str, List[Any]]) -> Any:
     """Return a ``meshio.Mesh``; `arrays` have one array per block of cells."""
-    meshio = _package("meshio", "to_meshio()")
+    meshio = package("meshio", "to_meshio()")
     return meshio.Mesh(np.array(vertices), [(kind, np.array(rows, dtype=np.int64))
                                             for kind, rows in cells.items()], cell_data=arrays)
-
-
-def surface_to_pyvista(surface: Surface) -> Any:
-    """Return a ``pyvista.PolyData``."""
-    return polydata(surface.vertices, surface.triangles, {})
-
-
-def surface_to_meshio(surface: Surface) -> Any:
-    """Return a ``meshio.Mesh``."""
-    return meshio_mesh(surface.vertices, {"triangle": surface.triangles}, {})

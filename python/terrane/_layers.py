@@ -7,9 +7,9 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tup
 
 from . import _core
 from ._arrangement import as_move
-from ._arrays import Point, as_list, as_number
+from ._arrays import Path, Point, as_list, as_number
 from ._errors import Error, bad_option
-from ._mesh import Mesh, Path
+from ._mesh import Mesh
 from ._results import Result, counted
 from ._rounding import RoundingReport, rounding_report
 from ._run import how

@@ -3,25 +3,18 @@
 
 from __future__ import annotations
 
-import os
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, IndexLists, Point, SurfaceInfo, UInt32Array, as_flag, as_word
+from ._arrays import Float64Array, IndexLists, Path, Point, SurfaceInfo, UInt32Array, as_flag, as_format
 from ._errors import Error
+from ._interop import meshio_mesh, polydata
+from ._picture import card
 from ._results import Result, counted
 from ._run import how
-from ._surface import Surface, surface_of_parts
-
-Path = Union[str, "os.PathLike[str]"]
-
-
-def as_format(value: Any) -> Optional[str]:
-    """Return the name of a format; None: the extension tells."""
-    return None if value is None else as_word(value, "format")
-
+from ._surface import Surface, as_surfaces, parts_of_surfaces, surface_of_parts
 
 class Mesh(Result):
     """One mesh of several surfaces, with coordinates in doubles.
@@ -133,7 +126,6 @@ class Mesh(Result):
         >>> terrane.mesh([flat]).to_pyvista().points.shape
         (3, 3)
         """
-        from ._interop import polydata
         return polydata(self.vertices, self.triangles, {"surface": self.surfaces_of.first})
 
     def to_meshio(self) -> Any:
@@ -146,7 +138,6 @@ class Mesh(Result):
         >>> terrane.mesh([flat]).to_meshio().cells_dict["triangle"].shape
         (1, 3)
         """
-        from ._interop import meshio_mesh
         return meshio_mesh(self.vertices, {"triangle": self.triangles},
                            {"surface": [self.surfaces_of.first.astype(np.int32)]})
 
@@ -180,7 +171,6 @@ class Mesh(Result):
                 "triangles": len(self.triangles), "intersection edges": len(self.intersection_edges)}
 
     def _repr_html_(self) -> str:
-        from ._picture import card
         return card("Mesh", self._numbers(), self.vertices, self.triangles, self.surfaces_of.first)
 
 
@@ -351,7 +341,6 @@ def mesh(surfaces: Any) -> Mesh:
     >>> terrane.mesh([terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])])
     <Mesh: 1 surface, 3 vertices, 1 triangle, 0 intersection edges>
     """
-    from ._surface import as_surfaces, parts_of_surfaces
     return Mesh(_core.concatenate(parts_of_surfaces(as_surfaces(surfaces))))
 
 

@@ -3,31 +3,29 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
 from ._arrangement import as_move
-from ._arrays import Point, as_count, as_flag, as_list, as_number, as_text, as_word
-from ._blocks import Structure, Volumes
-from ._errors import Error, bad_option
-from ._mesh import Mesh, Path
-from ._parts import Block, Blocks, Interface
+from ._arrays import Path, as_count, as_flag, as_list, as_number, as_pair, as_text, as_word
+from ._errors import bad_option
+from ._interop import meshio_mesh, package
+from ._parts import Parts
+from ._picture import card
+from ._quality import improve_options
 from ._relations import Juxtaposition, Leak, Relation
-from ._report import facts
-from ._results import Result, counted
+from ._results import counted
 from ._rounding import RoundingReport, rounding_report
 from ._run import how
 from ._surface import as_surfaces, parts_of_surfaces
+from ._tetrahedra import Tetrahedra, tetrahedralize
 from ._volume_of_interest import as_boundary
 
-if TYPE_CHECKING:
-    from ._tetrahedra import Tetrahedra
 
-
-class Model(Result):
+class Model(Parts):
     """A conforming mesh with its blocks.
 
     Attributes
@@ -56,53 +54,7 @@ class Model(Result):
     [16.0, 32.0]
     """
 
-    __slots__ = ("_core", "_made_by", "_mesh", "_structure", "_labels", "_blocks")
-
-    def __init__(self, core: _core.Model, made_by: Tuple[Any, ...]) -> None:
-        self._core = core
-        self._made_by = made_by
-        self._mesh: Optional[Mesh] = None
-        self._structure: Optional[Structure] = None
-        self._labels: Optional[List[str]] = None
-        self._blocks: Optional[Blocks] = None
-
-    @property
-    def mesh(self) -> Mesh:
-        """The conforming mesh of all surfaces."""
-        if self._mesh is None:
-            self._mesh = Mesh(self._core.mesh)
-        return self._mesh
-
-    @property
-    def structure(self) -> Structure:
-        """Corners, lines, patches, interfaces, blocks."""
-        if self._structure is None:
-            self._structure = Structure(self._core.structure)
-        return self._structure
-
-    @property
-    def labels(self) -> List[str]:
-        """The names of the surfaces, made different."""
-        if self._labels is None:
-            self._labels = _core.unique_labels(self._core.mesh.surfaces)
-        return self._labels
-
-    @property
-    def volumes(self) -> Volumes:
-        """The volumes of the mesh, by the numbers of the blocks."""
-        return Volumes(self._core.volumes, self.mesh)
-
-    @property
-    def blocks(self) -> Blocks:
-        """The blocks by name."""
-        if self._blocks is None:
-            self._blocks = Blocks(self)
-        return self._blocks
-
-    @property
-    def interfaces(self) -> List[Interface]:
-        """The interfaces, by number."""
-        return [Interface(self, i) for i in range(len(self.structure.interfaces))]
+    __slots__ = ()
 
     @property
     def leaks(self) -> List[Leak]:
@@ -191,7 +143,6 @@ class Model(Result):
         >>> len(model.improved(0.25).mesh.triangles) > 100
         True
         """
-        from ._quality import improve_options
         values = improve_options(self.mesh, edge_length, options)
         core = _core.improve_model(self._core, values, how(threads, progress))
         return Model(core, ("improved", self._made_by, values))
@@ -202,7 +153,7 @@ class Model(Result):
         return bool(self._made_by[0] == "improved")
 
     def tetrahedra(self, edge_length: Optional[float] = None, *, improve: Optional[bool] = None,
-                   **options: Any) -> "Tetrahedra":
+                   **options: Any) -> Tetrahedra:
         """Fill the blocks with tetrahedra; see `terrane.tetrahedralize` for the other options.
 
         Parameters
@@ -220,7 +171,6 @@ class Model(Result):
         >>> cells.violations, round(cells.volumes[1].tetrahedra, 12)
         ([], 1.0)
         """
-        from ._tetrahedra import tetrahedralize
         wanted = edge_length is not None and not self.is_improved if improve is None else as_flag(improve, "improve")
         run = {name: options[name] for name in ("threads", "progress") if name in options}
         base = self.improved(edge_length or 0, **run) if wanted else self
@@ -272,20 +222,6 @@ class Model(Result):
         """
         self._report(path, "Model.report", None, threads)
 
-    def _report(self, path: Path, command: str, tetrahedra: Optional[_core.Tetrahedra], threads: Optional[int]) -> None:
-        """Write the page of the model, with the tetrahedra that fill it."""
-        made = self._made_by
-        options: Dict[str, Any] = {}
-        while made[0] == "improved":
-            options = {**made[2], **options}
-            made = made[1]
-        surfaces: List[Any] = []
-        if made[0] == "model":
-            surfaces = made[1]
-            options = {**made[3], **options}
-        about = facts(command, [s.name for s in surfaces] or self.labels, options)
-        _core.report_model(self._core, tetrahedra, parts_of_surfaces(surfaces), path, about, how(threads, None))
-
     def to_pyvista(self) -> Any:
         """Return a ``pyvista.MultiBlock`` of the blocks by name. Needs PyVista.
 
@@ -298,8 +234,7 @@ class Model(Result):
         >>> list(m.to_pyvista().keys())
         ['below flat', 'above flat']
         """
-        import importlib
-        blocks = importlib.import_module("pyvista").MultiBlock()
+        blocks = package("pyvista", "to_pyvista()").MultiBlock()
         for name, block in self.blocks.items():
             blocks[name] = block.mesh.to_pyvista()
         return blocks
@@ -316,7 +251,6 @@ class Model(Result):
         >>> m.to_meshio().cells_dict["triangle"].shape
         (34, 3)
         """
-        from ._interop import meshio_mesh
         sides = self._core.volumes.of_sides.astype(np.int32)
         return meshio_mesh(self.mesh.vertices, {"triangle": self.mesh.triangles},
                            {"surface": [self.mesh.surfaces_of.first.astype(np.int32)],
@@ -341,8 +275,8 @@ class Model(Result):
     @classmethod
     def _from_state(cls, *state: Any) -> "Model":
         if state[0] == "build":
-            from ._project import Built
-            return Built._from_state(*state[1:]).model
+            made: Model = state[1](*state[2:]).model
+            return made
         if state[0] == "improved":
             old = cls._from_state(*state[1])
             return cls(_core.improve_model(old._core, state[2], how(None, None)), tuple(state))
@@ -367,7 +301,6 @@ class Model(Result):
                 "volume": f"{self._core.exact_volumes[0]:.6g}"}
 
     def _repr_html_(self) -> str:
-        from ._picture import card
         return card("Model", self._numbers(), self.mesh.vertices, self.mesh.triangles,
                     self.mesh.surfaces_of.first)
 
@@ -381,11 +314,6 @@ def _length(value: Any, place: str) -> Tuple[float, bool]:
             return 0.0, True
         raise bad_option(f"{value!r} is neither a number nor 'auto'", place)
     return as_number(value, place, least=0), False
-
-
-def as_pair(name: Any, place: str) -> str:
-    """Return "F1" or "F1/F2" of a surface or a pair of surfaces by name."""
-    return "/".join(as_text(n, place) for n in (name if isinstance(name, tuple) else (name,)))
 
 
 def _seal_options(seal: Any) -> Tuple[float, bool, Dict[str, float]]:
@@ -479,13 +407,3 @@ def model(surfaces: Any, box: Any = None, seal: Union[None, float, str, Mapping[
                "seal_automatic": automatic, "seal_of": of, "extend": as_number(extend, "extend", least=0),
                "min_volume": least, "min_volume_automatic": small, "column": column_of(column)}
     return _made(as_surfaces(surfaces), as_boundary(box), options, threads, progress)
-
-
-def number_of(model_of: Model, block: Any) -> int:
-    """Return the number of a block, given as a block, a number, a name or a key."""
-    if isinstance(block, Block):
-        return block.number
-    try:
-        return model_of.blocks[block].number
-    except KeyError as missing:
-        raise Error("bad_option", str(missing.args[0]), "block") from None

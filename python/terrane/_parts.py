@@ -1,18 +1,104 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Blocks and interfaces of a model."""
+"""The parts of a model: its mesh, and its blocks and interfaces, each by name or number."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Tuple
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple
 
-from ._arrays import UInt32Array, as_count
+from . import _core
+from ._arrays import Path, UInt32Array, as_count
+from ._blocks import Structure, Volumes
+from ._errors import Error
 from ._mesh import Mesh
+from ._picture import card
+from ._report import facts
+from ._results import Result
+from ._run import how
+from ._surface import parts_of_surfaces
 
-if TYPE_CHECKING:
-    from ._model import Model
+
+class Parts(Result):
+    """What every `Model` holds; a class of its own, as blocks and tetrahedra refer to it and `Model` to them."""
+
+    __slots__ = ("_core", "_made_by", "_mesh", "_structure", "_labels", "_blocks")
+
+    def __init__(self, core: _core.Model, made_by: Tuple[Any, ...]) -> None:
+        self._core = core
+        self._made_by = made_by
+        self._mesh: Optional[Mesh] = None
+        self._structure: Optional[Structure] = None
+        self._labels: Optional[List[str]] = None
+        self._blocks: Optional[Blocks] = None
+
+    @property
+    def mesh(self) -> Mesh:
+        """The conforming mesh of all surfaces."""
+        if self._mesh is None:
+            self._mesh = Mesh(self._core.mesh)
+        return self._mesh
+
+    @property
+    def structure(self) -> Structure:
+        """Corners, lines, patches, interfaces, blocks."""
+        if self._structure is None:
+            self._structure = Structure(self._core.structure)
+        return self._structure
+
+    @property
+    def labels(self) -> List[str]:
+        """The names of the surfaces, made different."""
+        if self._labels is None:
+            self._labels = _core.unique_labels(self._core.mesh.surfaces)
+        return self._labels
+
+    @property
+    def volumes(self) -> Volumes:
+        """The volumes of the mesh, by the numbers of the blocks."""
+        return Volumes(self._core.volumes, self.mesh)
+
+    @property
+    def blocks(self) -> Blocks:
+        """The blocks by name."""
+        if self._blocks is None:
+            self._blocks = Blocks(self)
+        return self._blocks
+
+    @property
+    def interfaces(self) -> List[Interface]:
+        """The interfaces, by number."""
+        return [Interface(self, i) for i in range(len(self.structure.interfaces))]
+
+    def _report(self, path: Path, command: str, tetrahedra: Optional[_core.Tetrahedra], threads: Optional[int]) -> None:
+        """Write the page of the model, with the tetrahedra that fill it."""
+        made = self._made_by
+        options: Dict[str, Any] = {}
+        while made[0] == "improved":
+            options = {**made[2], **options}
+            made = made[1]
+        surfaces: List[Any] = []
+        if made[0] == "model":
+            surfaces = made[1]
+            options = {**made[3], **options}
+        about = facts(command, [s.name for s in surfaces] or self.labels, options)
+        _core.report_model(self._core, tetrahedra, parts_of_surfaces(surfaces), path, about, how(threads, None))
 
 
-class Block:
+class _Part:
+    """A block or an interface: a number in a model, which holds all that is said of it."""
+
+    __slots__ = ("_model", "number")
+
+    def __init__(self, model: Parts, number: int) -> None:
+        self._model = model
+        self.number = number
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, _Part) or type(self) is not type(other):
+            return NotImplemented
+        return self.number == other.number and (self._model is other._model or self._model == other._model)
+
+
+class Block(_Part):
     """A block of a model.
 
     Attributes
@@ -46,11 +132,7 @@ class Block:
     (('flat',), 32.0)
     """
 
-    __slots__ = ("_model", "number")
-
-    def __init__(self, model: "Model", number: int) -> None:
-        self._model = model
-        self.number = number
+    __slots__ = ()
 
     @property
     def name(self) -> str:
@@ -117,11 +199,6 @@ class Block:
     def _names(self, numbers: Tuple[int, ...]) -> Tuple[str, ...]:
         return tuple(self._model.labels[s] for s in numbers)
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Block):
-            return NotImplemented
-        return self.number == other.number and (self._model is other._model or self._model == other._model)
-
     def __hash__(self) -> int:
         return hash((self.number, self.name))
 
@@ -129,7 +206,6 @@ class Block:
         return f"<Block {self.number} {self.name!r}: volume {self.volume:.6g}>"
 
     def _repr_html_(self) -> str:
-        from ._picture import card
         mesh = self.mesh
         return card(self.name, {"number": self.number, "volume": f"{self.volume:.6g}",
                                 "area": f"{self.area:.6g}", "neighbours": ", ".join(self.neighbours)},
@@ -153,7 +229,7 @@ class Blocks(Mapping[str, Block]):
 
     __slots__ = ("_model", "_by_name")
 
-    def __init__(self, model: "Model") -> None:
+    def __init__(self, model: Parts) -> None:
         self._model = model
         self._by_name = {b.name: Block(model, i)
                          for i, b in enumerate(model.structure.blocks) if i > 0}
@@ -182,7 +258,7 @@ class Blocks(Mapping[str, Block]):
         return f"<Blocks: {', '.join(self._by_name)}>"
 
 
-class Interface:
+class Interface(_Part):
     """The triangles between the same two blocks that belong to the same surfaces.
 
     Attributes
@@ -207,11 +283,7 @@ class Interface:
     (16.0, ('below flat', 'above flat'))
     """
 
-    __slots__ = ("_model", "number")
-
-    def __init__(self, model: "Model", number: int) -> None:
-        self._model = model
-        self.number = number
+    __slots__ = ()
 
     @property
     def surfaces(self) -> Tuple[str, ...]:
@@ -241,13 +313,18 @@ class Interface:
         """The interface as a mesh of its own."""
         return Mesh(self._model._core.part(False, self.number)[0])
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Interface):
-            return NotImplemented
-        return self.number == other.number and (self._model is other._model or self._model == other._model)
-
     def __hash__(self) -> int:
         return hash((self.number, self.surfaces))
 
     def __repr__(self) -> str:
         return f"<Interface {self.number} of {' and '.join(self.surfaces)}: {self.blocks[0]} | {self.blocks[1]}>"
+
+
+def number_of(model: Parts, block: Any) -> int:
+    """Return the number of a block, given as a block, a number, a name or a key."""
+    if isinstance(block, Block):
+        return block.number
+    try:
+        return model.blocks[block].number
+    except KeyError as missing:
+        raise Error("bad_option", str(missing.args[0]), "block") from None

@@ -8,8 +8,8 @@ import os
 from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
 from . import _core
+from ._arrays import Path
 from ._errors import Error
-from ._mesh import Path
 from ._model import Model
 from ._results import Result
 from ._run import how
@@ -45,7 +45,7 @@ class Built(Result):
 
     def __init__(self, core: _core.Built, made_by: Tuple[Any, ...]) -> None:
         self._core = core
-        self._made_by = made_by
+        self._made_by = made_by  # a function, and its arguments
         self.model = Model(core.model, ("build", *made_by))
         found = core.tetrahedra
         self.tetrahedra: Optional[Tetrahedra] = None if found is None else Tetrahedra(found)
@@ -126,10 +126,8 @@ class Built(Result):
 
     @classmethod
     def _from_state(cls, *state: Any) -> "Built":
-        if state[0] == "realisation":
-            from ._ensemble_work import Task, built
-            return built(Task(*state[1]), state[2])
-        return build(*state)
+        made: Built = state[0](*state[1:])
+        return made
 
     def _line(self) -> str:
         cells = "" if self.tetrahedra is None else f", {len(self.tetrahedra.tetrahedra)} tetrahedra"
@@ -189,4 +187,4 @@ def build(project: Union[Path, Mapping[str, Any]], folder: Optional[Path] = None
     """
     text, base, source = project_text(project, folder)
     core = _core.build(text, base, source, how(threads, progress))
-    return Built(core, (project, folder))
+    return Built(core, (build, project, folder))

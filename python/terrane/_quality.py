@@ -8,10 +8,10 @@ from typing import Any, Dict, Mapping, Optional, Tuple
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, UInt32Array, as_count, as_flag, as_mapping, as_number
-from ._errors import bad_option
+from ._arrays import Float64Array, Path, UInt32Array, as_count, as_flag, as_mapping, as_number
 from ._blocks import Volumes
-from ._mesh import Mesh, Path, mesh_of, proven
+from ._errors import bad_option
+from ._mesh import Mesh, mesh_of, proven
 from ._results import Result
 from ._run import how
 from ._surface import as_surface, parts_of_surfaces

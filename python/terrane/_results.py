@@ -7,6 +7,8 @@ from typing import Any, Dict, Tuple, Type, TypeVar
 
 import numpy as np
 
+from ._picture import card
+
 _PLURALS = {"vertex": "vertices", "leaks": "leaks", "tetrahedron": "tetrahedra"}
 
 
@@ -81,7 +83,6 @@ class Result:
         return f"<{type(self).__name__}: {self._line()}>"
 
     def _repr_html_(self) -> str:
-        from ._picture import card
         vertices, triangles = self._shape()
         return card(type(self).__name__, self._numbers(), vertices, triangles)
 

@@ -7,8 +7,7 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Tuple
 
 from . import _core
 from ._arrangement import Arrangement
-from ._arrays import Point, as_mapping, as_number
-from ._model import as_pair
+from ._arrays import Point, as_mapping, as_number, as_pair
 from ._results import Result, counted
 from ._run import how
 from ._surface import Surface, as_surfaces, parts_of_surfaces, surface_of_parts

@@ -3,14 +3,17 @@
 
 from __future__ import annotations
 
-import os
-from typing import Any, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, UInt32Array, as_count, as_flag, as_points, as_text, as_triangles, as_word
+from ._arrays import Float64Array, Path, UInt32Array, as_count, as_flag, as_format, as_points, as_text, as_triangles, as_word
 from ._errors import Error, bad_option
+from ._interop import meshio_mesh, polydata
+from ._picture import card
+from ._results import counted
+from ._run import how
 
 #: The roles that a surface can have.
 ROLES: Tuple[str, ...] = ("unknown", "horizon", "fault", "boundary")
@@ -143,7 +146,7 @@ class Surface:
         values.update(changes)
         return Surface(**values)
 
-    def save(self, path: Union[str, "os.PathLike[str]"], format: Optional[str] = None) -> None:
+    def save(self, path: Path, format: Optional[str] = None) -> None:
         """Write the surface to a file; the extension selects the format, or `format` does.
 
         Examples
@@ -153,8 +156,7 @@ class Surface:
         >>> terrane.read("top.obj")[0].name
         'top'
         """
-        from ._files import save
-        save([self], path, format=format)
+        _core.write_mesh(_core.concatenate([self._core]), path, as_format(format), False, True, how(1, None))
 
     def to_pyvista(self) -> Any:
         """Return a ``pyvista.PolyData``. Needs PyVista.
@@ -166,8 +168,7 @@ class Surface:
         >>> surface.to_pyvista().points.shape
         (3, 3)
         """
-        from ._interop import surface_to_pyvista
-        return surface_to_pyvista(self)
+        return polydata(self.vertices, self.triangles, {})
 
     def to_meshio(self) -> Any:
         """Return a ``meshio.Mesh``. Needs meshio.
@@ -179,8 +180,7 @@ class Surface:
         >>> surface.to_meshio().cells_dict["triangle"].shape
         (1, 3)
         """
-        from ._interop import surface_to_meshio
-        return surface_to_meshio(self)
+        return meshio_mesh(self.vertices, {"triangle": self.triangles}, {})
 
     def plot(self, **options: Any) -> Any:
         """Show the surface in a window or notebook. Needs PyVista, which gets the options.
@@ -213,12 +213,10 @@ class Surface:
                          tuple(self.frame))
 
     def __repr__(self) -> str:
-        from ._results import counted
         return (f"<Surface {self.name!r}: {self.role}, {counted(len(self.vertices), 'vertex')}, "
                 f"{counted(len(self.triangles), 'triangle')}>")
 
     def _repr_html_(self) -> str:
-        from ._picture import card
         return card("Surface " + self.name,
                     {"role": self.role, "vertices": len(self.vertices), "triangles": len(self.triangles)},
                     self.vertices, self.triangles)

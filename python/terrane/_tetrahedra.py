@@ -9,10 +9,11 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tup
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, IndexLists, SurfaceInfo, UInt32Array, as_count, as_flag, as_list, as_mapping, as_number, as_point, as_text, as_word
+from ._arrays import (Float64Array, IndexLists, Path, SurfaceInfo, UInt32Array, as_count, as_flag, as_format, as_list,
+                      as_mapping, as_number, as_point, as_text, as_word)
 from ._errors import Error, bad_option
-from ._mesh import Path, as_format
-from ._model import Model, number_of
+from ._interop import meshio_mesh, unstructured_grid
+from ._parts import Parts, number_of
 from ._results import Result, counted
 from ._run import how
 
@@ -93,7 +94,7 @@ class Tetrahedra(Result):
 
     __slots__ = ("_core", "_model")
 
-    def __init__(self, core: _core.Tetrahedra, model: Optional[Model] = None) -> None:
+    def __init__(self, core: _core.Tetrahedra, model: Optional[Parts] = None) -> None:
         self._core = core
         self._model = model  # that they fill, for reports; a pickle has none
 
@@ -270,7 +271,6 @@ class Tetrahedra(Result):
         >>> len(cells.to_pyvista().points) == len(cells.vertices)
         True
         """
-        from ._interop import unstructured_grid
         return unstructured_grid(self.vertices, self.tetrahedra, {"region": self.region_of})
 
     def to_meshio(self) -> Any:
@@ -283,7 +283,6 @@ class Tetrahedra(Result):
         >>> len(cells.to_meshio().cells_dict["tetra"]) == len(cells.tetrahedra)
         True
         """
-        from ._interop import meshio_mesh
         kinds = {"tetra": self.tetrahedra, "triangle": self.faces}
         none = np.full(len(self.faces), -1, dtype=np.int32)
         return meshio_mesh(self.vertices, kinds, {
@@ -323,7 +322,7 @@ class Tetrahedra(Result):
         return self.vertices, self.faces
 
 
-def tetrahedralize(model: Model, *, edge_length: Optional[float] = None,
+def tetrahedralize(model: Parts, *, edge_length: Optional[float] = None,
                    size_of: Optional[Mapping[str, float]] = None,
                    size_in: Optional[Mapping[Any, float]] = None, quality: Optional[float] = None,
                    max_volume: Optional[float] = None, split: Sequence[str] = (),
@@ -379,7 +378,7 @@ def tetrahedralize(model: Model, *, edge_length: Optional[float] = None,
     >>> cells.volumes[1].equal, cells.violations
     (True, [])
     """
-    if not isinstance(model, Model):
+    if not isinstance(model, Parts):
         raise TypeError(f"tetrahedra are made of a Model, not of a {type(model).__name__}: terrane.model()")
     def number(value: Optional[float], name: str) -> Optional[float]:
         return None if value is None else as_number(value, name, positive=True)

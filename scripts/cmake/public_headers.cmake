@@ -28,6 +28,7 @@ set(terrane_headers
     algorithms/check/pair_check.hpp
     algorithms/regions/quadrilaterals.hpp
     algorithms/regions/regions.hpp
+    algorithms/rounding/rounded_mesh.hpp
     algorithms/rounding/rounding.hpp
     algorithms/volumes/point_location.hpp
     algorithms/volumes/region_points.hpp
@@ -43,6 +44,7 @@ set(terrane_headers
     algorithms/quality/deviation.hpp
     algorithms/quality/improve.hpp
     algorithms/quality/improve_measured.hpp
+    algorithms/quality/improved.hpp
     algorithms/quality/quality.hpp
     algorithms/simplification/simplify.hpp
     algorithms/reconstruction/holes/filling.hpp
@@ -89,7 +91,9 @@ set(terrane_headers
     io/structure_json.hpp)
 set(verify_headers
     algorithms/verify/block_claims.hpp
+    algorithms/verify/certificate.hpp
     algorithms/verify/changed_claims.hpp
+    algorithms/verify/verdict.hpp
     algorithms/verify/verify.hpp
     algorithms/verify/verify_certificate.hpp)
 # The C interface. terrane.h includes the others.

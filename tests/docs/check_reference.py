@@ -7,7 +7,6 @@ check_reference.py build/release/cli/terrane
 - each option that `terrane COMMAND --help` prints, with its placeholder and its default
 - each key of the JSON that the program writes, and of the schema of project files
 - error codes, verification rules and names of formats
-- the folders of the sources, in docs/explanation/architecture.md
 """
 import base64
 import gzip
@@ -371,26 +370,13 @@ def check_names(findings):
     findings.compare("errors.md", set(documented), codes)
     findings += [f"errors.md: the status of {code} is {status}"
                  for code, status in statuses(codes).items() if documented.get(code, status) != status]
-    rules = {r.split("_")[0] for r in enumerators(source("verify.hpp"), "Rule")}
+    rules = {r.split("_")[0] for r in enumerators(source("verdict.hpp"), "Rule")}
     findings.compare("certificate.md, rules", first_cells("certificate.md", "rules"), rules)
     listed = set(re.findall(r'{"(\w+)", Format::\w+}', source("files.cpp")))
     table = rows_of(sections_of((REFERENCE / "formats.md").read_text())["file-formats"])
     documented = {code.lstrip(".") for row in table for code in CODE.findall(row[1])}
     findings.compare("formats.md", documented, listed)
     return len(codes) + len(rules) + len(listed)
-
-
-def check_folders(findings):
-    """The folders that docs/explanation/architecture.md lists are those of the tree, in their order."""
-    text = (ROOT / "docs" / "explanation" / "architecture.md").read_text()
-    documented = [CODE.findall(row[0])[0] for row in rows_of(sections_of(text)["folders"], "Folder")]
-    script = (ROOT / "scripts" / "include_graph.py").read_text()
-    body = re.search(r"^ORDER = \((.*?)\)\.split\(\)", script, re.S | re.M).group(1)
-    true = " ".join(re.findall(r'"([^"]*)"', body)).split()
-    findings.compare("architecture.md", set(documented), set(true))
-    if set(documented) == set(true) and documented != true:
-        findings.append("architecture.md: the folders are in another order than in include_graph.py")
-    return len(true)
 
 
 def has_tetgen(program):
@@ -406,7 +392,7 @@ def main():
     options = check_options(program, findings)
     keys = check_json(program, findings)
     project = check_project(findings)
-    names = check_names(findings) + check_folders(findings)
+    names = check_names(findings)
     for finding in findings:
         print(finding)
     print(f"{options} options, {keys} keys of JSON, {project} keys of projects, {names} names,"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <terrane/algorithms/quality/detail/features.hpp>
-#include <terrane/algorithms/quality/improve.hpp>
+#include <terrane/algorithms/quality/improved.hpp>
 
 namespace terrane::quality::detail {
 

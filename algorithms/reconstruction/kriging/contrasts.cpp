@@ -119,7 +119,8 @@ bool cholesky(MatrixXd& matrix, const Run& run) {
         if (run.stop.stop_requested()) return false;
         const Index width = std::min(panel, n - k), rest = n - k - width;
         Eigen::Ref<MatrixXd> corner = matrix.block(k, k, width, width);
-        if (Eigen::internal::llt_inplace<double, Eigen::Lower>::blocked(corner) != -1) return false;
+        const Eigen::LLT<Eigen::Ref<MatrixXd>> in_place(corner);
+        if (in_place.info() != Eigen::Success) return false;
         if (rest == 0) break;
         Eigen::Ref<MatrixXd> below = matrix.block(k + width, k, rest, width);
         corner.transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(below);

@@ -12,7 +12,7 @@
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
-#include <terrane/algorithms/rounding/detail/separation.hpp>
+#include <terrane/algorithms/rounding/detail/moved_parts.hpp>
 #include <terrane/algorithms/rounding/detail/separation_bounds.hpp>
 #include <terrane/algorithms/search/search.hpp>
 

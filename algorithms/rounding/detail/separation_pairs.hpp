@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/algorithms/rounding/detail/separation.hpp>
+#include <terrane/algorithms/rounding/detail/moved_parts.hpp>
 #include <terrane/algorithms/rounding/detail/separation_faces.hpp>
 #include <terrane/algorithms/search/search.hpp>
 

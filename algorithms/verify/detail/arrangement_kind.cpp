@@ -11,6 +11,8 @@
 
 #include <terrane/algorithms/verify/detail/digest.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
+#include <terrane/algorithms/verify/verify_certificate.hpp>
 
 namespace terrane::verifier {
 

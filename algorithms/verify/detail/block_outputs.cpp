@@ -16,6 +16,13 @@
 
 namespace terrane::verifier {
 
+/// What all files of a folder with blocks need.
+struct Folder {
+    WrittenMesh mesh;
+    std::vector<BlockSides> sides;
+    BlockParts parts;
+};
+
 namespace {
 
 // --- Blocks -------------------------------------------------------------------------------------
@@ -28,24 +35,16 @@ std::vector<BlockSides> sides_of(const BlocksClaim& claim, std::size_t triangles
     return sides;
 }
 
-/// What all files of a folder with blocks need.
-struct Folder {
-    WrittenMesh mesh;
-    std::vector<BlockSides> sides;
-    BlockParts parts;
-};
-
 Folder make_folder(const Certificate& certificate) {
     Folder folder{rounded_mesh(certificate).value(), {}, {}};
-    folder.sides = sides_of(certificate.blocks.value(), folder.mesh.triangles.size());
+    folder.sides = sides_of(*certificate.blocks(), folder.mesh.triangles.size());
     folder.parts = find_parts(folder.mesh, folder.sides);
     return folder;
 }
 
-const Folder& folder_of(const Certificate& certificate, std::any& computed) {
-    using Kept = std::shared_ptr<const Folder>;
-    if (!computed.has_value()) computed = Kept(std::make_shared<Folder>(make_folder(certificate)));
-    return *std::any_cast<const Kept&>(computed);
+const Folder& folder_of(const Certificate& certificate, std::shared_ptr<const Folder>& kept) {
+    if (!kept) kept = std::make_shared<Folder>(make_folder(certificate));
+    return *kept;
 }
 
 std::vector<std::int32_t> as_cells(const Numbers& numbers) {
@@ -174,7 +173,7 @@ std::string compare_model(std::string_view contents, const Certificate& certific
     verdict.check = OutputCheck::numbers;
     ModelLists lists{folder.mesh,  folder.parts, output.surfaces,
                      folder.sides, {},           part_format(certificate)};
-    for (const std::string& volume : certificate.blocks->volumes)
+    for (const std::string& volume : certificate.blocks()->volumes)
         lists.volumes.push_back(nearest_double(mpq_class(volume)));
     try {
         compare_model_json(contents, lists);
@@ -193,7 +192,7 @@ constexpr std::array<std::pair<std::string_view, TetrahedraReader>, 3> tetrahedr
 
 ExpectedTetrahedra expected_tetrahedra(const Certificate& certificate,
                                        const CertifiedOutput& output) {
-    const TetrahedraClaim& claim = certificate.tetrahedra.value();
+    const TetrahedraClaim& claim = *certificate.tetrahedra();
     const auto of_triangles =
         surfaces_of_parents(certificate, certificate.rounded.value().parents_of);
     const Numbers box{static_cast<std::uint32_t>(surface_count(certificate))};
@@ -229,12 +228,12 @@ void check_folder_files(const Certificate& certificate, Violations& found) {
 }
 
 std::string compare_block_file(std::string_view contents, const Certificate& certificate,
-                               const CertifiedOutput& output, std::any& computed,
+                               const CertifiedOutput& output, std::shared_ptr<const Folder>& kept,
                                OutputVerdict& verdict) {
     if (output.surfaces.size() != surface_count(certificate))
         return "another number of surfaces than in the inputs";
     verdict.renamed = renamed_surfaces(certificate, output);
-    const Folder& folder = folder_of(certificate, computed);
+    const Folder& folder = folder_of(certificate, kept);
     if (is_called(output.name, "model.json") && output.format == "json")
         return compare_model(contents, certificate, folder, output, verdict);
     if (is_called(output.name, "result.vtp") && output.format == "vtp")
@@ -260,9 +259,10 @@ std::string compare_block_file(std::string_view contents, const Certificate& cer
 }
 
 std::string compare_tetrahedra_file(std::string_view contents, const Certificate& certificate,
-                                    const CertifiedOutput& output, std::any& /*computed*/,
+                                    const CertifiedOutput& output,
+                                    std::shared_ptr<const Folder>& /*kept*/,
                                     OutputVerdict& verdict) {
-    const bool box = certificate.tetrahedra.value().box;
+    const bool box = certificate.tetrahedra()->box;
     if (output.surfaces.size() != surface_count(certificate) + (box ? 1 : 0))
         return "another number of surfaces than in the inputs, with the box";
     if (box && output.surfaces.back() != SurfaceInfo{"box", Role::boundary})

@@ -16,6 +16,7 @@
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/joined_sets.hpp>
 #include <terrane/algorithms/verify/detail/output.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 
 namespace terrane::verifier {
 

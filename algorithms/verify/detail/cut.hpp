@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/verify/certificate.hpp>
 #include <terrane/algorithms/verify/detail/contacts.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
 
 namespace terrane::verifier {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/algorithms/verify/verify.hpp>
+#include <terrane/algorithms/verify/certificate.hpp>
 
 namespace terrane::verifier {
 

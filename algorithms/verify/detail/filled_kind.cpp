@@ -24,7 +24,7 @@ void parse_filled(const Node& node, Certificate& certificate) {
     const auto expected_error = [](const Node& error) {
         return error.is_null() ? std::numeric_limits<double>::quiet_NaN() : error.number();
     };
-    certificate.filled =
+    certificate.beside =
         FilledClaim{each(claim["vertices"], point), each(claim["triangles"], indices<3>),
                     each(claim["surfaces"], part), each(claim["invented"], index),
                     each(claim["deviation"], expected_error)};
@@ -33,15 +33,16 @@ void parse_filled(const Node& node, Certificate& certificate) {
 void judge_filled(std::span<const Surface> surfaces, const Certificate& certificate,
                   const VerifyOptions& options, Verdict& verdict) {
     const double accepted = options.max_change.value_or(default_max_change(surfaces));
-    check_filled(surfaces, *certificate.filled, accepted, verdict.violations);
+    check_filled(surfaces, *certificate.filled(), accepted, verdict.violations);
     double limit = 0;
-    for (const FilledPart& part : certificate.filled->surfaces) limit = std::max(limit, part.limit);
+    for (const FilledPart& part : certificate.filled()->surfaces)
+        limit = std::max(limit, part.limit);
     verdict.change = SurfaceChange{limit, accepted};
 }
 
 std::optional<WrittenMesh> written_filled(const Certificate& certificate) {
     static const IndexLists<std::uint32_t> none;
-    const FilledClaim& filled = certificate.filled.value();
+    const FilledClaim& filled = *certificate.filled();
     IndexLists<std::uint32_t> surfaces_of;
     for (std::uint32_t s = 0; s < filled.surfaces.size(); ++s)
         for (std::uint32_t t = 0; t < filled.surfaces[s].triangles; ++t)

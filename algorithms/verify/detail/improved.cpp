@@ -10,6 +10,7 @@
 #include <terrane/algorithms/verify/detail/distance.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/nearness.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 
 namespace terrane::verifier {
 

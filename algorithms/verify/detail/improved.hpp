@@ -4,9 +4,9 @@
 #pragma once
 
 #include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/verify/certificate.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 #include <terrane/algorithms/verify/detail/sheets.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
 
 namespace terrane::verifier {
 

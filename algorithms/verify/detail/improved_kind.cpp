@@ -20,7 +20,7 @@ void parse_improved(const Node& node, Certificate& certificate) {
     const Node claim = node["improved"];
     claim.expect_keys(
         {"vertices", "triangles", "surfaces", "regions", "intersection_edges", "limits"});
-    certificate.improved =
+    certificate.beside =
         ImprovedClaim{each(claim["vertices"], point),
                       each(claim["triangles"], indices<3>),
                       lists(claim["surfaces"]),
@@ -38,22 +38,22 @@ void judge_improved(std::span<const Surface> surfaces, const Certificate& certif
         found.push_back(
             {Rule::R23_improved_conforming, {}, "there is no conforming mesh that was improved"});
     const double accepted = accepted_change(surfaces, certificate, options);
-    check_improved_numbers(*certificate.improved, surfaces_of_mesh(certificate).size(), accepted,
+    check_improved_numbers(*certificate.improved(), surfaces_of_mesh(certificate).size(), accepted,
                            found);
     if (!found.empty()) return;
     const RoundedClaim& rounded = *certificate.rounded;
     const auto surfaces_of = surfaces_of_parents(certificate, rounded.parents_of);
     check_improved({rounded.vertices, rounded.triangles, surfaces_of, rounded.regions_of,
                     rounded.intersection_edges},
-                   *certificate.improved, found);
+                   *certificate.improved(), found);
     double largest = verdict.change ? verdict.change->limit : 0;
-    for (const double limit : certificate.improved->limits) largest = std::max(largest, limit);
+    for (const double limit : certificate.improved()->limits) largest = std::max(largest, limit);
     verdict.change = SurfaceChange{largest, accepted};
 }
 
 std::optional<WrittenMesh> written_improved(const Certificate& certificate) {
     static const IndexLists<std::uint32_t> no_parents;
-    const ImprovedClaim& mesh = certificate.improved.value();
+    const ImprovedClaim& mesh = *certificate.improved();
     return WrittenMesh{mesh.vertices, mesh.triangles,   mesh.regions_of,
                        no_parents,    mesh.surfaces_of, true};
 }

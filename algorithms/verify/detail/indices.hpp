@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include <terrane/algorithms/verify/detail/inputs.hpp>
+#include <terrane/algorithms/verify/detail/violations.hpp>
 
 namespace terrane::verifier {
 

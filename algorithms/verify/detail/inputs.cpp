@@ -11,20 +11,6 @@
 
 namespace terrane::verifier {
 
-std::string text(std::uint64_t number) {
-    return std::to_string(number);
-}
-
-std::string text(Edge pair) {
-    return text(pair[0]) + " and " + text(pair[1]);
-}
-
-void sort_by_rule(Violations& violations) {
-    std::sort(violations.begin(), violations.end(), [](const Violation& a, const Violation& b) {
-        return std::tie(a.rule, a.elements, a.sentence) < std::tie(b.rule, b.elements, b.sentence);
-    });
-}
-
 Inputs join_inputs(std::span<const Surface> surfaces, Violations& found) {
     Inputs inputs;
     for (std::uint32_t s = 0; s < surfaces.size(); ++s) {

@@ -6,24 +6,16 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/verify/detail/rational.hpp>
-#include <terrane/algorithms/verify/verify.hpp>
+#include <terrane/algorithms/verify/detail/violations.hpp>
+#include <terrane/algorithms/verify/verdict.hpp>
 
 namespace terrane::verifier {
-
-using Numbers = std::vector<std::uint32_t>;
-using Violations = std::vector<Violation>;
-
-std::string text(std::uint64_t number);
-std::string text(Edge pair); ///< "3 and 7"
-
-void sort_by_rule(Violations& violations);
 
 /// The vertices and triangles of all surfaces, numbered consecutively.
 struct Inputs {
@@ -50,12 +42,6 @@ SetAside find_set_aside(const Inputs& inputs, std::span<const Vector4> points);
 /// Precondition: the parents are in range.
 IndexLists<std::uint32_t> children_of(const IndexLists<std::uint32_t>& parents_of,
                                       std::size_t input_count);
-
-/// Triangles and their parents, the input triangles that contain them.
-struct Parts {
-    std::span<const Triangle> triangles;
-    const IndexLists<std::uint32_t>& parents_of; ///< per triangle
-};
 
 /// Returns the intersection edges as rule R7 defines them, sorted.
 std::vector<Edge> find_intersection_edges(const Parts& parts, const Inputs& inputs,

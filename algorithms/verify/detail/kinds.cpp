@@ -76,9 +76,9 @@ std::vector<CertifiedSurface> surfaces_of_mesh(const Certificate& certificate) {
     if (certificate.cut)
         for (const Surface& s : certificate.cut->volume.boundary)
             all.push_back({s.name, s.role, s.vertices.size(), s.triangles.size()});
-    if (!certificate.layered) return all;
+    if (!certificate.layered()) return all;
     std::vector<CertifiedSurface> layers;
-    for (const CertifiedLayer& layer : certificate.layered->order)
+    for (const CertifiedLayer& layer : certificate.layered()->order)
         layers.push_back(all.at(layer.surface));
     return layers;
 }

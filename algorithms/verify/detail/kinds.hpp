@@ -4,7 +4,7 @@
 // "inputs" and "outputs", and a file NAME_kind.cpp that reads and judges them.
 #pragma once
 
-#include <any>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,10 +13,13 @@
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/verify/certificate.hpp>
 #include <terrane/algorithms/verify/detail/node.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/algorithms/verify/verdict.hpp>
 
 namespace terrane::verifier {
+
+struct Folder; ///< what all files of a folder with blocks need
 
 /// The mesh of doubles that the output files of a certificate must hold.
 struct WrittenMesh {
@@ -46,9 +49,9 @@ struct Kind {
     std::optional<WrittenMesh> (*written)(const Certificate& certificate);
     /// Compares the contents of an output with what it must hold: fills in `check` and `renamed`,
     /// and returns what is wrong, or nothing. nullptr: all outputs hold the mesh. Size and hash are
-    /// compared before. `computed` keeps what several outputs need.
+    /// compared before. `folder` keeps what several outputs need.
     std::string (*compare)(std::string_view contents, const Certificate& certificate,
-                           const CertifiedOutput& output, std::any& computed,
+                           const CertifiedOutput& output, std::shared_ptr<const Folder>& folder,
                            OutputVerdict& verdict) = nullptr;
     /// It can have the keys "cut" and "sealed", too, which parse() and judge() look for.
     bool can_be_cut = false;

@@ -14,6 +14,7 @@
 #include <terrane/algorithms/verify/detail/layered_sheets.hpp>
 #include <terrane/algorithms/verify/detail/layered_thickness.hpp>
 #include <terrane/algorithms/verify/detail/plan_view.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 
 namespace terrane::verifier {
 

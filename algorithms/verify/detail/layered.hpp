@@ -12,8 +12,8 @@
 #include <span>
 
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/verify/certificate.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
 
 namespace terrane::verifier {
 

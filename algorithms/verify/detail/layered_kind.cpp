@@ -4,6 +4,7 @@
 #include <terrane/algorithms/verify/detail/kinds.hpp>
 
 #include <array>
+#include <utility>
 
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 #include <terrane/algorithms/verify/detail/layered.hpp>
@@ -27,27 +28,27 @@ void parse_layered(const Node& node, Certificate& certificate) {
     };
     std::size_t surfaces = 0;
     for (const CertifiedInput& input : certificate.inputs) surfaces += input.surfaces.size();
-    certificate.layered =
-        LayeredClaim{each(claim["vertices"], point), each(claim["triangles"], indices<3>),
-                     lists(claim["layers"]),         lists(claim["regions"]),
-                     lists(claim["parents"]),        each(claim["order"], layer),
-                     claim["deviation"].number(),    std::nullopt};
-    if (claim.has("thickness")) certificate.layered->thickness = claim["thickness"].number();
-    for (const CertifiedLayer& l : certificate.layered->order)
+    LayeredClaim layered{each(claim["vertices"], point), each(claim["triangles"], indices<3>),
+                         lists(claim["layers"]),         lists(claim["regions"]),
+                         lists(claim["parents"]),        each(claim["order"], layer),
+                         claim["deviation"].number(),    std::nullopt};
+    if (claim.has("thickness")) layered.thickness = claim["thickness"].number();
+    for (const CertifiedLayer& l : layered.order)
         if (l.surface >= surfaces) claim["order"].fail("a layer names no surface");
+    certificate.beside = std::move(layered);
 }
 
 void judge_layered(std::span<const Surface> surfaces, const Certificate& certificate,
                    const VerifyOptions& options, Verdict& verdict) {
     const Inputs inputs = join_inputs(surfaces, verdict.violations);
     const double accepted = options.max_deviation.value_or(default_max_deviation(inputs));
-    const LayeredClaim& layered = *certificate.layered;
+    const LayeredClaim& layered = *certificate.layered();
     check_layered(surfaces, layered, accepted, verdict.violations);
     verdict.measured = Measured{layered.deviation, accepted, 0, 0};
 }
 
 std::optional<WrittenMesh> written_layered(const Certificate& certificate) {
-    const LayeredClaim& mesh = certificate.layered.value();
+    const LayeredClaim& mesh = *certificate.layered();
     return WrittenMesh{mesh.vertices,   mesh.triangles,   mesh.regions_of,
                        mesh.parents_of, mesh.surfaces_of, true};
 }

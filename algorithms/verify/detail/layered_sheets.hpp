@@ -11,10 +11,10 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/verify/certificate.hpp>
 #include <terrane/algorithms/verify/detail/box_tree.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 #include <terrane/algorithms/verify/detail/plan_view.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
 
 namespace terrane::verifier {
 

@@ -5,10 +5,10 @@
 
 #include <span>
 
+#include <terrane/algorithms/verify/certificate.hpp>
 #include <terrane/algorithms/verify/detail/contacts.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 #include <terrane/algorithms/verify/detail/rational.hpp>
-#include <terrane/algorithms/verify/verify.hpp>
 
 namespace terrane::verifier {
 

@@ -119,7 +119,7 @@ std::string compare_mesh(std::string_view contents, const Certificate& certifica
     if (output.surfaces.size() != verifier::surface_count(certificate))
         return "another number of surfaces than in the inputs";
     verdict.renamed = verifier::renamed_surfaces(certificate, output);
-    const auto mesh = verifier::find_kind(certificate.kind).written(certificate);
+    const auto mesh = verifier::find_kind(certificate.kind()).written(certificate);
     if (!mesh || !readable) return "";
     auto what = verifier::difference(contents, output.format, {*mesh, output.surfaces});
     if (!what.empty() || verdict.check != OutputCheck::float32) return what;
@@ -149,9 +149,9 @@ OutputVerdict OutputVerifier::operator()(std::string_view contents, std::size_t 
     if (output.bytes != contents.size() ||
         output.sha256 != verifier::in_hexadecimal(verifier::hash_of(contents)))
         refute("another SHA-256 or size than the certificate says");
-    const verifier::Kind& kind = verifier::find_kind(certificate_.kind);
+    const verifier::Kind& kind = verifier::find_kind(certificate_.kind());
     if (kind.compare != nullptr)
-        refute(kind.compare(contents, certificate_, output, computed_, verdict));
+        refute(kind.compare(contents, certificate_, output, folder_, verdict));
     else
         refute(compare_mesh(contents, certificate_, output, verdict));
     return verdict;

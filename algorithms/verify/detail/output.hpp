@@ -12,8 +12,8 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/verify/certificate.hpp>
 #include <terrane/algorithms/verify/detail/kinds.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
 
 namespace terrane::verifier {
 

@@ -87,7 +87,6 @@ Certificate certificate(const Node& node) {
     if (kind == nullptr) node["kind"].fail("this kind of certificate is not known");
     expect_keys(node, *kind);
     Certificate result;
-    result.kind = kind->kind;
     result.inputs = each(node["inputs"], input);
     result.outputs = each(node["outputs"], output);
     kind->parse(node, result);

@@ -49,12 +49,14 @@ TetrahedraClaim tetrahedra(const Node& node) {
 void parse_volumes(const Node& node, Certificate& certificate) {
     parse_arrangement_sections(node, certificate);
     parse_cut_sections(node, certificate);
-    certificate.blocks = blocks(node["blocks"]);
+    certificate.beside = blocks(node["blocks"]);
 }
 
 void parse_tetrahedra(const Node& node, Certificate& certificate) {
-    parse_volumes(node, certificate);
-    certificate.tetrahedra = tetrahedra(node["tetrahedra"]);
+    parse_arrangement_sections(node, certificate);
+    parse_cut_sections(node, certificate);
+    auto claim = blocks(node["blocks"]);
+    certificate.beside = FilledBlocksClaim{std::move(claim), tetrahedra(node["tetrahedra"])};
 }
 
 // --- Judging ------------------------------------------------------------------------------------
@@ -78,7 +80,7 @@ std::optional<NumberedBlocks> judge_blocks(std::span<const Surface> surfaces,
     auto truth = number_blocks(
         exact_mesh_of(surfaces_of_exact(surfaces, certificate), kept_part(certificate)),
         mesh_of_doubles(*certificate.rounded));
-    check_blocks(truth, certificate.blocks.value(), verdict.violations);
+    check_blocks(truth, *certificate.blocks(), verdict.violations);
     verdict.blocks = MeasuredBlocks{truth.filled};
     return truth;
 }
@@ -93,7 +95,7 @@ void judge_tetrahedra(std::span<const Surface> surfaces, const Certificate& cert
                       const VerifyOptions& options, Verdict& verdict) {
     const auto truth = judge_blocks(surfaces, certificate, options, verdict);
     if (!truth) return;
-    const TetrahedraClaim& claim = certificate.tetrahedra.value();
+    const TetrahedraClaim& claim = *certificate.tetrahedra();
     const RoundedClaim& mesh = certificate.rounded.value();
     const auto [divided, difference] = check_tetrahedra(
         claim, {mesh.vertices, mesh.triangles, truth->sides, truth->volumes}, verdict.violations);

@@ -2,8 +2,10 @@
 #include <terrane/algorithms/volumes/detail/triangle_boxes.hpp>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
-#include <utility>
+
+#include <terrane/algorithms/mesh/median_tree.hpp>
 
 namespace terrane::volumes::detail {
 namespace {
@@ -31,41 +33,18 @@ TriangleBoxes::TriangleBoxes(const TriangleComplex& sheets, std::uint32_t count)
 }
 
 void TriangleBoxes::build_tree() {
-    if (!order_.empty()) add_node(0, static_cast<std::uint32_t>(order_.size()));
-    // NOLINTNEXTLINE(modernize-loop-convert): nodes are added on the way
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {
-        const std::uint32_t first = nodes_[n].first, last = nodes_[n].last;
-        if (last - first <= most_triangles_in_leaf) continue;
-        const std::size_t longest = axis_of_split(std::span(order_).subspan(first, last - first));
-        const auto key = [&](std::uint32_t t) { return std::pair(middle(t, longest), t); };
-        const std::uint32_t half = first + (last - first) / 2;
-        std::nth_element(order_.begin() + first, order_.begin() + half, order_.begin() + last,
-                         [&](std::uint32_t s, std::uint32_t t) { return key(s) < key(t); });
-        nodes_[n].children = static_cast<std::uint32_t>(nodes_.size());
-        add_node(first, half);
-        add_node(half, last);
-    }
-}
-
-double TriangleBoxes::middle(std::uint32_t triangle, std::size_t axis) const {
-    return boxes_[triangle].low[axis] / 2 + boxes_[triangle].high[axis] / 2;
-}
-
-/// Returns the axis along which the middles of triangles spread most.
-std::size_t TriangleBoxes::axis_of_split(std::span<const std::uint32_t> triangles) const {
-    std::array<double, 3> spread{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto [low, high] =
-            std::ranges::minmax(triangles, {}, [&](std::uint32_t t) { return middle(t, i); });
-        spread[i] = middle(high, i) - middle(low, i);
-    }
-    return static_cast<std::size_t>(std::ranges::max_element(spread) - spread.begin());
-}
-
-void TriangleBoxes::add_node(std::uint32_t first, std::uint32_t last) {
-    Enclosure all = boxes_[order_[first]];
-    for (std::uint32_t i = first; i < last; ++i) add_to(all, boxes_[order_[i]]);
-    nodes_.push_back({all, first, last});
+    const auto middle = [&](std::uint32_t t) {
+        const Enclosure& box = boxes_[t];
+        std::array<double, 3> at{};
+        for (std::size_t i = 0; i < 3; ++i) at[i] = box.low[i] / 2 + box.high[i] / 2;
+        return at;
+    };
+    const auto node = [&](std::uint32_t first, std::uint32_t last) {
+        Enclosure all = boxes_[order_[first]];
+        for (std::uint32_t i = first; i < last; ++i) add_to(all, boxes_[order_[i]]);
+        return Node{all, first, last};
+    };
+    build_median_tree(order_, nodes_, most_triangles_in_leaf, middle, node);
 }
 
 } // namespace terrane::volumes::detail

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <terrane/algorithms/volumes/detail/complex.hpp>
@@ -70,9 +69,6 @@ private:
         return box.low[u] <= line.u && line.u <= box.high[u] && box.low[v] <= line.v &&
                line.v <= box.high[v] && box.low[line.axis] <= top && box.high[line.axis] >= bottom;
     }
-    [[nodiscard]] double middle(std::uint32_t triangle, std::size_t axis) const;
-    [[nodiscard]] std::size_t axis_of_split(std::span<const std::uint32_t> triangles) const;
-    void add_node(std::uint32_t first, std::uint32_t last);
 
     std::vector<Enclosure> boxes_;     ///< per triangle
     std::vector<std::uint32_t> order_; ///< triangles in the order of the leaves
