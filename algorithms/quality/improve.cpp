@@ -409,7 +409,7 @@ Result<Improved> improve(const ConformingMesh& mesh, const ImproveOptions& optio
 }
 
 std::vector<NamedConstant> improve_constants() {
-    return quality::detail::named_constants();
+    return quality::detail::constants.listed();
 }
 
 } // namespace terrane
