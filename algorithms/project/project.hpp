@@ -15,6 +15,7 @@
 #include <terrane/algorithms/check/pair_check.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/quality/improve_options.hpp>
 #include <terrane/algorithms/structure/column.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
@@ -76,35 +77,22 @@ struct ProjectLayers {
 /// The edge length for a surface or block with this name.
 using ProjectSize = std::pair<std::string, double>;
 
-/// Remeshing of the surfaces (improve.hpp).
+/// Remeshing of the surfaces.
 struct ProjectImprove {
-    std::optional<double> edge_length{};       ///< unit of the surfaces; none: keeps about the
-                                               ///< number of triangles
-    std::optional<double> max_deviation{};     ///< none: a twentieth of the edge length
+    ImproveOptions options{};                  ///< but edge_length_of
     std::vector<ProjectSize> edge_length_of{}; ///< by surface
-    std::optional<double> layers_in_gaps{};    ///< see ImproveOptions; none: gaps don't count
-    std::optional<double> smallest{};          ///< see ImproveOptions; unit of the surfaces
-    std::optional<double> resolution{}; ///< what is smaller or nearer becomes one first, unit of
-                                        ///< the surfaces; none: nothing does, see resolution.hpp
-    bool dissolve = false;              ///< blocks thinner than the resolution are zipped
+    Resolution resolution{};                   ///< of length 0: none
 };
 
-/// Tetrahedra of the blocks (tetrahedra.hpp).
+/// Tetrahedra of the blocks.
 struct ProjectTetrahedra {
-    std::optional<double> edge_length{}; ///< wanted, unit of the surfaces
-    std::optional<double> quality{};     ///< bound of circumradius / shortest edge, no unit; none:
-                                         ///< improved_quality with `improve` and without sizes,
-                                         ///< else that of TetrahedraOptions
-    bool split_surfaces = false;         ///< triangles of surfaces may be divided for `quality`
-    std::optional<double> max_volume{};  ///< of a tetrahedron, cubic unit
-    bool optimise = true;                ///< whether their shapes are improved
-    bool move_vertices = true; ///< whether, with `improve` and `optimise`, vertices of the
-                               ///< improved surfaces may move where tetrahedra are bad
-    unsigned refine_bad = 0;   ///< how often, with `improve`, triangles are made smaller where
-                               ///< tetrahedra are bad, and tetrahedra made again
-    unsigned order = 1;        ///< in files: 1, or 2 with nodes on edges
-    double time_limit = 600;   ///< seconds, > 0
-    Mesher mesher = Mesher::automatic;  ///< who makes them
+    TetrahedraOptions options{}; ///< radius_edge_ratio, none: improved_quality with `improve` and
+                                 ///< without sizes
+    bool move_vertices = true;   ///< whether, with `improve` and `optimise`, vertices of the
+                                 ///< improved surfaces may move where tetrahedra are bad
+    unsigned refine_bad = 0;     ///< how often, with `improve`, triangles are made smaller where
+                                 ///< tetrahedra are bad, and tetrahedra made again
+    unsigned order = 1;          ///< in files: 1, or 2 with nodes on edges
     std::vector<ProjectSize> size_of{}; ///< by surface
     std::vector<ProjectSize> size_in{}; ///< by number or name of a block
     std::vector<std::string> split{};   ///< names of surfaces, or "fault" for all with that role
