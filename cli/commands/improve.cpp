@@ -252,7 +252,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         clean = narrow.value() && measured.value().improved.report.sides_kept &&
                 measured.value().is_near_back();
         warn_of_changes(*measured);
-        clean = keeps_volumes(measured.value(), files.strict, options.max_volume_change) && clean;
+        clean = keeps_volumes(measured.value(), files.strict, options) && clean;
         clean = keeps_resolution(*arranged, mesh, session) && clean;
         if (!clean) page->set_verdict(refusal(narrow.value()), false);
         if (clean) {
@@ -288,7 +288,7 @@ void add_improvement(CLI::App& app, ImproveCommand& command) {
     app.get_option("--strict")
         ->description(
             "Stop with status 2 at warnings about the inputs, and with status 1 where the volume "
-            "of a block changes by more than --max-volume-change; nothing is written then");
+            "of a block changes too much; nothing is written then");
 }
 
 } // namespace
