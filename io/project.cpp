@@ -35,6 +35,12 @@ void add_keys(std::vector<std::string_view>& keys) {
         options);
 }
 
+std::vector<std::string_view> fill_level() {
+    std::vector<std::string_view> keys(own_fill_level.begin(), own_fill_level.end());
+    add_keys<FillOptions>(keys);
+    return keys;
+}
+
 std::vector<std::string_view> improve_level() {
     std::vector<std::string_view> keys;
     add_keys<ImproveOptions>(keys);
@@ -166,23 +172,18 @@ private:
 
     ProjectFill fill(const Json& json, const std::string& path) {
         ProjectFill f;
-        if (!in_.object(json, path, fill_level)) return f;
+        if (!in_.object(json, path, fill_level())) return f;
         if (const Json* v = in_.need(json, "surface", path))
             f.surface = in_.text(*v, path + ".surface");
         if (const Json* v = in_.find(json, "method"))
-            f.method = in_.one_of(*v, path + ".method", fill_methods);
+            if (in_.one_of(*v, path + ".method", fill_methods) == "rbf")
+                f.options.method = FillMethod::rbf;
         if (const Json* v = in_.find(json, "model"))
-            f.model = in_.one_of(*v, path + ".model", variogram_models);
-        if (const Json* v = in_.find(json, "max_area"))
-            f.max_area = in_.positive(*v, path + ".max_area");
-        if (const Json* v = in_.find(json, "mesh_size"))
-            f.mesh_size = in_.positive(*v, path + ".mesh_size");
-        if (const Json* v = in_.find(json, "gap_slope"))
-            f.gap_slope = in_.positive(*v, path + ".gap_slope");
-        if (const Json* v = in_.find(json, "bridge_faults"))
-            f.bridge_faults = in_.truth(*v, path + ".bridge_faults");
+            f.options.model =
+                variogram_model_named(in_.one_of(*v, path + ".model", variogram_models));
+        read_fields(json, path, f.options);
         if (const Json* v = in_.find(json, "smoothing"))
-            f.smoothing = automatic(*v, path + ".smoothing");
+            f.options.smoothing = automatic(*v, path + ".smoothing");
         return f;
     }
 
@@ -426,7 +427,7 @@ std::vector<std::string> project_keys() {
     add("", project_level);
     add("surfaces[].", surfaces_level);
     add("column[].", column_level);
-    add("fill[].", fill_level);
+    add("fill[].", fill_level());
     add("layers.", layers_level);
     add("layers.order[].", layer_level);
     add("volume_of_interest.", volume_level);

@@ -23,6 +23,7 @@ ROOT = Path(__file__).resolve().parent.parent
 # in their order.
 STRUCTS = (
     (_core.improve_fields, "improve", "improve", ("_quality.py", "improve"), "terrane_improve_options"),
+    (_core.fill_fields, "fill", "fill[]", ("_holes.py", "fill"), None),
     (_core.tetrahedra_fields, "tetrahedralize", "tetrahedra", ("_tetrahedra.py", "tetrahedralize"), None),
 )
 
@@ -76,7 +77,9 @@ def check_pages(pages, fields, section, key):
 
 def check_schema(pages, fields, key):
     name = "io/project.schema.json"
-    known = json.loads(pages[name])["properties"][key]["properties"]
+    level = key.removesuffix("[]")  # of the object, or of the entries of an array
+    known = json.loads(pages[name])["properties"][level]
+    known = known.get("items", known)["properties"]
     wanted = {f["name"]: f for f in fields if f["in_project"]}
     pages.flaws += [f"{name}: {key}.{n} is missing" for n in wanted.keys() - known.keys()]
     for field in known.keys() & {n for n, f in wanted.items() if f["type"] != "none"}:
@@ -84,8 +87,8 @@ def check_schema(pages, fields, key):
         text = plain(wanted[field]) + "."
         if not re.fullmatch(NUMBER + "|true|false", default):  # the schema states these by itself
             text += f" Default: {default}.".replace("`", "")
-        object_at = pages[name].index(f'    "{key}": {{\n')
-        start = pages[name].index(f'        "{field}": {{\n', object_at)
+        object_at = pages[name].index(f'    "{level}": {{\n')
+        start = pages[name].index(f'      "{field}": {{\n', object_at)
         old = re.compile(r'"description": ".*"').search(pages[name], start)[0]
         if not json.loads("{" + old + "}")["description"].startswith(plain(wanted[field]) + "."):
             pages.change(name, old, f'"description": {json.dumps(text)}', f"{key}.{field}")

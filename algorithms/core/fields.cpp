@@ -40,7 +40,8 @@ std::string text_of(const Field& field) {
 }
 
 std::string default_of(const Field& field, double value) {
-    return value == 0 && !field.otherwise.empty() ? std::string(field.otherwise) : brief(value);
+    const bool is_default = value == 0 || std::isinf(value);
+    return is_default && !field.otherwise.empty() ? std::string(field.otherwise) : brief(value);
 }
 
 } // namespace terrane

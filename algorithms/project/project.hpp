@@ -16,6 +16,7 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/quality/improve_options.hpp>
+#include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/algorithms/structure/column.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
@@ -48,18 +49,10 @@ struct ProjectWithin {
     std::vector<std::filesystem::path> files; ///< >= 1
 };
 
-/// Filling the holes of a surface, which is the first step (holes.hpp, fill_kriging.hpp, rbf.hpp).
+/// Filling the holes of a surface, which is the first step.
 struct ProjectFill {
-    std::string surface{};             ///< name of a surface, or "horizon" for all of that role
-    std::string method = "kriging";    ///< or "rbf"
-    std::string model = "auto";        ///< model of the variogram
-    std::optional<double> max_area{};  ///< squared unit; larger holes stay open
-    std::optional<double> mesh_size{}; ///< edge length, unit of the surface; none: that of the
-                                       ///< edges of the border
-    std::optional<double> gap_slope{}; ///< no unit; none: the default of GapRule
-    bool bridge_faults = false;        ///< whether gaps torn by faults are filled as well
-    std::optional<double> smoothing{}; ///< root mean square misfit of rbf to the data, unit of
-                                       ///< the surface; 0: "auto"
+    std::string surface{}; ///< name of a surface, or "horizon" for all of that role
+    FillOptions options{}; ///< smoothing of 0: "auto"
 };
 
 /// A horizon of a stack, and its hardness.

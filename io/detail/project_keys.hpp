@@ -17,9 +17,8 @@ inline constexpr std::array<std::string_view, 18> project_level{
     "tetrahedra", "outputs", "uncertainty"};
 inline constexpr std::array<std::string_view, 5> surfaces_level{"file", "objects", "name", "role",
                                                                 "depth"};
-inline constexpr std::array<std::string_view, 8> fill_level{
-    "surface",   "method",    "model",         "max_area",
-    "mesh_size", "gap_slope", "bridge_faults", "smoothing"};
+inline constexpr std::array<std::string_view, 4> own_fill_level{"surface", "method", "model",
+                                                                "smoothing"};
 inline constexpr std::array<std::string_view, 2> layers_level{"order", "min_thickness"};
 inline constexpr std::array<std::string_view, 2> layer_level{"surface", "hardness"};
 inline constexpr std::array<std::string_view, 4> volume_level{"box", "rotated_box", "polygon",

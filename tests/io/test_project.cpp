@@ -3,6 +3,7 @@
 // Project files: the parser, and the schema, which must agree with it.
 #include <terrane/io/project.hpp>
 
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -252,20 +253,20 @@ TEST_CASE("project: all keys are read", "[io][project]") {
     CHECK(p.column[1].contact == UnitContact::conformable);
     REQUIRE(p.fill.size() == 3);
     CHECK(p.fill[0].surface == "top");
-    CHECK(p.fill[0].method == "rbf");
-    CHECK(p.fill[0].model == "power");
-    CHECK(p.fill[0].max_area == 1000.0);
-    CHECK(p.fill[0].mesh_size == 2.5);
-    CHECK(p.fill[0].gap_slope == 0.5);
-    CHECK(p.fill[0].bridge_faults);
-    CHECK(p.fill[0].smoothing == 0.25);
-    CHECK(p.fill[1].smoothing == 0.0);
-    CHECK_FALSE(p.fill[2].smoothing.has_value());
+    CHECK(p.fill[0].options.method == FillMethod::rbf);
+    CHECK(p.fill[0].options.model == VariogramModel::power);
+    CHECK(p.fill[0].options.max_area == 1000.0);
+    CHECK(p.fill[0].options.mesh_size == 2.5);
+    CHECK(p.fill[0].options.gap_slope == 0.5);
+    CHECK(p.fill[0].options.bridge_faults);
+    CHECK(p.fill[0].options.smoothing == 0.25);
+    CHECK(p.fill[1].options.smoothing == 0.0);
+    CHECK_FALSE(p.fill[2].options.smoothing.has_value());
     CHECK(p.fill[1].surface == "base");
-    CHECK(p.fill[1].method == "kriging");
-    CHECK(p.fill[1].model == "auto");
-    CHECK_FALSE(p.fill[1].max_area.has_value());
-    CHECK_FALSE(p.fill[1].bridge_faults);
+    CHECK(p.fill[1].options.method == FillMethod::kriging);
+    CHECK_FALSE(p.fill[1].options.model.has_value());
+    CHECK(std::isinf(p.fill[1].options.max_area));
+    CHECK_FALSE(p.fill[1].options.bridge_faults);
     REQUIRE(p.layers.has_value());
     REQUIRE(p.layers->order.size() == 2);
     CHECK(p.layers->order[0].surface == "top");
