@@ -10,6 +10,7 @@
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/check/conforming.hpp>
 #include <terrane/algorithms/check/pair_check.hpp>
+#include <terrane/algorithms/core/fields.hpp>
 #include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/named_constant.hpp>
@@ -39,6 +40,7 @@
 #include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
+#include <terrane/algorithms/quality/improve_options.hpp>
 #include <terrane/algorithms/quality/improved.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>

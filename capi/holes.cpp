@@ -65,7 +65,7 @@ Result<FillTask> task_of(const terrane_fill_task& given, std::size_t number,
     if (!std::isnan(given.smoothing)) o.smoothing = given.smoothing;
     o.rings = given.rings;
     o.isotropic = given.is_isotropic != 0;
-    o.bridge = given.bridge_faults != 0;
+    o.bridge_faults = given.bridge_faults != 0;
     return task;
 }
 

@@ -6,6 +6,7 @@
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/capi/detail/call.hpp>
+#include <terrane/capi/detail/fields.hpp>
 #include <terrane/capi/detail/handles.hpp>
 #include <terrane/capi/mesh.h>
 
@@ -48,47 +49,7 @@ terrane_improve_report report_of(const ImproveReport& r) {
 }
 
 terrane_improve_options default_improving() noexcept {
-    const ImproveOptions o;
-    return {sizeof(terrane_improve_options),
-            o.edge_length,
-            nullptr,
-            0,
-            o.max_deviation,
-            o.curve_length,
-            o.turn,
-            o.layers_in_gaps,
-            o.smallest,
-            o.growth,
-            o.crease_angle,
-            o.curve_angle,
-            o.thickness_share,
-            o.least_quality,
-            o.max_volume_change,
-            o.max_triangles,
-            o.passes,
-            0};
-}
-
-ImproveOptions improving_of(const terrane_improve_options* given) {
-    const auto o = options_of(given, default_improving());
-    need_array(o.edge_length_of, o.edge_length_of_count, "options.edge_length_of");
-    ImproveOptions options;
-    options.edge_length = o.edge_length;
-    options.edge_length_of.assign(o.edge_length_of, o.edge_length_of + o.edge_length_of_count);
-    options.max_deviation = o.max_deviation;
-    options.curve_length = o.curve_length;
-    options.turn = o.turn;
-    options.layers_in_gaps = o.layers_in_gaps;
-    options.smallest = o.smallest;
-    options.growth = o.growth;
-    options.crease_angle = o.crease_angle;
-    options.curve_angle = o.curve_angle;
-    options.thickness_share = o.thickness_share;
-    options.least_quality = o.least_quality;
-    options.max_volume_change = o.max_volume_change;
-    options.max_triangles = o.max_triangles;
-    options.passes = o.passes;
-    return options;
+    return struct_of<terrane_improve_options>(ImproveOptions{});
 }
 
 } // namespace
@@ -124,7 +85,8 @@ terrane_code terrane_improve(const terrane_mesh* mesh, const terrane_improve_opt
                              terrane_error** error) {
     return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_improved>> {
         const terrane_mesh& given = needed(mesh, "mesh");
-        const auto wanted = improving_of(options);
+        const auto wanted =
+            fields_of<terrane::ImproveOptions>(options_of(options, default_improving()));
         const auto how = run_of(run);
         const auto proof = proven(given, how);
         if (!proof) return proof.error();

@@ -73,29 +73,38 @@ typedef struct terrane_quality {
 /// Options of terrane_improve. Lengths are in the unit of the mesh, angles in degrees.
 typedef struct terrane_improve_options {
     size_t struct_size;           ///< sizeof(terrane_improve_options)
-    double edge_length;           ///< target edge length; 0: keeps about the number of triangles
+    double edge_length;           ///< wanted length of edges; 0: each surface keeps about as many
+                                  ///< triangles as it has
     const double* edge_length_of; ///< per surface; 0: edge_length; NULL: no exceptions
     size_t edge_length_of_count;  ///< number of surfaces, or 0
-    double max_deviation;         ///< from the original surfaces; 0: a twentieth of each target
-                                  ///< length
-    double curve_length;          ///< target length along curves, if smaller; 0: as elsewhere
-    double turn;                  ///< normals may turn by this angle along an edge; 0: no
-                                  ///< adaptation
-    double layers_in_gaps;        ///< edges are at most as long as the distance of surfaces divided
-                                  ///< by this, which is at most 1000; 0: no limit
-    double smallest;              ///< layers_in_gaps asks for no shorter edges; 0: an eighth of the
-                                  ///< target length
-    double growth;                ///< target lengths at two points differ by at most this multiple
-                                  ///< of their distance
-    double crease_angle;          ///< edges at which a surface turns by more are curves
-    double curve_angle;           ///< vertices at which a curve turns by more are corners
-    double thickness_share;       ///< of the distance to the next surface, by which points may
-                                  ///< deviate; > 0
-    double least_quality;         ///< no triangle becomes worse than the worst of the input, or
-                                  ///< than this
-    double max_volume_change;     ///< percent, of a block
-    double max_triangles;         ///< refuses to begin where more are to be expected
-    uint32_t passes;              ///< rounds of the four operations, 1 to 100
+    double max_deviation;         ///< no point of a surface moves farther from the original surface
+                                  ///< than this; 0: a twentieth of the wanted length
+    double curve_length;          ///< wanted length of edges along curves, where that is shorter;
+                                  ///< 0: as elsewhere
+    double turn;                  ///< asks for shorter edges where a surface is curved, so that
+                                  ///< normals turn by about this angle along an edge; not shorter
+                                  ///< than an eighth of the wanted length; 0: the same length
+                                  ///< everywhere
+    double layers_in_gaps;        ///< where surfaces are close, edges are at most as long as their
+                                  ///< distance divided by this, at most 1000; 0: distances do not
+                                  ///< count
+    double smallest;              ///< layers_in_gaps asks for no shorter edges than this; 0: an
+                                  ///< eighth of the least wanted length
+    double growth;                ///< wanted lengths differ by at most this share of the way
+                                  ///< between them
+    double crease_angle;          ///< edges at which a surface turns by more than this angle are
+                                  ///< kept
+    double curve_angle;           ///< vertices at which a curve turns by more than this angle are
+                                  ///< kept
+    double thickness_share;       ///< where blocks are thin, points deviate by at most this share
+                                  ///< of the distance to the next sheet, along the normal
+    double least_quality;         ///< no triangle gets worse than the worst before, or than this q
+                                  ///< if that is less, at most 1
+    double max_volume_change;     ///< improves again, with smaller deviations, around blocks whose
+                                  ///< volumes change by more than this percentage, and warns where
+                                  ///< that does not help
+    double max_triangles;         ///< refuses to begin where more triangles are to be expected
+    uint32_t passes;              ///< limits the passes of the four operations, 1 to 100
     uint32_t reserved;            ///< 0
 } terrane_improve_options;
 

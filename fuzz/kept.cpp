@@ -26,8 +26,8 @@ using Kept = std::map<BuildStage, std::string>;
 Project project_of(unsigned kind) {
     Project project;
     project.improve = ProjectImprove{};
-    project.improve->edge_length = 5;
-    if (kind == 1) project.improve->resolution = 1;
+    project.improve->options.edge_length = 5;
+    if (kind == 1) project.improve->resolution.length = 1;
 #ifdef TERRANE_HAS_TETGEN
     if (kind > 0) project.outputs.tetrahedra = {"vtu"};
     if (kind == 2) project.tetrahedra.refine_bad = 1;
@@ -39,7 +39,7 @@ Project project_of(unsigned kind) {
 /// Returns a box in four sectors, or, to be simplified, in two.
 std::vector<Surface> surfaces_of(const Project& project) {
     auto surfaces = test_support::sectors();
-    surfaces.resize(project.improve->resolution ? 2 : 3);
+    surfaces.resize(project.improve->resolution.length > 0 ? 2 : 3);
     return surfaces;
 }
 

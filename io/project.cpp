@@ -2,12 +2,12 @@
 #include <terrane/io/project.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
+#include <type_traits>
 
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/guarded.hpp>
-#include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/detail/column_keys.hpp>
 #include <terrane/io/detail/json_reader.hpp>
@@ -23,6 +23,36 @@ namespace fs = std::filesystem;
 using namespace detail;
 
 namespace {
+
+/// Adds the keys of the described fields that project files have.
+template <class Options>
+void add_keys(std::vector<std::string_view>& keys) {
+    const Options options{};
+    Options::describe(
+        [&keys](const Field& field, const auto&) {
+            if (field.in_project) keys.push_back(field.name);
+        },
+        options);
+}
+
+std::vector<std::string_view> fill_level() {
+    std::vector<std::string_view> keys(own_fill_level.begin(), own_fill_level.end());
+    add_keys<FillOptions>(keys);
+    return keys;
+}
+
+std::vector<std::string_view> improve_level() {
+    std::vector<std::string_view> keys;
+    add_keys<ImproveOptions>(keys);
+    add_keys<Resolution>(keys);
+    return keys;
+}
+
+std::vector<std::string_view> tetrahedra_level() {
+    std::vector<std::string_view> keys(own_tetrahedra_level.begin(), own_tetrahedra_level.end());
+    add_keys<TetrahedraOptions>(keys);
+    return keys;
+}
 
 /// Reads a project; each function reads the object of one kind by its keys.
 class ProjectParser {
@@ -142,23 +172,18 @@ private:
 
     ProjectFill fill(const Json& json, const std::string& path) {
         ProjectFill f;
-        if (!in_.object(json, path, fill_level)) return f;
+        if (!in_.object(json, path, fill_level())) return f;
         if (const Json* v = in_.need(json, "surface", path))
             f.surface = in_.text(*v, path + ".surface");
         if (const Json* v = in_.find(json, "method"))
-            f.method = in_.one_of(*v, path + ".method", fill_methods);
+            if (in_.one_of(*v, path + ".method", fill_methods) == "rbf")
+                f.options.method = FillMethod::rbf;
         if (const Json* v = in_.find(json, "model"))
-            f.model = in_.one_of(*v, path + ".model", variogram_models);
-        if (const Json* v = in_.find(json, "max_area"))
-            f.max_area = in_.positive(*v, path + ".max_area");
-        if (const Json* v = in_.find(json, "mesh_size"))
-            f.mesh_size = in_.positive(*v, path + ".mesh_size");
-        if (const Json* v = in_.find(json, "gap_slope"))
-            f.gap_slope = in_.positive(*v, path + ".gap_slope");
-        if (const Json* v = in_.find(json, "bridge_faults"))
-            f.bridge_faults = in_.truth(*v, path + ".bridge_faults");
+            f.options.model =
+                variogram_model_named(in_.one_of(*v, path + ".model", variogram_models));
+        read_fields(json, path, f.options);
         if (const Json* v = in_.find(json, "smoothing"))
-            f.smoothing = automatic(*v, path + ".smoothing");
+            f.options.smoothing = automatic(*v, path + ".smoothing");
         return f;
     }
 
@@ -282,62 +307,59 @@ private:
         return all;
     }
 
-    double layers_in_gaps(const Json& value, const std::string& path) {
-        const double layers = in_.positive(value, path);
-        if (layers > most_layers_in_gaps)
-            in_.fail(path, fmt::format("must be at most {}", most_layers_in_gaps));
-        return layers;
+    /// Reads the described numbers and truth values of a struct that project files have.
+    template <class Options>
+    void read_fields(const Json& json, const std::string& path, Options& options) {
+        Options::describe(
+            [&]<class T>(const Field& field, T& value) {
+                const Json* const v = field.in_project ? in_.find(json, field.name) : nullptr;
+                if (!v) return;
+                const std::string at = JsonReader::join(path, field.name);
+                if constexpr (std::is_same_v<T, bool>) {
+                    value = in_.truth(*v, at);
+                } else if constexpr (std::is_same_v<T, double> ||
+                                     std::is_same_v<T, std::optional<double>>) {
+                    const double number = in_.positive(*v, at);
+                    value = number;
+                    if (auto flaw = flaw_of(field, number); flaw && !in_.error())
+                        in_.fail(at, *std::move(flaw));
+                }
+            },
+            options);
     }
 
     ProjectImprove improve(const Json& json) {
         ProjectImprove i;
         const std::string path = "improve";
-        if (!in_.object(json, path, improve_level)) return i;
-        if (const Json* v = in_.find(json, "edge_length"))
-            i.edge_length = in_.positive(*v, path + ".edge_length");
-        if (const Json* v = in_.find(json, "max_deviation"))
-            i.max_deviation = in_.positive(*v, path + ".max_deviation");
+        if (!in_.object(json, path, improve_level())) return i;
+        read_fields(json, path, i.options);
+        read_fields(json, path, i.resolution);
         if (const Json* v = in_.find(json, "edge_length_of"))
             i.edge_length_of = sizes(*v, path + ".edge_length_of");
-        if (const Json* v = in_.find(json, "layers_in_gaps"))
-            i.layers_in_gaps = layers_in_gaps(*v, path + ".layers_in_gaps");
-        if (const Json* v = in_.find(json, "smallest"))
-            i.smallest = in_.positive(*v, path + ".smallest");
-        if (const Json* v = in_.find(json, "resolution"))
-            i.resolution = in_.positive(*v, path + ".resolution");
-        if (const Json* v = in_.find(json, "dissolve"))
-            i.dissolve = in_.truth(*v, path + ".dissolve");
         return i;
     }
 
     ProjectTetrahedra tetrahedra(const Json& json) {
         ProjectTetrahedra t;
         const std::string path = "tetrahedra";
-        if (!in_.object(json, path, tetrahedra_level)) return t;
-        if (const Json* v = in_.find(json, "edge_length"))
-            t.edge_length = in_.positive(*v, path + ".edge_length");
-        if (const Json* v = in_.find(json, "max_volume"))
-            t.max_volume = in_.positive(*v, path + ".max_volume");
-        if (const Json* v = in_.find(json, "quality")) t.quality = quality(*v, path + ".quality");
-        if (const Json* v = in_.find(json, "split_surfaces"))
-            t.split_surfaces = in_.truth(*v, path + ".split_surfaces");
+        if (!in_.object(json, path, tetrahedra_level())) return t;
+        read_fields(json, path, t.options);
         if (const Json* v = in_.find(json, "size_of")) t.size_of = sizes(*v, path + ".size_of");
         if (const Json* v = in_.find(json, "size_in")) t.size_in = sizes(*v, path + ".size_in");
         if (const Json* v = in_.find(json, "split")) t.split = in_.texts(*v, path + ".split", 0);
         if (const Json* v = in_.find(json, "outside")) t.outside = in_.truth(*v, path + ".outside");
         if (const Json* v = in_.find(json, "optimise"))
-            t.optimise = in_.truth(*v, path + ".optimise");
+            if (!in_.truth(*v, path + ".optimise")) t.options.optimise.reset();
         if (const Json* v = in_.find(json, "move_vertices"))
             t.move_vertices = in_.truth(*v, path + ".move_vertices");
         if (const Json* v = in_.find(json, "refine_bad"))
             t.refine_bad = rounds(*v, path + ".refine_bad");
         if (const Json* v = in_.find(json, "order")) t.order = order(*v, path + ".order");
-        if (const Json* v = in_.find(json, "time_limit"))
-            t.time_limit = in_.positive(*v, path + ".time_limit");
         if (const Json* v = in_.find(json, "mesher"))
-            t.mesher = static_cast<Mesher>(std::find(meshers.begin(), meshers.end(),
-                                                     in_.one_of(*v, path + ".mesher", meshers)) -
-                                           meshers.begin()); // in the order of the type
+            t.options.mesher =
+                static_cast<Mesher>(std::find(meshers.begin(), meshers.end(),
+                                              in_.one_of(*v, path + ".mesher", meshers)) -
+                                    meshers.begin()); // in the order of the type
         return t;
     }
 
@@ -353,14 +375,6 @@ private:
             return value.get<unsigned>();
         in_.fail(path, "must be 1 or 2");
         return 1;
-    }
-
-    double quality(const Json& value, const std::string& path) {
-        if (value.is_number() && std::isfinite(value.get<double>()) &&
-            value.get<double>() >= smallest_quality)
-            return value.get<double>();
-        in_.fail(path, fmt::format("must be a number, at least {}", smallest_quality));
-        return 0;
     }
 
     ProjectOutputs outputs(const Json& json) {
@@ -413,15 +427,15 @@ std::vector<std::string> project_keys() {
     add("", project_level);
     add("surfaces[].", surfaces_level);
     add("column[].", column_level);
-    add("fill[].", fill_level);
+    add("fill[].", fill_level());
     add("layers.", layers_level);
     add("layers.order[].", layer_level);
     add("volume_of_interest.", volume_level);
     add("volume_of_interest.box.", box_level);
     add("volume_of_interest.rotated_box.", rotated_level);
     add("volume_of_interest.polygon.", polygon_level);
-    add("improve.", improve_level);
-    add("tetrahedra.", tetrahedra_level);
+    add("improve.", improve_level());
+    add("tetrahedra.", tetrahedra_level());
     add("uncertainty[].", uncertainty_level);
     add("uncertainty[].field.", field_level);
     add("outputs.", outputs_level);

@@ -8,6 +8,7 @@
 (2) No name of plain `terrane` is declared in a namespace inside it as well: a file that uses both
     would be ambiguous. The verifier, which is a library of its own, is left out.
 (3) Headers in detail/ declare into a namespace of their own, not into plain `terrane`.
+(4) A constant is listed by the name of its member (core/constants.hpp), followed by its number in an array.
 Names in unnamed namespaces and in classes do not count. Exit status 1 where a rule is broken. Reads
 the layout of clang-format: what stands at a namespace's level starts its line.
 """
@@ -40,9 +41,19 @@ def declarations(path: Path):
                 yield "::".join(inside), next(filter(None, found.groups()))
 
 
+def misnamed(path: Path):
+    """Members that are constants listed by another name."""
+    for member, values in re.findall(r" (\w+) =\s+add(?:<[\w:]+>)?\((.*?)\);", path.read_text(), re.S):
+        names = re.findall(r'"(\w+)"', values)
+        if names not in ([member], [f"{member}_{i + 1}" for i in range(len(names))]):
+            yield member
+
+
 def problems(root: Path):
     """A sentence for each broken rule."""
     found = []
+    for path in sorted((root / "algorithms").rglob("*.?pp")):
+        found += [f"{path.relative_to(root)}: {name} is listed by another name" for name in misnamed(path)]
     places = defaultdict(list)
     for top in ("kernel", "algorithms", "io"):
         for path in sorted((root / top).rglob("*.?pp")):

@@ -56,6 +56,12 @@ class Trees(unittest.TestCase):
         self.assertEqual(len(found), 1)
         self.assertIn("plain terrane: Sizes", found[0])
 
+    def test_a_constant_with_another_name(self):
+        for line in ('double share = add("shares", 1);', 'std::array<int, 2> digits =\n add<int>({"digits_1", "digits_3"}, {1, 2});'):
+            found = problems_of({"a/a.hpp": within("terrane", "struct Sizes {\n    " + line + "\n};")})
+            self.assertEqual(len(found), 1, line)
+            self.assertIn("by another name", found[0])
+
     def test_what_is_no_clash(self):
         own = within("terrane::a::detail", "struct Sizes {};")
         other = within("terrane::b::detail", "struct Sizes {};")

@@ -18,12 +18,6 @@
 
 namespace terrane {
 
-/// The resolution of a model.
-struct Resolution {
-    double length = 0;     ///< places that are nearer are joined, if they can be; > 0
-    bool dissolve = false; ///< blocks thinner than the resolution may go, see SimplifyOptions
-};
-
 /// Simplifies a mesh that is to be improved then. Improvement may deviate by options.max_deviation,
 /// or, where that is 0, by what improve() would allow, but at most a quarter of the resolution, which
 /// options.max_deviation is set to; joining may move the surfaces by the rest of the resolution, or

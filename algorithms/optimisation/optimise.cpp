@@ -441,33 +441,7 @@ Result<OptimiseReport> optimise(TetrahedralMesh& mesh, const OptimiseOptions& op
 }
 
 std::vector<NamedConstant> optimise_constants() {
-    return {{"first_step", constants.first_step},
-            {"step_halvings", static_cast<double>(constants.step_halvings)},
-            {"least_gain", constants.least_gain},
-            {"most_around_edge", static_cast<double>(constants.most_around_edge)},
-            {"obtuse_share", constants.obtuse_share},
-            {"shape_share", constants.shape_share},
-            {"least_ratio", constants.least_ratio},
-            {"ratio_enough", constants.ratio_enough},
-            {"relaxed", constants.relaxed},
-            {"bad", constants.bad},
-            {"loose_enough", constants.loose_enough},
-            {"largest_step", constants.largest_step},
-            {"first_small_step", constants.first_small_step},
-            {"loosening_passes", static_cast<double>(constants.loosening_passes)},
-            {"least_loose", constants.least_loose},
-            {"urgent", constants.urgent},
-            {"loose_part", static_cast<double>(constants.loose_part)},
-            {"steps_of_a_size", static_cast<double>(constants.steps_of_a_size)},
-            {"most_in_cavity", static_cast<double>(constants.most_in_cavity)},
-            {"most_in_remeshing", static_cast<double>(constants.most_in_remeshing)},
-            {"remeshing_passes", static_cast<double>(constants.remeshing_passes)},
-            {"least_effort", static_cast<double>(constants.least_effort)},
-            {"effort_per_bad", static_cast<double>(constants.effort_per_bad)},
-            {"effort_per_good", static_cast<double>(constants.effort_per_good)},
-            {"effort_per_cell", static_cast<double>(constants.effort_per_cell)},
-            {"effort_per_change", static_cast<double>(constants.effort_per_change)},
-            {"batch", static_cast<double>(constants.batch)}};
+    return constants.listed();
 }
 
 } // namespace terrane

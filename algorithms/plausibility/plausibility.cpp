@@ -120,16 +120,7 @@ std::vector<PlausibilityWarning> find_doubts(std::span<const Surface> surfaces,
 }
 
 std::vector<NamedConstant> plausibility_constants() {
-    using plausibility::detail::thresholds;
-    return {{"far_apart", thresholds.far_apart},
-            {"height_gap", thresholds.height_gap},
-            {"turned_gap", thresholds.turned_gap},
-            {"float32_spacing", thresholds.float32_spacing},
-            {"layer_footprint", thresholds.layer_footprint},
-            {"spanning_footprint", thresholds.spanning_footprint},
-            {"two_layers", thresholds.two_layers},
-            {"most_degrees", thresholds.most_degrees},
-            {"least_length", thresholds.least_length}};
+    return plausibility::detail::thresholds.listed();
 }
 
 } // namespace terrane

@@ -183,7 +183,7 @@ private:
     [[nodiscard]] bool is_loosened() const {
         return project_.tetrahedra.move_vertices && built_.improved &&
                built_.improved->improved.report.sides_kept &&
-               !project_.outputs.tetrahedra.empty() && project_.tetrahedra.optimise;
+               !project_.outputs.tetrahedra.empty() && project_.tetrahedra.options.optimise;
     }
 
     Status find_blocks_and_fill() {
@@ -191,7 +191,7 @@ private:
         return fill_with_tetrahedra();
     }
 
-    [[nodiscard]] double smallest() const { return project_.improve->smallest.value_or(0); }
+    [[nodiscard]] double smallest() const { return improve_options_.smallest; }
 
     Round take_round(unsigned number) {
         BadPlaces places = bad_places(built_.filled->tetrahedra, smallest());
@@ -213,11 +213,8 @@ private:
         const ProjectImprove& wanted = *project_.improve;
         const auto& surfaces = rounded()->surfaces;
         ImproveOptions& options = improve_options_;
+        options = wanted.options;
         options.check = project_.check;
-        options.edge_length = wanted.edge_length.value_or(0);
-        options.max_deviation = wanted.max_deviation.value_or(0);
-        options.layers_in_gaps = wanted.layers_in_gaps.value_or(0);
-        options.smallest = wanted.smallest.value_or(0);
         if (!wanted.edge_length_of.empty()) options.edge_length_of.resize(surfaces.size());
         for (const auto& [name, length] : wanted.edge_length_of) {
             const auto found = surfaces_called(name, surfaces, built_.labels);
@@ -231,13 +228,13 @@ private:
 
     /// Simplifies the surfaces, if the project states a resolution.
     Status simplify_surfaces() {
-        const ProjectImprove& wanted = *project_.improve;
-        if (!wanted.resolution) {
+        const Resolution& wanted = project_.improve->resolution;
+        if (wanted.length == 0) {
             if (!wanted.dissolve) return Done{};
             return at_key(project_, "improve.dissolve", "needs improve.resolution");
         }
-        auto done = simplify_to({*wanted.resolution, wanted.dissolve}, improve_options_,
-                                {.max_move = project_.max_move}, built_.arranged, run_);
+        auto done = simplify_to(wanted, improve_options_, {.max_move = project_.max_move},
+                                built_.arranged, run_);
         if (!done && done.error().code == ErrorCode::bad_option)
             return at_key(project_, "improve." + done.error().place, done.error());
         return done;
@@ -365,16 +362,12 @@ TetrahedraRequest request_of(const Project& project) {
         return place_of_key(project, "tetrahedra." + key);
     };
     TetrahedraRequest r;
-    r.options.edge_length = t.edge_length;
-    r.options.max_volume = t.max_volume;
-    r.options.radius_edge_ratio = t.quality;
-    const bool sized = t.edge_length || t.max_volume || !t.size_of.empty() || !t.size_in.empty();
-    if (!t.quality && project.improve && !sized && t.mesher != Mesher::gmsh)
+    r.options = t.options;
+    const bool sized =
+        t.options.edge_length || t.options.max_volume || !t.size_of.empty() || !t.size_in.empty();
+    if (!t.options.radius_edge_ratio && project.improve && !sized &&
+        t.options.mesher != Mesher::gmsh)
         r.options.radius_edge_ratio = improved_quality;
-    r.options.split_surfaces = t.split_surfaces;
-    if (!t.optimise) r.options.optimise.reset();
-    r.options.time_limit = t.time_limit;
-    r.options.mesher = t.mesher;
     for (const auto& [name, length] : t.size_of)
         r.size_of.push_back({{name, place("size_of." + name)}, length});
     for (const auto& [name, length] : t.size_in)

@@ -27,18 +27,6 @@ struct Names {
     std::vector<std::string> labels;
 };
 
-FillOptions options_of(const ProjectFill& entry) {
-    FillOptions o;
-    if (entry.method == "rbf") o.method = FillMethod::rbf;
-    o.model = variogram_model_named(entry.model);
-    o.max_area = entry.max_area.value_or(o.max_area);
-    o.mesh_size = entry.mesh_size.value_or(o.mesh_size);
-    o.gap_slope = entry.gap_slope.value_or(o.gap_slope);
-    o.bridge = entry.bridge_faults;
-    o.smoothing = entry.smoothing;
-    return o;
-}
-
 Result<std::vector<FillTask>> tasks_of(const Project& project, const Names& names) {
     std::vector<FillTask> tasks;
     for (std::size_t i = 0; i < project.fill.size(); ++i) {
@@ -57,7 +45,7 @@ Result<std::vector<FillTask>> tasks_of(const Project& project, const Names& name
             if (std::any_of(tasks.begin(), tasks.end(),
                             [&](const FillTask& t) { return t.surface == s; }))
                 return at_key(project, key, names.labels[s] + " is in an entry before this one");
-            tasks.push_back({SurfaceId(s), options_of(entry)});
+            tasks.push_back({SurfaceId(s), entry.options});
         }
     }
     return tasks;

@@ -15,6 +15,8 @@
 #include <terrane/algorithms/check/pair_check.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/quality/improve_options.hpp>
+#include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/algorithms/structure/column.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
@@ -51,18 +53,10 @@ struct ProjectWithin {
 using ProjectVolume =
     std::variant<std::monostate, ProjectBox, RotatedBox, ProjectPolygon, ProjectWithin>;
 
-/// Filling the holes of a surface, which is the first step (holes.hpp, fill_kriging.hpp, rbf.hpp).
+/// Filling the holes of a surface, which is the first step.
 struct ProjectFill {
-    std::string surface{};             ///< name of a surface, or "horizon" for all of that role
-    std::string method = "kriging";    ///< or "rbf"
-    std::string model = "auto";        ///< model of the variogram
-    std::optional<double> max_area{};  ///< squared unit; larger holes stay open
-    std::optional<double> mesh_size{}; ///< edge length, unit of the surface; none: that of the
-                                       ///< edges of the border
-    std::optional<double> gap_slope{}; ///< no unit; none: the default of GapRule
-    bool bridge_faults = false;        ///< whether gaps torn by faults are filled as well
-    std::optional<double> smoothing{}; ///< root mean square misfit of rbf to the data, unit of
-                                       ///< the surface; 0: "auto"
+    std::string surface{}; ///< name of a surface, or "horizon" for all of that role
+    FillOptions options{}; ///< smoothing of 0: "auto"
 };
 
 /// A horizon of a stack, and its hardness.
@@ -80,35 +74,22 @@ struct ProjectLayers {
 /// The edge length for a surface or block with this name.
 using ProjectSize = std::pair<std::string, double>;
 
-/// Remeshing of the surfaces (improve.hpp).
+/// Remeshing of the surfaces.
 struct ProjectImprove {
-    std::optional<double> edge_length{};       ///< unit of the surfaces; none: keeps about the
-                                               ///< number of triangles
-    std::optional<double> max_deviation{};     ///< none: a twentieth of the edge length
+    ImproveOptions options{};                  ///< but edge_length_of
     std::vector<ProjectSize> edge_length_of{}; ///< by surface
-    std::optional<double> layers_in_gaps{};    ///< see ImproveOptions; none: gaps don't count
-    std::optional<double> smallest{};          ///< see ImproveOptions; unit of the surfaces
-    std::optional<double> resolution{}; ///< what is smaller or nearer becomes one first, unit of
-                                        ///< the surfaces; none: nothing does, see resolution.hpp
-    bool dissolve = false;              ///< blocks thinner than the resolution are zipped
+    Resolution resolution{};                   ///< of length 0: none
 };
 
-/// Tetrahedra of the blocks (tetrahedra.hpp).
+/// Tetrahedra of the blocks.
 struct ProjectTetrahedra {
-    std::optional<double> edge_length{}; ///< wanted, unit of the surfaces
-    std::optional<double> quality{};     ///< bound of circumradius / shortest edge, no unit; none:
-                                         ///< improved_quality with `improve` and without sizes,
-                                         ///< else that of TetrahedraOptions
-    bool split_surfaces = false;         ///< triangles of surfaces may be divided for `quality`
-    std::optional<double> max_volume{};  ///< of a tetrahedron, cubic unit
-    bool optimise = true;                ///< whether their shapes are improved
-    bool move_vertices = true; ///< whether, with `improve` and `optimise`, vertices of the
-                               ///< improved surfaces may move where tetrahedra are bad
-    unsigned refine_bad = 0;   ///< how often, with `improve`, triangles are made smaller where
-                               ///< tetrahedra are bad, and tetrahedra made again
-    unsigned order = 1;        ///< in files: 1, or 2 with nodes on edges
-    double time_limit = 600;   ///< seconds, > 0
-    Mesher mesher = Mesher::automatic;  ///< who makes them
+    TetrahedraOptions options{}; ///< radius_edge_ratio, none: improved_quality with `improve` and
+                                 ///< without sizes
+    bool move_vertices = true;   ///< whether, with `improve` and `optimise`, vertices of the
+                                 ///< improved surfaces may move where tetrahedra are bad
+    unsigned refine_bad = 0;     ///< how often, with `improve`, triangles are made smaller where
+                                 ///< tetrahedra are bad, and tetrahedra made again
+    unsigned order = 1;          ///< in files: 1, or 2 with nodes on edges
     std::vector<ProjectSize> size_of{}; ///< by surface
     std::vector<ProjectSize> size_in{}; ///< by number or name of a block
     std::vector<std::string> split{};   ///< names of surfaces, or "fault" for all with that role
@@ -163,12 +144,12 @@ struct Project {
     std::string source{};                    ///< the project file, for messages; empty: none
     std::filesystem::path folder{};          ///< of the results; empty: not stated
     std::vector<ProjectSurfaces> surfaces{}; ///< >= 1
-    ProjectVolume volume{};                ///< the volume of interest
-    std::string unit{};                    ///< coordinates whose file states their unit are
-                                           ///< converted to this one; empty: they stay
-    StratigraphicColumn column{};          ///< empty: none
-    std::vector<ProjectFill> fill{};       ///< no surface is in two of them
-    std::optional<ProjectLayers> layers{}; ///< none: horizons are not put in order
+    ProjectVolume volume{};                  ///< the volume of interest
+    std::string unit{};                      ///< coordinates whose file states their unit are
+                                             ///< converted to this one; empty: they stay
+    StratigraphicColumn column{};            ///< empty: none
+    std::vector<ProjectFill> fill{};         ///< no surface is in two of them
+    std::optional<ProjectLayers> layers{};   ///< none: horizons are not put in order
     std::optional<double> extend{}; ///< limit of the extension of horizons that end in the volume,
                                     ///< unit of the surfaces
     std::optional<double> seal{};   ///< largest width of gaps to close, unit of the surfaces; 0:

@@ -40,12 +40,7 @@ bool is_length(double x) {
 }
 
 Status check_options(const Mesh& mesh, const ImproveOptions& o) {
-    if (!is_length(o.edge_length) || !is_length(o.max_deviation) || !is_length(o.curve_length))
-        return wrong("lengths must be finite and not negative");
-    if (!is_length(o.smallest) || !is_length(o.layers_in_gaps))
-        return wrong("smallest and layers_in_gaps must be finite and not negative");
-    if (o.layers_in_gaps > most_layers_in_gaps)
-        return wrong(fmt::format("layers_in_gaps must be at most {}", most_layers_in_gaps));
+    if (auto flaw = flaw_of_fields(o)) return wrong(*std::move(flaw));
     if (!o.edge_length_of.empty() && o.edge_length_of.size() != mesh.surfaces.size())
         return wrong("edge_length_of needs one length per surface");
     for (const auto& refinement : o.refinements)
@@ -54,18 +49,6 @@ Status check_options(const Mesh& mesh, const ImproveOptions& o) {
                 return wrong("refinements must have finite places and positive lengths");
     for (const double l : o.edge_length_of)
         if (!is_length(l)) return wrong("lengths must be finite and not negative");
-    if (!(o.turn >= 0 && o.turn <= 180)) return wrong("turn must be in [0, 180] degrees");
-    if (!(o.growth > 0 && std::isfinite(o.growth))) return wrong("growth must be positive");
-    if (!(o.crease_angle > 0 && o.crease_angle <= 180) ||
-        !(o.curve_angle > 0 && o.curve_angle <= 180))
-        return wrong("angles of creases and curves must be in (0, 180] degrees");
-    if (o.passes < 1 || o.passes > 100) return wrong("passes must be 1 to 100");
-    if (!(o.thickness_share > 0 && std::isfinite(o.thickness_share)))
-        return wrong("thickness_share must be positive");
-    if (!(o.least_quality > 0 && o.least_quality <= 1))
-        return wrong("least_quality must be in (0, 1]");
-    if (!(o.max_volume_change >= 0)) return wrong("max_volume_change must not be negative");
-    if (!(o.max_triangles > 0)) return wrong("max_triangles must be positive");
     return Done{};
 }
 
@@ -409,7 +392,7 @@ Result<Improved> improve(const ConformingMesh& mesh, const ImproveOptions& optio
 }
 
 std::vector<NamedConstant> improve_constants() {
-    return quality::detail::named_constants();
+    return quality::detail::constants.listed();
 }
 
 } // namespace terrane

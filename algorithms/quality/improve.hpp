@@ -45,6 +45,7 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/quality/improve_options.hpp>
 #include <terrane/algorithms/quality/improved.hpp>
 
 namespace terrane {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// An improved mesh, its report, and the options that decide it.
+// An improved mesh and its report.
 #pragma once
 
 #include <cstddef>
@@ -10,59 +10,11 @@
 #include <vector>
 
 #include <terrane/algorithms/check/conforming.hpp>
-#include <terrane/algorithms/check/pair_check.hpp>
 #include <terrane/algorithms/mesh/shared_mesh.hpp>
-#include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane {
-
-/// A wanted edge length at a point. It grows with the distance from there, by `growth`.
-struct LocalSize {
-    Point3 place{};    ///< unit of the mesh
-    double length = 0; ///< > 0, unit of the mesh
-};
-
-/// Bounds ImproveOptions::layers_in_gaps. The search for gaps compares a triangle with the sheets
-/// within so many wanted lengths of it. With more than a thousand, these are all sheets of a model.
-inline constexpr double most_layers_in_gaps = 1000;
-
-/// Options of improve(). Lengths are in the unit of the mesh, angles in degrees.
-struct ImproveOptions {
-    double edge_length = 0; ///< target edge length; 0: for each surface, that of as many
-                            ///< equilateral triangles of the same area
-    std::vector<double> edge_length_of{}; ///< per surface; 0: edge_length; empty: no exceptions
-    double max_deviation = 0;             ///< 0: a twentieth of the target length of each surface
-    double curve_length = 0; ///< target length along curves, if smaller; 0: as elsewhere
-    double turn = 0; ///< normals may turn by this angle along an edge: edges become shorter where
-                     ///< the surface is curved, down to an eighth; 0: no adaptation
-    double layers_in_gaps = 0; ///< where surfaces are close, edges are at most as long as their
-                               ///< distance divided by this; no unit, at most
-                               ///< most_layers_in_gaps; 0: no adaptation
-    double smallest = 0;       ///< layers_in_gaps asks for no shorter edges than this; 0: an eighth
-                               ///< of the target length
-    std::vector<std::vector<LocalSize>>
-        refinements{};   ///< lengths wanted near points. Each list in turn makes triangles of the
-                         ///< finished mesh smaller near its points, and leaves the others. Each
-                         ///< point costs a distance per vertex and pass
-    double growth = 0.3; ///< target lengths at two points differ by at most this multiple of
-                         ///< their distance; no unit
-    double crease_angle = 50; ///< edges at which a surface turns by more are curves
-    double curve_angle = 45;  ///< vertices at which a curve turns by more are corners
-    unsigned passes = 6;      ///< rounds of the four operations, 1 to 100
-    double thickness_share =
-        0.1; ///< where blocks are thin, points deviate by at most this share of
-             ///< the distance to the next sheet, along the normal; > 0
-    double least_quality =
-        1; ///< no triangle becomes worse than the worst one of the input, or than
-           ///< this q if that is less; (0, 1]
-    double max_volume_change =
-        5;                      ///< percent; where the volume of a block changes by more, the mesh
-                                ///< is improved again, with smaller bounds around that block
-    double max_triangles = 2e7; ///< refuses to begin where more are to be expected
-    PairCheckOptions check{};   ///< how the improved mesh is checked
-};
 
 /// The reason why the worst triangle can't be improved; the first one that applies.
 enum class WorstCause : std::uint8_t {

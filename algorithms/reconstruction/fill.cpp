@@ -135,7 +135,7 @@ std::vector<bool> wanted_holes(const FillWork& work) {
         const FillOptions& options = work.surfaces[hole.task].task.options;
         const BorderLoop& loop = loop_of(work, hole);
         wanted.push_back(loop.area <= options.max_area &&
-                         (loop.kind != LoopKind::fault_gap || options.bridge));
+                         (loop.kind != LoopKind::fault_gap || options.bridge_faults));
     }
     return wanted;
 }

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/core/fields.hpp>
 #include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
@@ -38,18 +39,42 @@ enum class FillMethod : std::uint8_t {
 /// The variogram model of this name ("spherical", ...); none for any other word, such as "auto".
 std::optional<VariogramModel> variogram_model_named(std::string_view name);
 
-/// How the holes of a surface are filled. Lengths in the unit of the surface.
+/// How the holes of a surface are filled. Lengths in the unit of the surface; describe() says what
+/// each member does.
 struct FillOptions {
     FillMethod method = FillMethod::kriging;    ///< of all holes of the surface
     std::optional<VariogramModel> model{};      ///< of kriging; none: the one that fits best
-    double max_area = HUGE_VAL;                 ///< larger holes stay open; squared unit
-    double mesh_size = 0;                       ///< 0: the median edge of the hole's border
-    std::size_t rings = KrigingOptions{}.rings; ///< of triangles round the hole, data of kriging
-    double gap_slope = GapRule{}.slope;         ///< GapRule::slope
-    bool isotropic = false;                     ///< the variogram of kriging is the same in all
-                                                ///< directions
-    bool bridge = false;                        ///< whether fault gaps are filled, too
+    double max_area = HUGE_VAL;                 ///< see describe(), squared unit
+    double mesh_size = 0;                       ///< see describe()
+    std::size_t rings = KrigingOptions{}.rings; ///< see describe()
+    double gap_slope = GapRule{}.slope;         ///< see describe(), GapRule::slope
+    bool isotropic = false;                     ///< see describe()
+    bool bridge_faults = false;                 ///< see describe()
     std::optional<double> smoothing{};          ///< RbfOptions::smoothing
+
+    /// Describes the options, see Field.
+    static void describe(const auto& visit, auto& o) {
+        visit(Field("max_area", "AREA", "Leaves larger holes open", "no limit", {}, true),
+              o.max_area);
+        visit(Field("bridge_faults", "", "Fills gaps that a fault has torn as well",
+                    "they stay open", {}, true),
+              o.bridge_faults);
+        visit(Field("gap_slope", "S",
+                    "A throw of this many widths makes a hole a gap that a fault has torn", {}, {},
+                    true),
+              o.gap_slope);
+        visit(Field("isotropic", "", "For kriging: the variogram is the same in all directions",
+                    "anisotropy is fitted"),
+              o.isotropic);
+        visit(Field("mesh_size", "LENGTH", "Edge length of the new triangles",
+                    "the median edge of the hole's border; down to a quarter of it where flat "
+                    "triangles would miss more than the method itself",
+                    {}, true),
+              o.mesh_size);
+        visit(Field("rings", "N", "For kriging: rings of triangles round the hole that are data",
+                    {}, {1, 1000, true}),
+              o.rings);
+    }
 };
 
 /// A surface whose holes are to be filled.

@@ -223,7 +223,7 @@ double default_max_move(double largest) {
 }
 
 std::vector<NamedConstant> rounding_constants() {
-    return rounding::detail::named_constants();
+    return rounding::detail::rounding_tuning.listed();
 }
 
 } // namespace terrane

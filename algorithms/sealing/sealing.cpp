@@ -408,7 +408,7 @@ Result<Sealed> seal(std::vector<Surface> surfaces, const SealOptions& options, c
 }
 
 std::vector<NamedConstant> seal_constants() {
-    auto all = sealing::detail::named_constants();
+    auto all = sealing::detail::constants.listed();
     all.push_back({"least_mitre_cosine", strip_constants.least_mitre_cosine});
     all.push_back({"beyond_targets", strip_constants.beyond_targets});
     return all;

@@ -322,22 +322,7 @@ Result<Simplified> simplify(const ConformingMesh& mesh, const SimplifyOptions& o
 }
 
 std::vector<NamedConstant> simplify_constants() {
-    return {{"crease_cosine", tuning.crease_cosine},
-            {"far_along", tuning.far_along},
-            {"towards", tuning.towards},
-            {"to_corner", tuning.to_corner},
-            {"to_edge", tuning.to_edge},
-            {"longest_edge", tuning.longest_edge},
-            {"fold_cosine", tuning.fold_cosine},
-            {"narrow", tuning.narrow},
-            {"crossing", tuning.crossing},
-            {"edge_length", tuning.edge_length},
-            {"regular_share", tuning.regular_share},
-            {"part_share", tuning.part_share},
-            {"joins", tuning.joins},
-            {"passes", tuning.passes},
-            {"rounds", tuning.rounds},
-            {"attempts", tuning.attempts}};
+    return tuning.listed();
 }
 
 } // namespace terrane

@@ -484,7 +484,7 @@ Result<TetrahedralMesh> tetrahedralize(const Mesh& mesh, const TetrahedraOptions
 }
 
 std::vector<NamedConstant> tetrahedra_constants() {
-    return tetgen::detail::named_constants();
+    return tetgen::detail::constants.listed();
 }
 
 } // namespace terrane

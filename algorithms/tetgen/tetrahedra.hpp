@@ -6,10 +6,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/core/fields.hpp>
 #include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/core/result.hpp>
@@ -50,24 +52,48 @@ enum class Mesher : std::uint8_t {
 struct TetrahedraOptions {
     Mesher mesher = Mesher::automatic; ///< who makes the tetrahedra
     std::optional<Box3> box{};         ///< closes the domain; must contain the mesh strictly inside
-    double margin = 0.1; ///< without a box: enlarges the bounding box on each side by this
-                         ///< share of its longest edge, at least by 2^-40 of the largest
-                         ///< coordinate
-    std::optional<double> edge_length{};       ///< wanted length, unit of the mesh; none: as few
-                                               ///< tetrahedra as possible
-    std::optional<double> radius_edge_ratio{}; ///< TetGen's quality bound (>= 1.1); none: no bound,
-                                               ///< or 2 with any size
-    bool split_surfaces = false; ///< triangles may be divided for radius_edge_ratio, which must be
-                                 ///< given. Any size allows it, too
-    std::optional<double> max_volume{};       ///< largest volume of a tetrahedron, cubic unit
+    double margin = 0.1;               ///< see describe(); at least 2^-40 of the largest coordinate
+    std::optional<double> edge_length{};       ///< see describe()
+    std::optional<double> radius_edge_ratio{}; ///< see describe(); none: no bound, or 2 with any
+                                               ///< size
+    bool split_surfaces = false;        ///< see describe(); needs a ratio. Any size allows it, too
+    std::optional<double> max_volume{}; ///< see describe()
     std::vector<BlockSize> block_sizes{};     ///< instead of edge_length and max_volume there
     std::vector<SurfaceSize> surface_sizes{}; ///< where they are less than any other size there
     std::optional<OptimiseOptions> optimise = OptimiseOptions{}; ///< of their shapes; none: as
                                                                  ///< the mesher made them
-    double time_limit = 600;        ///< seconds, > 0, for each way of asking a mesher, which may
-                                    ///< run forever
-    std::filesystem::path helper{}; ///< TetGen's helper program; empty: see find_tetgen_helper
+    double time_limit = 600;             ///< see describe(): a mesher may run forever
+    std::filesystem::path helper{};      ///< TetGen's helper program; empty: see find_tetgen_helper
     std::filesystem::path gmsh_helper{}; ///< Gmsh's helper program; empty: see find_gmsh_helper
+
+    /// Describes the options, see Field. Lengths are in the unit of the mesh.
+    static void describe(const auto& visit, auto& o) {
+        constexpr FieldBounds ratios{1.1, std::numeric_limits<double>::max(), true};
+        visit(Field("edge_length", "L", "Wanted length of edges everywhere",
+                    "as few tetrahedra as possible", {}, true),
+              o.edge_length);
+        visit(Field("max_volume", "V", "Largest volume of a tetrahedron", "no limit", {}, true),
+              o.max_volume);
+        visit(Field("quality", "RATIO", "Largest ratio of circumradius to shortest edge",
+                    "no limit", ratios, true),
+              o.radius_edge_ratio);
+        visit(Field("split_surfaces", "", "Lets triangles of surfaces be divided for `quality`", {},
+                    {}, true),
+              o.split_surfaces);
+        visit(Field("margin", "SHARE",
+                    "Without `around`: the bounding box, larger on each side by this share of its "
+                    "longest edge",
+                    {}, {0, 1e9}),
+              o.margin);
+        visit(Field("time_limit", "SECONDS",
+                    "Time limit in seconds for each of the ways in which a mesher is tried", {}, {},
+                    true),
+              o.time_limit);
+        visit(Field("mesher", "PROGRAM", "tetgen, gmsh, or auto: TetGen, and Gmsh where that fails",
+                    "auto", {}, true),
+              o.mesher);
+        visit(Field("optimise", "", "Improves the shapes of tetrahedra", {}, {}, true), o.optimise);
+    }
 };
 
 /// Fills a box with tetrahedra such that every triangle of the mesh is a union of faces. `volumes`

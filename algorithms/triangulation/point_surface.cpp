@@ -127,7 +127,7 @@ Result<std::vector<Triangle>> fill_closed_line(std::span<const Point3> line, con
 }
 
 std::vector<NamedConstant> point_constants() {
-    return triangulation::detail::named_constants();
+    return triangulation::detail::constants.listed();
 }
 
 } // namespace terrane

@@ -10,6 +10,7 @@
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/choices.hpp>
+#include <terrane/cli/options/fields.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
@@ -247,15 +248,7 @@ void add_choice(CLI::App& app, FillCommand& command) {
     app.add_option("--holes", command.holes,
                    "Which ones, by the numbers of --list: all, or N,N,... (default: all)")
         ->type_name("LIST");
-    app.add_option("--max-area", command.settings.max_area, "Leave larger holes open")
-        ->check(CLI::PositiveNumber.description(""))
-        ->type_name("AREA");
-    app.add_flag("--bridge-faults", command.settings.bridge,
-                 "Fill gaps that a fault has torn as well");
-    app.add_option("--gap-slope", command.settings.gap_slope,
-                   "A throw of so many widths makes a hole a gap (default: 0.25)")
-        ->check(CLI::PositiveNumber.description(""))
-        ->type_name("S");
+    add_fields(app, command.settings);
     app.add_flag("--list", command.list, "Say which holes there are, and fill none");
 }
 
@@ -271,21 +264,10 @@ void add_method(CLI::App& app, FillCommand& command) {
            "what fits best)")
         ->check(one_of({"auto", "spherical", "exponential", "gaussian", "matern", "power"}))
         ->type_name("MODEL");
-    app.add_flag("--isotropic", command.settings.isotropic,
-                 "The variogram of kriging is the same in all directions");
     app.add_option("--smoothing", command.smoothing,
                    "Of rbf: none; auto, as much as predicts data best from others; or the root "
                    "mean square by which data may be missed (default: none)")
         ->type_name("none|auto|LENGTH");
-    app.add_option("--mesh-size", command.settings.mesh_size,
-                   "Edges of the filling (default: the median edge of the hole's border; down to a "
-                   "quarter of it where flat triangles would miss more than the method itself)")
-        ->check(CLI::PositiveNumber.description(""))
-        ->type_name("LENGTH");
-    app.add_option("--rings", command.settings.rings,
-                   "Rings of triangles round the hole that are data of kriging (default: 5)")
-        ->check(CLI::Range(1U, 1000U).description(""))
-        ->type_name("N");
 }
 
 } // namespace
@@ -312,6 +294,8 @@ Command fill_command(CLI::App& program) {
     add_report(*app, options->files);
     app->footer(fill_footer);
     return {app, [app, options] {
+                if (const auto good = check_fields<FillOptions>(*app); !good)
+                    return fail(good.error());
                 if (const auto good = refuse_for_rbf(*app, *options); !good)
                     return fail(good.error());
                 if (const auto read = read_smoothing(*options); !read) return fail(read.error());

@@ -16,6 +16,7 @@
 #include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/fields.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
 #include <terrane/cli/reports/resolution_report.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
@@ -64,24 +65,6 @@ std::optional<double> positive(const std::string& text) {
     if (failed != std::errc() || after != end || !(value > 0) || !std::isfinite(value))
         return std::nullopt;
     return value;
-}
-
-/// Refuses numbers that can't be meant, before anything is read.
-Status check_numbers(const ImproveCommand& command, const CLI::App& app) {
-    for (const char* const name : {"--curve-length", "--turn", "--layers-in-gaps", "--smallest",
-                                   "--growth", "--max-deviation", "--thickness-share",
-                                   "--max-triangles", "--least-quality", "--resolution"})
-        if (const auto* option = app.get_option(name);
-            option->count() > 0 && !positive(option->as<std::string>()))
-            return Error{ErrorCode::bad_option, "needs a positive number", name};
-    if (command.options.layers_in_gaps > most_layers_in_gaps)
-        return Error{ErrorCode::bad_option, fmt::format("must be at most {}", most_layers_in_gaps),
-                     "--layers-in-gaps"};
-    if (!(command.options.least_quality <= 1))
-        return Error{ErrorCode::bad_option, "must be at most 1", "--least-quality"};
-    if (!(command.options.max_volume_change >= 0))
-        return Error{ErrorCode::bad_option, "needs a percentage", "--max-volume-change"};
-    return Done{};
 }
 
 /// Judges the options by the surfaces as they were read, before these are arranged.
@@ -272,7 +255,7 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
         clean = narrow.value() && measured.value().improved.report.sides_kept &&
                 measured.value().is_near_back();
         warn_of_changes(*measured);
-        clean = keeps_volumes(measured.value(), files.strict, options.max_volume_change) && clean;
+        clean = keeps_volumes(measured.value(), files.strict, options) && clean;
         clean = keeps_resolution(*arranged, mesh, session) && clean;
         if (!clean) page->set_verdict(refusal(narrow.value()), false);
         if (clean) {
@@ -287,82 +270,28 @@ Result<ExitStatus> improve_files(const ImproveCommand& command, Session& session
     return write_run(*page, statistics, files, session, clean);
 }
 
-void add_lengths(CLI::App& app, ImproveCommand& command) {
-    app.add_option("--edge-length", command.edge_length,
-                   "Wanted length of edges, unit of the files; auto: each surface keeps about as "
-                   "many triangles as it has when arranged (default: auto)")
-        ->type_name("L");
-    app.add_option("--edge-length-of", command.edge_length_of,
-                   "The same for one surface; may be repeated")
-        ->allow_extra_args(false)
-        ->type_name("NAME=L");
-    app.add_option("--curve-length", command.options.curve_length,
-                   "Wanted length along curves, where that is shorter (default: as elsewhere)")
-        ->type_name("L");
-    app.add_option("--turn", command.options.turn,
-                   "Shorter edges where a surface is curved: normals turn by so many degrees "
-                   "along one (default: the same length everywhere)")
-        ->type_name("DEGREES");
-    app.add_option("--layers-in-gaps", command.options.layers_in_gaps,
-                   "Shorter edges where surfaces are close: their distance divided by this "
-                   "(default: the same length everywhere)")
-        ->type_name("N");
-    app.add_option(
-           "--smallest", command.options.smallest,
-           "Gaps ask for no shorter edges than this (default: an eighth of the least wanted "
-           "length)")
-        ->type_name("L");
-    app.add_option("--growth", command.options.growth,
-                   "Wanted lengths differ by at most this share of the way between (default: 0.3)")
-        ->type_name("G");
-}
-
-void add_resolution(CLI::App& app, ImproveCommand& command) {
-    app.add_option(
-           "--resolution", command.resolution.length,
-           "Experimental: join places that are nearer than this before triangles are made "
-           "better, where they can be: corners, short curves, narrow strips, thin gaps, sharp "
-           "wedges; no surface moves by more, or nothing is written; changes of blocks and "
-           "contacts are listed (default: nothing is joined)")
-        ->type_name("R");
-    app.add_flag(
-        "--dissolve", command.resolution.dissolve,
-        "Let blocks go that are thinner than --resolution on average; those that stay are listed");
-}
-
-void add_limits(CLI::App& app, ImproveCommand& command) {
-    app.add_option("--max-deviation", command.options.max_deviation,
-                   "No point of a surface goes farther from it, unit of the files (default: a "
-                   "twentieth of the wanted length)")
-        ->type_name("D");
-    app.add_option("--thickness-share", command.options.thickness_share,
-                   "Where blocks are thin, points deviate by at most this share of the distance to "
-                   "the next sheet (default: 0.1)")
-        ->type_name("SHARE");
-    app.add_option("--max-volume-change", command.options.max_volume_change,
-                   "Improve again around blocks whose volumes change by more percent, and "
-                   "warn where that does not help (default: 5)")
-        ->type_name("P");
+/// Adds the options of improvement; those of lengths as texts, which are read with the surfaces.
+void add_improvement(CLI::App& app, ImproveCommand& command) {
+    ImproveOptions::describe(
+        [&](const Field& field, const auto&) {
+            if (field.name == "edge_length")
+                app.add_option("--edge-length", command.edge_length,
+                               help_of(field) + "; auto: " + std::string(field.otherwise) +
+                                   " (default: auto)")
+                    ->type_name("L");
+            if (field.name == "edge_length_of")
+                app.add_option("--edge-length-of", command.edge_length_of,
+                               help_of(field) + "; may be repeated")
+                    ->allow_extra_args(false)
+                    ->type_name("NAME=L");
+        },
+        command.options);
+    add_fields(app, command.options);
+    add_fields(app, command.resolution);
     app.get_option("--strict")
         ->description(
-            "Stop with status 2 at warnings about the inputs, and with status 1 at such a "
-            "change; nothing is written then");
-    app.add_option("--least-quality", command.options.least_quality,
-                   "No triangle becomes worse than the worst one before, or than this q if that is "
-                   "less, up to 1 (default: 1)")
-        ->type_name("Q");
-    app.add_option("--max-triangles", command.options.max_triangles,
-                   "Refuse to begin where more are to be expected (default: 2e7)")
-        ->type_name("N");
-    app.add_option("--crease-angle", command.options.crease_angle,
-                   "Edges at which a surface turns by more are kept (default: 50)")
-        ->type_name("DEGREES");
-    app.add_option("--curve-angle", command.options.curve_angle,
-                   "Vertices at which a curve turns by more are kept (default: 45)")
-        ->type_name("DEGREES");
-    app.add_option("--passes", command.options.passes,
-                   "At most so many passes of the four operations (default: 6)")
-        ->type_name("N");
+            "Stop with status 2 at warnings about the inputs, and with status 1 where the volume "
+            "of a block changes too much; nothing is written then");
 }
 
 } // namespace
@@ -372,9 +301,7 @@ Command improve_command(CLI::App& program) {
     auto* app = program.add_subcommand("improve", "Make better triangles, conforming all the way");
     add_inputs(*app, command->files);
     add_output(*app, command->files, "File for the mesh; - is standard output");
-    add_lengths(*app, *command);
-    add_resolution(*app, *command);
-    add_limits(*app, *command);
+    add_improvement(*app, *command);
     app->add_option("--histogram", command->histogram, "Histograms of q before and after")
         ->type_name("FILE.svg");
     add_settings(*app, command->settings);
@@ -386,7 +313,9 @@ Command improve_command(CLI::App& program) {
     add_report(*app, command->files);
     app->footer(improve_footer);
     return {app, [command, app] {
-                if (const auto good = check_numbers(*command, *app); !good)
+                if (const auto good = check_fields<ImproveOptions>(*app); !good)
+                    return fail(good.error());
+                if (const auto good = check_fields<Resolution>(*app); !good)
                     return fail(good.error());
                 Session session(command->files.threads);
                 const auto status = improve_files(*command, session);

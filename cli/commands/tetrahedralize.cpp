@@ -20,6 +20,7 @@
 #include <terrane/cli/commands/file_options.hpp>
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/column.hpp>
+#include <terrane/cli/options/fields.hpp>
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
 #include <terrane/cli/session/quantities.hpp>
@@ -255,14 +256,7 @@ void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
     app.add_option("--around", command.around,
                    "Box that closes the domain, x0,y0,z0,x1,y1,z1, around all that is kept")
         ->type_name("BOX");
-    app.add_option("--margin", options.margin,
-                   "Without --around: the bounding box, larger on each side by this share of its "
-                   "longest edge (default: 0.1)")
-        ->type_name("SHARE");
-    app.add_option("--edge-length", options.edge_length,
-                   "Wanted edge length, in the unit of the input (default: as few tetrahedra as "
-                   "possible)")
-        ->type_name("L");
+    add_fields(app, options);
     app.add_option("--size-of", command.size_of,
                    "Edge length on a surface, and near it; may be repeated")
         ->allow_extra_args(false)
@@ -280,17 +274,9 @@ void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
         ->type_name("NAME");
     app.add_flag("--blocks-only", command.blocks_only,
                  "No tetrahedra outside of the blocks, in region 0");
-    app.add_option("--quality", options.radius_edge_ratio,
-                   "Largest ratio of circumradius to shortest edge, at least 1.1 (default: none)")
-        ->type_name("RATIO");
-    app.add_flag("--split-surfaces", options.split_surfaces,
-                 "Let triangles of surfaces be divided for --quality");
     app.add_flag_callback(
         "--no-optimise", [&options] { options.optimise.reset(); },
         "Leave the shapes of tetrahedra as the mesher made them");
-    app.add_option("--time-limit", options.time_limit,
-                   "For each of the ways in which a mesher is tried (default: 600)")
-        ->type_name("SECONDS");
     app.add_option("--mesher", options.mesher,
                    "tetgen, gmsh, or auto: TetGen, and Gmsh where that fails (default: auto)")
         ->transform(

@@ -183,7 +183,7 @@ std::vector<PaperModel> models_of(int number, bool large) {
                 {"65 000, pair 2", nonuniform_2, times_of(624, none, 30, 18), none}};
     const bool first = number == 2;
     const auto pair = first ? pair_1 : pair_2;
-    const auto made = [pair](const Resolution& r) { return [pair, r] { return pair(r); }; };
+    const auto made = [pair](const models::Resolution& r) { return [pair, r] { return pair(r); }; };
     std::vector<PaperModel> all;
     if (first) {
         all = {{r7k.name, made(r7k), times_of(2, 3, 2, 2), 1},

@@ -139,10 +139,12 @@ Json json_of(const QualityReport& q) {
 
 } // namespace
 
-bool keeps_volumes(const ImprovedAndMeasured& measured, bool strict, double most) {
+bool keeps_volumes(const ImprovedAndMeasured& measured, bool strict,
+                   const ImproveOptions& options) {
     double largest = 0;
     for (const VolumeChange& c : volume_changes(measured.improved))
         largest = std::max(largest, c.percent());
+    const double most = options.max_volume_change;
     if (largest <= most) return true;
     warn(fmt::format("the volume of a block changed by {:.3g} %, more than {:.3g} %; try a smaller "
                      "deviation",

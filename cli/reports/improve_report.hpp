@@ -12,10 +12,10 @@
 
 namespace terrane::cli {
 
-/// Warns if the volume of a block changed by more than so many percent. Returns whether the run may
+/// Warns if the volume of a block changed by more than the options allow. Returns whether the run may
 /// succeed: if none did, or warnings are no errors.
 bool keeps_volumes(const ImprovedAndMeasured& measured, bool strict,
-                   double most = ImproveOptions{}.max_volume_change);
+                   const ImproveOptions& options = {});
 
 /// Reports quality before and after, the worst triangle, and the deviation both as proven and as
 /// measured.

@@ -17,9 +17,8 @@ inline constexpr std::array<std::string_view, 18> project_level{
     "tetrahedra", "outputs", "uncertainty"};
 inline constexpr std::array<std::string_view, 5> surfaces_level{"file", "objects", "name", "role",
                                                                 "depth"};
-inline constexpr std::array<std::string_view, 8> fill_level{
-    "surface",   "method",    "model",         "max_area",
-    "mesh_size", "gap_slope", "bridge_faults", "smoothing"};
+inline constexpr std::array<std::string_view, 4> own_fill_level{"surface", "method", "model",
+                                                                "smoothing"};
 inline constexpr std::array<std::string_view, 2> layers_level{"order", "min_thickness"};
 inline constexpr std::array<std::string_view, 2> layer_level{"surface", "hardness"};
 inline constexpr std::array<std::string_view, 4> volume_level{"box", "rotated_box", "polygon",
@@ -28,13 +27,8 @@ inline constexpr std::array<std::string_view, 2> box_level{"low", "high"};
 inline constexpr std::array<std::string_view, 6> rotated_level{"centre",  "corner", "lengths",
                                                                "azimuth", "plunge", "roll"};
 inline constexpr std::array<std::string_view, 2> polygon_level{"corners", "between"};
-inline constexpr std::array<std::string_view, 7> improve_level{
-    "edge_length", "max_deviation", "edge_length_of", "layers_in_gaps",
-    "smallest",    "resolution",    "dissolve"};
-inline constexpr std::array<std::string_view, 14> tetrahedra_level{
-    "edge_length", "max_volume", "quality", "split_surfaces", "size_of",
-    "size_in",     "split",      "outside", "time_limit",     "mesher",
-    "optimise",    "refine_bad", "order",   "move_vertices"};
+inline constexpr std::array<std::string_view, 7> own_tetrahedra_level{
+    "size_of", "size_in", "split", "outside", "refine_bad", "order", "move_vertices"};
 inline constexpr unsigned most_rounds = 20; ///< of tetrahedra.refine_bad
 inline constexpr std::array<std::string_view, 3> meshers{"auto", "tetgen", "gmsh"};
 inline constexpr std::array<std::string_view, 5> outputs_level{"surfaces", "tetrahedra", "blocks",
@@ -61,7 +55,6 @@ inline constexpr std::array<std::string_view, 10> tetrahedra_formats{
     "vtu", "msh", "msh22", "inp", "mesh", "exo", "ugi", "ogs", "geos", "pylith"};
 inline constexpr std::array<std::string_view, 1> formats{"terrane-project 1"};
 
-inline constexpr double smallest_quality = 1.1;
 inline constexpr double most_threads = 1024;
 
 } // namespace terrane::detail

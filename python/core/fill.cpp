@@ -8,6 +8,7 @@
 #include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
 
+#include "fields.hpp"
 #include "handles.hpp"
 #include "surfaces.hpp"
 #include "work_handle.hpp"
@@ -37,7 +38,7 @@ py::list border_loops(const py::sequence& surfaces, double gap_slope, const HowT
 }
 
 FillOptions fill_options(const py::dict& given) {
-    FillOptions o;
+    auto o = options_in<FillOptions>(given);
     o.method = given["method"].cast<std::string>() == "rbf" ? FillMethod::rbf : FillMethod::kriging;
     const auto model = given["model"].cast<std::string>();
     o.model = variogram_model_named(model);
@@ -45,12 +46,6 @@ FillOptions fill_options(const py::dict& given) {
         throw Failure{{ErrorCode::bad_option,
                        "is no model: auto, spherical, exponential, gaussian, power, matern",
                        "model=" + model}};
-    o.max_area = given["max_area"].cast<double>();
-    o.mesh_size = given["mesh_size"].cast<double>();
-    o.rings = given["rings"].cast<std::size_t>();
-    o.gap_slope = given["gap_slope"].cast<double>();
-    o.isotropic = given["isotropic"].cast<bool>();
-    o.bridge = given["bridge"].cast<bool>();
     if (!given["smoothing"].is_none()) o.smoothing = given["smoothing"].cast<double>();
     return o;
 }
@@ -108,6 +103,7 @@ py::tuple fill(const py::sequence& surfaces, const py::dict& options,
 
 void bind_fill(py::module_& module) {
     const py::class_<FillWork, WorkPointer> work(module, "FillWork"); // a handle for reports
+    module.attr("fill_fields") = described<FillOptions>();
     module.def("border_loops", &border_loops, "surfaces"_a, "gap_slope"_a, "how"_a);
     module.def("fill", &fill, "surfaces"_a, "options"_a, "numbers"_a, "how"_a);
 }

@@ -10,8 +10,8 @@
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 
+#include "fields.hpp"
 #include "handles.hpp"
-#include "improve_options.hpp"
 #include "surfaces.hpp"
 
 namespace terrane::python {
@@ -73,9 +73,10 @@ Result<ImprovedMesh> improved_mesh(const MeshPointer& mesh, const Resolution& re
 
 py::tuple improve_mesh(const MeshPointer& mesh, const py::dict& options, const HowToRun& how) {
     if (!mesh->conforming) throw std::logic_error("a mesh without proof is improved");
-    const auto found =
-        run_stage(how, [mesh, resolution = to_resolution(options), o = to_improve_options(options)](
-                           const Run& run) { return improved_mesh(mesh, resolution, o, run); });
+    const auto found = run_stage(how, [mesh, resolution = options_in<Resolution>(options),
+                                       o = options_in<ImproveOptions>(options)](const Run& run) {
+        return improved_mesh(mesh, resolution, o, run);
+    });
     const ImprovedAndMeasured& made = found.made;
     const Improved& improved = made.improved;
     std::vector<std::array<double, 2>> deviations;
@@ -89,37 +90,8 @@ py::tuple improve_mesh(const MeshPointer& mesh, const py::dict& options, const H
 
 } // namespace
 
-ImproveOptions to_improve_options(const py::dict& given) {
-    ImproveOptions o;
-    const auto set = [&](const char* name, auto& value) {
-        if (given.contains(name)) value = given[name].cast<std::remove_cvref_t<decltype(value)>>();
-    };
-    set("edge_length", o.edge_length);
-    set("edge_length_of", o.edge_length_of);
-    set("max_deviation", o.max_deviation);
-    set("curve_length", o.curve_length);
-    set("turn", o.turn);
-    set("layers_in_gaps", o.layers_in_gaps);
-    set("smallest", o.smallest);
-    set("growth", o.growth);
-    set("crease_angle", o.crease_angle);
-    set("curve_angle", o.curve_angle);
-    set("passes", o.passes);
-    set("thickness_share", o.thickness_share);
-    set("least_quality", o.least_quality);
-    set("max_volume_change", o.max_volume_change);
-    set("max_triangles", o.max_triangles);
-    return o;
-}
-
-Resolution to_resolution(const py::dict& given) {
-    Resolution resolution;
-    if (given.contains("resolution")) resolution.length = given["resolution"].cast<double>();
-    if (given.contains("dissolve")) resolution.dissolve = given["dissolve"].cast<bool>();
-    return resolution;
-}
-
 void bind_improve(py::module_& module) {
+    module.attr("improve_fields") = described<ImproveOptions, Resolution>();
     module.def("improve", &improve_mesh, "mesh"_a, "options"_a, "how"_a);
     module.def(
         "distance",

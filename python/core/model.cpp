@@ -5,14 +5,15 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/algorithms/structure/relations.hpp>
 #include <terrane/algorithms/structure/structure_meshes.hpp>
 #include <terrane/io/model_folder.hpp>
 
+#include "fields.hpp"
 #include "handles.hpp"
-#include "improve_options.hpp"
 #include "model_handle.hpp"
 #include "structure.hpp"
 #include "surfaces.hpp"
@@ -97,21 +98,21 @@ ModelPointer improved(const ModelPointer& old, const py::dict& options, const Ho
     if (!old->exact)
         throw Failure{{ErrorCode::unsupported,
                        "a project improves its model itself, by its key improve", ""}};
-    auto made = run_stage(how,
-                          [old, resolution = to_resolution(options),
-                           o = to_improve_options(options)](const Run& run) -> Result<ModelHandle> {
-                              ModelHandle handle = *old;
-                              auto better = resolution.length > 0
-                                                ? joined_and_improved(handle, resolution, o, run)
-                                                : improve_and_measure(*old->rounded, o, run);
-                              if (!better) return better.error();
-                              auto model =
-                                  make_model(*handle.exact, *handle.rounded, better->improved, run,
-                                             {.column = old->column});
-                              if (!model) return model.error();
-                              handle.model = std::move(*model);
-                              return handle;
-                          });
+    auto made =
+        run_stage(how,
+                  [old, resolution = options_in<Resolution>(options),
+                   o = options_in<ImproveOptions>(options)](const Run& run) -> Result<ModelHandle> {
+                      ModelHandle handle = *old;
+                      auto better = resolution.length > 0
+                                        ? joined_and_improved(handle, resolution, o, run)
+                                        : improve_and_measure(*old->rounded, o, run);
+                      if (!better) return better.error();
+                      auto model = make_model(*handle.exact, *handle.rounded, better->improved, run,
+                                              {.column = old->column});
+                      if (!model) return model.error();
+                      handle.model = std::move(*model);
+                      return handle;
+                  });
     return std::make_shared<ModelHandle>(std::move(made));
 }
 

@@ -12,6 +12,7 @@
 #include <terrane/algorithms/tetrahedra/split_nodes.hpp>
 #include <terrane/io/files.hpp>
 
+#include "fields.hpp"
 #include "handles.hpp"
 #include "model_handle.hpp"
 #include "surfaces.hpp"
@@ -22,10 +23,6 @@ namespace terrane::python {
 using namespace py::literals;
 
 namespace {
-
-std::optional<double> number(const py::dict& given, const char* name) {
-    return given[name].cast<std::optional<double>>();
-}
 
 /// size_of, size_in: names and lengths.
 std::vector<NamedSize> sizes(const py::dict& given, const char* name) {
@@ -44,17 +41,12 @@ Mesher to_mesher(const std::string& name) {
 
 TetrahedraRequest to_request(const py::dict& given) {
     TetrahedraRequest r;
+    r.options = options_in<TetrahedraOptions>(given);
     r.options.mesher = to_mesher(given["mesher"].cast<std::string>());
     if (!given["box"].is_none()) {
         const auto box = given["box"].cast<py::sequence>();
         r.options.box = Box3{to_point(box[0]), to_point(box[1])};
     }
-    r.options.margin = given["margin"].cast<double>();
-    r.options.edge_length = number(given, "edge_length");
-    r.options.radius_edge_ratio = number(given, "quality");
-    r.options.split_surfaces = given["split_surfaces"].cast<bool>();
-    r.options.max_volume = number(given, "max_volume");
-    r.options.time_limit = given["time_limit"].cast<double>();
     if (!given["optimise"].cast<bool>()) r.options.optimise.reset();
     r.options.helper = to_path(given["helper"]);
     r.options.gmsh_helper = to_path(given["gmsh_helper"]);
@@ -190,6 +182,7 @@ void bind_tetrahedra(py::module_& module) {
         bound, "twins", [](const F& f) -> auto& { return f.tetrahedra.twins; });
     add_lists<F>(
         bound, "surfaces_of", [](const F& f) -> auto& { return f.tetrahedra.surfaces_of; });
+    module.attr("tetrahedra_fields") = described<TetrahedraOptions>();
     module.def("fill_blocks", &fill, "model"_a, "options"_a, "how"_a);
     module.def("write_tetrahedra", &write, "tetrahedra"_a, "path"_a, "format"_a, "compress"_a,
                "order"_a, "how"_a);

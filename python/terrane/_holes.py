@@ -289,11 +289,11 @@ def fill(surface: Any, *, method: str = "kriging", holes: Optional[Sequence[int]
     max_area, mesh_size : float, optional
         Larger holes stay open, squared unit; edge length of the filling, 0: that of the border.
     rings : int, optional
-        Rings of triangles round the hole that are data of kriging.
+        For kriging: rings of triangles round the hole that are data, 1 to 1000.
     gap_slope, isotropic : optional
         When a hole is a gap; whether the variogram is the same in all directions.
     bridge_faults : bool, optional
-        Fill gaps torn by faults as well.
+        Fills gaps that a fault has torn as well.
     smoothing : float or "auto", optional
         Misfit of "rbf" to noisy data, unit of the surface.
 
@@ -320,7 +320,7 @@ def fill(surface: Any, *, method: str = "kriging", holes: Optional[Sequence[int]
                "mesh_size": as_number(mesh_size, "mesh_size", least=0),
                "rings": as_count(rings, "rings", 1, 1000),
                "gap_slope": as_number(gap_slope, "gap_slope", positive=True),
-               "isotropic": as_flag(isotropic, "isotropic"), "bridge": as_flag(bridge_faults, "bridge_faults"),
+               "isotropic": as_flag(isotropic, "isotropic"), "bridge_faults": as_flag(bridge_faults, "bridge_faults"),
                "smoothing": smooth}
     numbers = None if holes is None else [as_count(h, "holes") for h in as_list(holes, "holes")]
     made = _core.fill(parts_of_surfaces([as_surface(surface)]), options, numbers, how(threads, progress))

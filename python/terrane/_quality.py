@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import inspect
 from typing import Any, Dict, Mapping, Optional, Tuple
 
 import numpy as np
@@ -16,9 +17,8 @@ from ._results import Result
 from ._run import how
 from ._surface import as_surface, parts_of_surfaces
 
-_OPTIONS = ("edge_length", "max_deviation", "curve_length", "turn", "layers_in_gaps", "smallest", "growth",
-            "crease_angle", "curve_angle", "thickness_share", "least_quality", "max_volume_change",
-            "max_triangles", "resolution")
+_FIELDS = {field["name"]: field for field in _core.improve_fields}
+_OPTIONS = tuple(name for name, field in _FIELDS.items() if field["type"] == "double")
 
 
 class Improved(Result):
@@ -182,21 +182,20 @@ def improve(mesh: Any, edge_length: float = 0, *, max_deviation: float = 0,
     ----------
     mesh : Mesh, or a result with one
     edge_length : float, optional
-        Wanted length, unit of the input; 0: about as many triangles as before.
+        Wanted length of edges; 0: each surface keeps about as many triangles as it has.
     max_deviation : float, optional
-        No point moves farther from its surface; 0: a twentieth of the edge length.
+        No point of a surface moves farther from the original surface than this; 0: a twentieth of the wanted length.
     edge_length_of : dict, optional
-        Lengths by surface.
+        Wanted length of edges on one surface; None: `edge_length`.
     passes : int, optional
-        Rounds of the four operations, 1 to 100.
+        Limits the passes of the four operations, 1 to 100.
     resolution : float, optional
-        Places that are nearer are joined first, where they can be; 0: none are. Experimental, see
-        docs/explanation/resolution.md. No surface moves by more, or there is an error.
+        Experimental. Joins places that are nearer than this first, where it can: corners, short curves, narrow strips,
+        thin gaps, sharp wedges. No surface moves by more, both steps together; 0: nothing is joined.
     dissolve : bool, optional
-        Blocks that are thinner than the resolution, on average, may go.
+        Lets blocks go that are thinner than `resolution` on average.
     **options : float
-        curve_length, turn, layers_in_gaps, smallest, growth, crease_angle, curve_angle, thickness_share,
-        least_quality, max_volume_change, max_triangles: as in docs/how-to/improve.md.
+        More of them, by keyword.
 
     Examples
     --------
@@ -220,6 +219,17 @@ def improve(mesh: Any, edge_length: float = 0, *, max_deviation: float = 0,
                                                                                   how(threads, progress))
     made = Mesh(core)
     return Improved(made, Volumes(volumes, made), near_of, bounds, deviations, report, joined)
+
+
+def _list_options() -> None:
+    """State what each option does in the docstring of improve()."""
+    own = inspect.signature(improve).parameters
+    others = [f"{name}: {field['text']}; default {field['default']}."
+              for name, field in _FIELDS.items() if name not in own]
+    improve.__doc__ = (improve.__doc__ or "").replace("More of them, by keyword.", "\n        ".join(others))
+
+
+_list_options()
 
 
 def distance(from_surface: Any, to_surface: Any, *, threads: Optional[int] = None, progress: Any = None) -> float:

@@ -336,19 +336,19 @@ def tetrahedralize(model: Parts, *, edge_length: Optional[float] = None,
     ----------
     model : Model
     edge_length : float, optional
-        Wanted length, unit of the input; as few tetrahedra as possible unless given.
+        Wanted length of edges everywhere; None: as few tetrahedra as possible.
     size_of : dict, optional
         Edge lengths on surfaces, by name.
     size_in : dict, optional
         Edge lengths in blocks, by name or number.
     quality : float, optional
-        Bound of circumradius over shortest edge, at least 1.1.
+        Largest ratio of circumradius to shortest edge, at least 1.1; None: no limit.
     max_volume : float, optional
         Largest volume of a tetrahedron, cubic unit.
     split : list of str, optional
         Surfaces whose sides get nodes of their own; "fault": all with that role.
     split_surfaces : bool, optional
-        Triangles may be divided for `quality`.
+        Lets triangles of surfaces be divided for `quality`.
     optimise : bool, optional
         Improve the shapes that the mesher made; `optimised` of the result says what that did.
     outside : bool, optional
@@ -357,7 +357,7 @@ def tetrahedralize(model: Parts, *, edge_length: Optional[float] = None,
         That box as two corners; or the bounding box, larger by this share of its longest edge.
     mesher : {"auto", "tetgen", "gmsh"}, optional
     time_limit : float, optional
-        Seconds for each way of asking a mesher.
+        Time limit in seconds for each of the ways in which a mesher is tried.
     helper, gmsh_helper : path, optional
         The helper programs, where they are not found.
 

@@ -6,6 +6,7 @@ set(terrane_headers
     kernel/construction.hpp
     kernel/point.hpp
     kernel/predicate_counts.hpp
+    algorithms/core/fields.hpp
     algorithms/core/id.hpp
     algorithms/core/index_lists.hpp
     algorithms/core/named_constant.hpp
@@ -43,6 +44,7 @@ set(terrane_headers
     algorithms/layers/layers.hpp
     algorithms/quality/deviation.hpp
     algorithms/quality/improve.hpp
+    algorithms/quality/improve_options.hpp
     algorithms/quality/improve_measured.hpp
     algorithms/quality/improved.hpp
     algorithms/quality/quality.hpp

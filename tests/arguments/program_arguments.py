@@ -54,7 +54,7 @@ SENSE = {
     "--relations": ("r.csv", ""), "--juxtaposition": ("j.csv", ""), "--gocad": ("g.ml", ""), "--lines": ("l.pl", ""),
     "--grid": ("grid.grdecl", ""), "--cells": ("cells.grdecl", "--grid=grid.grdecl"), "--order": ("2", ""),
     "--around": ("-500,-500,-2500,2500,2000,0", ""), "--margin": ("0.5", ""), "--edge-length": ("250", ""), "--size-in": ("1=150", ""),
-    "--split": ("top", ""), "--blocks-only": ("", "BASE=body.ts -o out.vtu"), "--quality": ("1.3", ""), "--split-surfaces": ("", "--quality=1.3"),
+    "--split": ("top", ""), "--blocks-only": ("", "BASE=body.ts -o out.vtu"), "--quality": ("1.3", ""), "--max-volume": ("1e7", ""), "--split-surfaces": ("", "--quality=1.3"),
     "--curve-length": ("80", ""), "--histogram": ("h.svg", ""), "--realisations": ("3", ""), "--seed": ("7", ""),
     "--contact": ("-1000", ""), "--only": ("1", "BASE=project.json -o out"), "--json": ("", ""), "--method": ("rbf", ""),
     "--model": ("gaussian", ""), "--isotropic": ("", ""), "--smoothing": ("3", "--method=rbf"), "--mesh-size": ("9", ""),

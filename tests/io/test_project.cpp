@@ -3,6 +3,7 @@
 // Project files: the parser, and the schema, which must agree with it.
 #include <terrane/io/project.hpp>
 
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -252,20 +253,20 @@ TEST_CASE("project: all keys are read", "[io][project]") {
     CHECK(p.column[1].contact == UnitContact::conformable);
     REQUIRE(p.fill.size() == 3);
     CHECK(p.fill[0].surface == "top");
-    CHECK(p.fill[0].method == "rbf");
-    CHECK(p.fill[0].model == "power");
-    CHECK(p.fill[0].max_area == 1000.0);
-    CHECK(p.fill[0].mesh_size == 2.5);
-    CHECK(p.fill[0].gap_slope == 0.5);
-    CHECK(p.fill[0].bridge_faults);
-    CHECK(p.fill[0].smoothing == 0.25);
-    CHECK(p.fill[1].smoothing == 0.0);
-    CHECK_FALSE(p.fill[2].smoothing.has_value());
+    CHECK(p.fill[0].options.method == FillMethod::rbf);
+    CHECK(p.fill[0].options.model == VariogramModel::power);
+    CHECK(p.fill[0].options.max_area == 1000.0);
+    CHECK(p.fill[0].options.mesh_size == 2.5);
+    CHECK(p.fill[0].options.gap_slope == 0.5);
+    CHECK(p.fill[0].options.bridge_faults);
+    CHECK(p.fill[0].options.smoothing == 0.25);
+    CHECK(p.fill[1].options.smoothing == 0.0);
+    CHECK_FALSE(p.fill[2].options.smoothing.has_value());
     CHECK(p.fill[1].surface == "base");
-    CHECK(p.fill[1].method == "kriging");
-    CHECK(p.fill[1].model == "auto");
-    CHECK_FALSE(p.fill[1].max_area.has_value());
-    CHECK_FALSE(p.fill[1].bridge_faults);
+    CHECK(p.fill[1].options.method == FillMethod::kriging);
+    CHECK_FALSE(p.fill[1].options.model.has_value());
+    CHECK(std::isinf(p.fill[1].options.max_area));
+    CHECK_FALSE(p.fill[1].options.bridge_faults);
     REQUIRE(p.layers.has_value());
     REQUIRE(p.layers->order.size() == 2);
     CHECK(p.layers->order[0].surface == "top");
@@ -277,27 +278,27 @@ TEST_CASE("project: all keys are read", "[io][project]") {
     CHECK(box->low == Point3{0, 0, -1.5});
     CHECK(box->high == Point3{1, 2, 3});
     REQUIRE(p.improve.has_value());
-    CHECK(p.improve->edge_length == 4.0);
+    CHECK(p.improve->options.edge_length == 4.0);
     CHECK(p.max_move == 0.5);
-    CHECK(p.improve->max_deviation == 0.125);
+    CHECK(p.improve->options.max_deviation == 0.125);
     CHECK(p.improve->edge_length_of == std::vector<ProjectSize>{{"top", 3}});
     CHECK(p.extend == 100.0);
     CHECK(p.seal == 0.25);
     CHECK(p.seal_of == std::vector<ProjectSize>{{"top", 0}, {"top/base", 3}});
-    CHECK(p.tetrahedra.edge_length == 2.0);
-    CHECK(p.tetrahedra.max_volume == 3.5);
-    CHECK(p.tetrahedra.quality == 1.4);
+    CHECK(p.tetrahedra.options.edge_length == 2.0);
+    CHECK(p.tetrahedra.options.max_volume == 3.5);
+    CHECK(p.tetrahedra.options.radius_edge_ratio == 1.4);
     CHECK(p.tetrahedra.size_of == std::vector<ProjectSize>{{"F1", 0.5}, {"top", 1}});
     CHECK(p.tetrahedra.size_in == std::vector<ProjectSize>{{"2", 0.25}, {"top/base", 1}});
     CHECK(p.tetrahedra.split == std::vector<std::string>{"fault", "top"});
     CHECK(p.tetrahedra.outside == true);
-    CHECK(p.tetrahedra.time_limit == 60);
+    CHECK(p.tetrahedra.options.time_limit == 60);
     CHECK(p.tetrahedra.order == 2);
-    CHECK(p.improve->resolution == 1.5);
-    CHECK(p.improve->dissolve);
+    CHECK(p.improve->resolution.length == 1.5);
+    CHECK(p.improve->resolution.dissolve);
     CHECK(p.tetrahedra.refine_bad == 3);
-    CHECK(p.tetrahedra.mesher == Mesher::gmsh);
-    CHECK_FALSE(p.tetrahedra.optimise);
+    CHECK(p.tetrahedra.options.mesher == Mesher::gmsh);
+    CHECK_FALSE(p.tetrahedra.options.optimise);
     CHECK_FALSE(p.tetrahedra.move_vertices);
     CHECK(p.outputs.surfaces == std::vector<std::string>{"vtp", "obj"});
     CHECK(p.outputs.tetrahedra == std::vector<std::string>{"vtu", "msh", "msh22"});
@@ -326,9 +327,9 @@ TEST_CASE("project: all kinds of volumes are read", "[io][project]") {
     CHECK(least.volume.index() == 0);
     CHECK_FALSE(least.improve.has_value());
     CHECK(least.folder.empty());
-    CHECK(least.tetrahedra.time_limit == 600);
-    CHECK(least.tetrahedra.mesher == Mesher::automatic);
-    CHECK(least.tetrahedra.optimise);
+    CHECK(least.tetrahedra.options.time_limit == 600);
+    CHECK(least.tetrahedra.options.mesher == Mesher::automatic);
+    CHECK(least.tetrahedra.options.optimise);
     CHECK(least.tetrahedra.move_vertices);
     CHECK(least.tetrahedra.refine_bad == 0);
     CHECK_FALSE(least.tetrahedra.outside.has_value());
@@ -407,8 +408,7 @@ TEST_CASE("project: what is wrong is named by its key", "[io][project]") {
           "p.json: tetrahedra.edge_length: must be a number larger than 0");
     CHECK(with("/tetrahedra/size_of/F1", 0) ==
           "p.json: tetrahedra.size_of.F1: must be a number larger than 0");
-    CHECK(with("/tetrahedra/quality", 1) ==
-          "p.json: tetrahedra.quality: must be a number, at least 1.1");
+    CHECK(with("/tetrahedra/quality", 1) == "p.json: tetrahedra.quality: must be at least 1.1");
     CHECK(with("/improve/layers_in_gaps", 1001) ==
           "p.json: improve.layers_in_gaps: must be at most 1000");
     CHECK(with("/volume_of_interest/box/low", json::array({1, 2})) ==

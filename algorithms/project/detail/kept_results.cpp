@@ -64,9 +64,8 @@ static void fields(auto& archive, Is<LocalSize> auto& s) {
 }
 
 static void fields(auto& archive, Is<ImproveOptions> auto& o) {
-    archive(o.refinements, o.edge_length, o.edge_length_of, o.max_deviation, o.curve_length, o.turn,
-            o.layers_in_gaps, o.smallest, o.growth, o.crease_angle, o.curve_angle, o.passes,
-            o.thickness_share, o.least_quality, o.max_volume_change, o.max_triangles);
+    archive(o.refinements);
+    ImproveOptions::describe([&archive](const Field&, auto& value) { archive(value); }, o);
 }
 
 static void fields(auto& archive, Is<NamedSize> auto& s) {

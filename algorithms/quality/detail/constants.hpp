@@ -5,234 +5,167 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
 
-#include <terrane/algorithms/core/named_constant.hpp>
+#include <terrane/algorithms/core/constants.hpp>
 
 namespace terrane::quality::detail {
 
 /// Shapes are q of quality.hpp, from 0 (degenerate) to 1 (equilateral). None of these constants
 /// affects the guarantees of improve(): each change is proven whatever they are.
-struct RemeshConstants {
+struct RemeshConstants : Constants {
     /// Edges longer than this multiple of their target length are split. 4/3 and 4/5
     /// (Botsch and Kobbelt 2004) keep a split edge from being collapsed again. Larger:
     /// edges vary more in length.
-    double split_ratio = 4.0 / 3;
+    double split_ratio = add("split_ratio", 4.0 / 3);
     /// Edges shorter than this multiple of their target length are collapsed. Larger: fewer
     /// short edges, more work.
-    double collapse_ratio = 4.0 / 5;
+    double collapse_ratio = add("collapse_ratio", 4.0 / 5);
     /// Least q that a collapse may leave where triangles were better. Larger: fewer
     /// collapses, better triangles at first.
-    double least_shape = 0.3;
+    double least_shape = add("least_shape", 0.3);
     /// Triangles of smaller q are improved one by one at the end. Larger: more time there.
-    double bad_shape = 0.5;
+    double bad_shape = add("bad_shape", 0.5);
     /// Tolerance of curves, as a share of that of their sheets, so that triangles at a
     /// curve have room for their own deviation. Larger: fewer vertices on curves.
-    double curve_tolerance = 1.0 / 3;
+    double curve_tolerance = add("curve_tolerance", 1.0 / 3);
     /// Share of the sum of 1 / q by which a move must reduce it, so that the passes
     /// converge. Larger: fewer moves.
-    double least_gain = 1e-2;
+    double least_gain = add("least_gain", 1e-2);
     /// Pseudo-random displacement of vertices in regular grids, in target lengths. Larger:
     /// more disorder than smoothing removes.
-    double jitter = 0.2;
+    double jitter = add("jitter", 0.2);
     /// Vertices are displaced where all triangles have a smaller q; just above 0.83, that
     /// of half a square.
-    double jitter_below_shape = 0.86;
+    double jitter_below_shape = add("jitter_below_shape", 0.86);
     /// Cosine of the angle between an added triangle and the mean of those it replaces.
     /// Larger: changes are rejected more often at creases.
-    double least_normal_cosine = 0.2;
+    double least_normal_cosine = add("least_normal_cosine", 0.2);
     /// Least cosine of the angles that swaps for valences may create: 110 degrees. Larger:
     /// fewer such swaps.
-    double least_valence_cosine = -0.35;
+    double least_valence_cosine = add("least_valence_cosine", -0.35);
     /// Gain in the cosine of the largest angle for which an edge is swapped; prevents
     /// endless swaps of equal angles.
-    double least_cosine_gain = 1e-6;
+    double least_cosine_gain = add("least_cosine_gain", 1e-6);
     /// Least displacement of a vertex along its curve, as a share of the distance of its
     /// neighbours.
-    double least_slide = 0.05;
+    double least_slide = add("least_slide", 0.05);
     /// Least target length where a surface is curved, as a share of the target length
     /// elsewhere. Smaller: more triangles at sharp bends.
-    double curvature_floor = 0.125;
+    double curvature_floor = add("curvature_floor", 0.125);
     /// Triangles that may decide the normal of a surface at a vertex. Larger: curvature is measured
     /// over the wanted length on finer meshes.
-    unsigned turn_triangles = 256;
+    unsigned turn_triangles = add("turn_triangles", 256);
     /// Turns are measured over so many triangles, but not beyond the wanted length. Larger: bends
     /// of few triangles count less.
-    double turn_reach = 1;
+    double turn_reach = add("turn_reach", 1);
     /// Least cosine of the angle between two triangles between which a block counts as thin: 30
     /// degrees. Larger: blocks are thin in fewer places, and triangles near intersections become
     /// better.
-    double thin_cosine = 0.866;
+    double thin_cosine = add("thin_cosine", 0.866);
     /// The thickness of a block is the largest one within so many target lengths. Larger: triangles
     /// near intersections become better, blocks that end in wedges change more.
-    double thin_reach = 1;
+    double thin_reach = add("thin_reach", 1);
     /// Triangles that may decide about the thickness at a triangle.
-    unsigned thin_triangles = 256;
+    unsigned thin_triangles = add("thin_triangles", 256);
     /// Default of max_deviation, in target lengths. Larger: coarser representation of
     /// curved surfaces.
-    double default_tolerance = 0.05;
+    double default_tolerance = add("default_tolerance", 0.05);
     /// Least height of a triangle, in longest edges, for which its normal is used: rounding
     /// may take that of thinner ones. Omitting thin triangles can only enlarge a proven
     /// bound.
-    double thinnest = 1e-6;
+    double thinnest = add("thinnest", 1e-6);
     /// Least tolerance that is accepted, in rounding errors of a distance.
-    double least_bound = 1e3;
+    double least_bound = add("least_bound", 1e3);
     /// Patches are found anew when more than one in so many triangles has left them. Larger:
     /// cheaper checks, more regrouping.
-    unsigned regroup_part = 20;
+    unsigned regroup_part = add("regroup_part", 20);
     /// Another pass is made if the last one changed more than one in so many triangles. Larger:
     /// more passes.
-    unsigned pass_part = 10;
+    unsigned pass_part = add("pass_part", 10);
     /// Another sweep of swaps is made if the last one swapped at least one edge per so many
     /// triangles. Larger: more sweeps.
-    unsigned sweep_part = 100;
+    unsigned sweep_part = add("sweep_part", 100);
     /// Swaps and collapses follow a round of splits if it split at least one edge per so many
     /// triangles. Larger: fewer slivers are halved, more work.
-    unsigned cleanup_part = 20;
+    unsigned cleanup_part = add("cleanup_part", 20);
     /// Number of passes with displacements.
-    unsigned jitter_passes = 2;
+    unsigned jitter_passes = add("jitter_passes", 2);
     /// Rounds that improve single triangles.
-    unsigned finish_rounds = 2;
+    unsigned finish_rounds = add("finish_rounds", 2);
     /// Changes that are made for the worst triangle of all at the end, one after the other. Larger:
     /// a better worst triangle.
-    unsigned worst_rounds = 200;
+    unsigned worst_rounds = add("worst_rounds", 200);
     /// Rounds that improve all triangles that are worse than the result may be.
-    unsigned bad_rounds = 10;
+    unsigned bad_rounds = add("bad_rounds", 10);
     /// Attempts with more and more strict triangles before all are. Larger: wanted lengths in more
     /// places, more time.
-    unsigned strict_attempts = 2;
+    unsigned strict_attempts = add("strict_attempts", 2);
     /// Attempts with smaller bounds around blocks whose volumes have changed too much. Larger:
     /// fewer such blocks, more time.
-    unsigned volume_attempts = 3;
+    unsigned volume_attempts = add("volume_attempts", 3);
     /// Input triangles up to so many target lengths from a bad triangle become strict.
-    double strict_lengths = 2;
+    double strict_lengths = add("strict_lengths", 2);
     /// All input triangles become strict when more than one in so many triangles is bad.
-    unsigned strict_part = 20;
+    unsigned strict_part = add("strict_part", 20);
     /// Rounds of splitting in a pass; a round halves an edge at most once.
-    unsigned split_rounds = 32;
+    unsigned split_rounds = add("split_rounds", 32);
     /// Rounds of swapping in a pass.
-    unsigned swap_rounds = 6;
+    unsigned swap_rounds = add("swap_rounds", 6);
     /// Largest number of changes that are checked at once. Larger: better use of threads,
     /// more repeated checks.
-    std::size_t window_size = 256;
+    std::size_t window_size = add("window_size", 256);
     /// Triangles that a walk on the original surface may pass.
-    unsigned most_steps = 256;
+    unsigned most_steps = add("most_steps", 256);
     /// Triangles that may cover one part of a triangle. Larger: proofs for much coarser
     /// meshes.
-    unsigned most_covered = 2048;
+    unsigned most_covered = add("most_covered", 2048);
     /// Parts into which a triangle may be divided in a proof of its deviation.
-    unsigned most_parts = 48;
+    unsigned most_parts = add("most_parts", 48);
     /// The same in bounds_back(), which has to prove every triangle.
-    unsigned most_parts_back = 16384;
+    unsigned most_parts_back = add("most_parts_back", 16384);
     /// Largest multiple of the bound that bounds_back() tries.
-    double most_factor_back = 8;
+    double most_factor_back = add("most_factor_back", 8);
     /// Shares of the way that smoothing draws a vertex, tried one after the other.
-    std::array<double, 2> smoothing_shares{2, 1};
+    std::array<double, 2> smoothing_shares =
+        add<double>({"smoothing_shares_1", "smoothing_shares_2"}, {2, 1});
     /// Share of the way to the centre of the neighbours that is tried after these.
-    double centring_share = 0.5;
+    double centring_share = add("centring_share", 0.5);
     /// Share of the way to the middle of its neighbours on a curve that a vertex slides if it
     /// may not slide the whole way.
-    double slide_share = 0.5;
+    double slide_share = add("slide_share", 0.5);
     /// First step of the search for better positions, in target lengths.
-    double search_step = 0.25;
+    double search_step = add("search_step", 0.25);
     /// Steps of this search, each half of the one before.
-    unsigned search_halvings = 4;
+    unsigned search_halvings = add("search_halvings", 4);
     /// Directions of this search in the tangent plane.
-    unsigned search_directions = 8;
+    unsigned search_directions = add("search_directions", 8);
     /// Edges that a collapse at a bad triangle may leave, in target lengths.
-    double bad_collapse_ratio = 2;
+    double bad_collapse_ratio = add("bad_collapse_ratio", 2);
     /// A proof of the deviation shrinks triangles towards their centroid: a corner moves by at
     /// most the bound divided by this.
-    double shrink_part = 4;
+    double shrink_part = add("shrink_part", 4);
     /// Largest such move, as a share of the way.
-    double most_shrink = 0.25;
+    double most_shrink = add("most_shrink", 0.25);
     /// Parts of triangles whose edges are shorter than the bound divided by this are not
     /// divided again.
-    double least_part = 4;
+    double least_part = add("least_part", 4);
     /// In bounds_back(), a part of a radius above this multiple of the bound may be proven as a
     /// whole.
-    double coarse_part_back = 4;
+    double coarse_part_back = add("coarse_part_back", 4);
     /// Edges that a collapse along a curve may leave, in target lengths.
-    double curve_collapse_ratio = 2;
+    double curve_collapse_ratio = add("curve_collapse_ratio", 2);
     /// Least q of triangles that are not strict, unless the result may have smaller ones. Larger:
     /// good triangles are divided less, as their parts are worse at first.
-    double least_quality = 1e-3;
+    double least_quality = add("least_quality", 1e-3);
     /// Share by which rounding may reduce q of a triangle that is divided into similar ones.
-    double quality_rounding = 1e-12;
+    double quality_rounding = add("quality_rounding", 1e-12);
     /// Share by which q of a bad triangle must grow at least. Larger: fewer changes.
-    double least_growth = 1e-9;
+    double least_growth = add("least_growth", 1e-9);
     /// Ratio of an edge to its wanted length below which all edges are equally short: orders of
     /// magnitude become classes.
-    double least_length_ratio = 1e-70;
+    double least_length_ratio = add("least_length_ratio", 1e-70);
 };
 
-inline constexpr RemeshConstants constants;
-
-/// The constants by name, in the order of their declaration.
-inline constexpr auto constants_by_name = std::to_array<NamedConstant>({
-    {"split_ratio", constants.split_ratio},
-    {"collapse_ratio", constants.collapse_ratio},
-    {"least_shape", constants.least_shape},
-    {"bad_shape", constants.bad_shape},
-    {"curve_tolerance", constants.curve_tolerance},
-    {"least_gain", constants.least_gain},
-    {"jitter", constants.jitter},
-    {"jitter_below_shape", constants.jitter_below_shape},
-    {"least_normal_cosine", constants.least_normal_cosine},
-    {"least_valence_cosine", constants.least_valence_cosine},
-    {"least_cosine_gain", constants.least_cosine_gain},
-    {"least_slide", constants.least_slide},
-    {"curvature_floor", constants.curvature_floor},
-    {"turn_triangles", static_cast<double>(constants.turn_triangles)},
-    {"turn_reach", constants.turn_reach},
-    {"thin_cosine", constants.thin_cosine},
-    {"thin_reach", constants.thin_reach},
-    {"thin_triangles", static_cast<double>(constants.thin_triangles)},
-    {"default_tolerance", constants.default_tolerance},
-    {"thinnest", constants.thinnest},
-    {"least_bound", constants.least_bound},
-    {"regroup_part", static_cast<double>(constants.regroup_part)},
-    {"pass_part", static_cast<double>(constants.pass_part)},
-    {"sweep_part", static_cast<double>(constants.sweep_part)},
-    {"cleanup_part", static_cast<double>(constants.cleanup_part)},
-    {"jitter_passes", static_cast<double>(constants.jitter_passes)},
-    {"finish_rounds", static_cast<double>(constants.finish_rounds)},
-    {"worst_rounds", static_cast<double>(constants.worst_rounds)},
-    {"bad_rounds", static_cast<double>(constants.bad_rounds)},
-    {"strict_attempts", static_cast<double>(constants.strict_attempts)},
-    {"volume_attempts", static_cast<double>(constants.volume_attempts)},
-    {"strict_lengths", constants.strict_lengths},
-    {"strict_part", static_cast<double>(constants.strict_part)},
-    {"split_rounds", static_cast<double>(constants.split_rounds)},
-    {"swap_rounds", static_cast<double>(constants.swap_rounds)},
-    {"window_size", static_cast<double>(constants.window_size)},
-    {"most_steps", static_cast<double>(constants.most_steps)},
-    {"most_covered", static_cast<double>(constants.most_covered)},
-    {"most_parts", static_cast<double>(constants.most_parts)},
-    {"most_parts_back", static_cast<double>(constants.most_parts_back)},
-    {"most_factor_back", constants.most_factor_back},
-    {"smoothing_shares_1", constants.smoothing_shares[0]},
-    {"smoothing_shares_2", constants.smoothing_shares[1]},
-    {"centring_share", constants.centring_share},
-    {"slide_share", constants.slide_share},
-    {"search_step", constants.search_step},
-    {"search_halvings", static_cast<double>(constants.search_halvings)},
-    {"search_directions", static_cast<double>(constants.search_directions)},
-    {"bad_collapse_ratio", constants.bad_collapse_ratio},
-    {"shrink_part", constants.shrink_part},
-    {"most_shrink", constants.most_shrink},
-    {"least_part", constants.least_part},
-    {"coarse_part_back", constants.coarse_part_back},
-    {"curve_collapse_ratio", constants.curve_collapse_ratio},
-    {"least_quality", constants.least_quality},
-    {"quality_rounding", constants.quality_rounding},
-    {"least_growth", constants.least_growth},
-    {"least_length_ratio", constants.least_length_ratio},
-});
-
-/// Lists all constants by name, in the order of their declaration.
-inline std::vector<NamedConstant> named_constants() {
-    return {constants_by_name.begin(), constants_by_name.end()};
-}
+inline constexpr RemeshConstants constants{};
 
 } // namespace terrane::quality::detail

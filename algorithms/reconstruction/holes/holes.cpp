@@ -226,7 +226,7 @@ Result<std::vector<BorderLoop>> find_border_loops(const Surface& surface, const 
 }
 
 std::vector<NamedConstant> hole_constants() {
-    return holes::detail::named_constants();
+    return holes::detail::constants.listed();
 }
 
 } // namespace terrane

@@ -430,7 +430,7 @@ Result<Joined> join_filling(const Surface& surface, const BorderLoop& loop, cons
 }
 
 std::vector<NamedConstant> join_constants() {
-    return joining::detail::named_constants();
+    return joining::detail::constants.listed();
 }
 
 } // namespace terrane

@@ -184,7 +184,7 @@ Surface joined(const Surface& surface, const Filling& filling) {
 }
 
 std::vector<NamedConstant> kriging_constants() {
-    return kriging::detail::named_constants();
+    return kriging::detail::constants.listed();
 }
 
 } // namespace terrane

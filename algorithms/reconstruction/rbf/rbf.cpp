@@ -429,7 +429,7 @@ Result<Filling> fill_graph_by_rbf(const Surface& surface, const BorderLoop& loop
 }
 
 std::vector<NamedConstant> rbf_constants() {
-    return rbf::detail::named_constants();
+    return rbf::detail::constants.listed();
 }
 
 } // namespace terrane

@@ -6,9 +6,8 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
 
-#include <terrane/algorithms/core/named_constant.hpp>
+#include <terrane/algorithms/core/constants.hpp>
 
 namespace terrane::rounding::detail {
 
@@ -27,57 +26,44 @@ namespace terrane::rounding::detail {
 /// (4) No grid moves a point farther than surfaces may move. By default that is 1024 spacings of
 ///     the doubles, which nearly coplanar surfaces need: snapped to a grid of 512 spacings, most of
 ///     their parts are so far from each other that rounding to doubles does not make them cross.
-struct RoundingTuning {
-    std::array<int, 3> fine_digits{4, 8, 12}; ///< grids for the output, in this order
-    std::array<int, 6> coarse_digits{9, 16, 20, 24, 28, 32}; ///< grids for the input, in this
-                                                             ///< order, and for parts
-    int allowed_digits = 10;      ///< the largest move allowed by default, as digits of a grid
-    double decimal_share = 0.125; ///< inputs are decimals only if the spacing of doubles is less
-                                  ///< than this share of that of the decimals
-    double cluster_spacings = 16; ///< triangles are nearly coplanar if they are so many spacings of
-                                  ///< the doubles from one plane
-    std::size_t few = 64; ///< so few contacts are separated by moves to doubles nearby first
-    static constexpr int search_steps = 2; ///< how many doubles away along each axis
-    std::size_t many = 1024;               ///< fewer contacts are never crowded
-    std::size_t crowded = 8;    ///< contacts are crowded if there are fewer triangles per contact
-    std::size_t sampled = 16;   ///< so many parts of a triangle, or up to twice, tell with which
-                                ///< others it is in contact where contacts are too many to list
-    std::size_t hopeless = 4;   ///< so many contacts per triangle are never divided, unless there
-                                ///< are fewer than RoundingReport::most_counted
-    std::size_t multiplied = 8; ///< growth of contacts, or of triangles, in a round that counts
-                                ///< as a failure
-    unsigned widenings = 3;     ///< attempts per grid of the input, each on more triangles
-    unsigned shrinking = 4;     ///< a round helps if it divides the contacts by at least this
+struct RoundingTuning : Constants {
+    /// Grids for the output, in this order.
+    std::array<int, 3> fine_digits =
+        add<int>({"fine_digits_1", "fine_digits_2", "fine_digits_3"}, {4, 8, 12});
+    /// Grids for the input, in this order, and for parts.
+    std::array<int, 6> coarse_digits =
+        add<int>({"coarse_digits_1", "coarse_digits_2", "coarse_digits_3", "coarse_digits_4",
+                  "coarse_digits_5", "coarse_digits_6"},
+                 {9, 16, 20, 24, 28, 32});
+    /// The largest move allowed by default, as digits of a grid.
+    int allowed_digits = add("allowed_digits", 10);
+    /// Inputs are decimals only if the spacing of doubles is less than this share of that of the
+    /// decimals.
+    double decimal_share = add("decimal_share", 0.125);
+    /// Triangles are nearly coplanar if they are so many spacings of the doubles from one plane.
+    double cluster_spacings = add("cluster_spacings", 16);
+    /// So few contacts are separated by moves to doubles nearby first.
+    std::size_t few = add("few", 64);
+    /// How many doubles away along each axis.
+    int search_steps = add("search_steps", 2);
+    /// Fewer contacts are never crowded.
+    std::size_t many = add("many", 1024);
+    /// Contacts are crowded if there are fewer triangles per contact.
+    std::size_t crowded = add("crowded", 8);
+    /// So many parts of a triangle, or up to twice, tell with which others it is in contact where
+    /// contacts are too many to list.
+    std::size_t sampled = add("sampled", 16);
+    /// So many contacts per triangle are never divided, unless there are fewer than
+    /// RoundingReport::most_counted.
+    std::size_t hopeless = add("hopeless", 4);
+    /// Growth of contacts, or of triangles, in a round that counts as a failure.
+    std::size_t multiplied = add("multiplied", 8);
+    /// Attempts per grid of the input, each on more triangles.
+    unsigned widenings = add("widenings", 3);
+    /// A round helps if it divides the contacts by at least this.
+    unsigned shrinking = add("shrinking", 4);
 };
 
-inline constexpr RoundingTuning rounding_tuning;
-
-/// Lists all constants by name, in the order of their declaration.
-inline std::vector<NamedConstant> named_constants() {
-    const RoundingTuning& t = rounding_tuning;
-    return {
-        {"fine_digits_1", static_cast<double>(t.fine_digits[0])},
-        {"fine_digits_2", static_cast<double>(t.fine_digits[1])},
-        {"fine_digits_3", static_cast<double>(t.fine_digits[2])},
-        {"coarse_digits_1", static_cast<double>(t.coarse_digits[0])},
-        {"coarse_digits_2", static_cast<double>(t.coarse_digits[1])},
-        {"coarse_digits_3", static_cast<double>(t.coarse_digits[2])},
-        {"coarse_digits_4", static_cast<double>(t.coarse_digits[3])},
-        {"coarse_digits_5", static_cast<double>(t.coarse_digits[4])},
-        {"coarse_digits_6", static_cast<double>(t.coarse_digits[5])},
-        {"allowed_digits", static_cast<double>(t.allowed_digits)},
-        {"decimal_share", t.decimal_share},
-        {"cluster_spacings", t.cluster_spacings},
-        {"few", static_cast<double>(t.few)},
-        {"search_steps", static_cast<double>(RoundingTuning::search_steps)},
-        {"many", static_cast<double>(t.many)},
-        {"crowded", static_cast<double>(t.crowded)},
-        {"sampled", static_cast<double>(t.sampled)},
-        {"hopeless", static_cast<double>(t.hopeless)},
-        {"multiplied", static_cast<double>(t.multiplied)},
-        {"widenings", static_cast<double>(t.widenings)},
-        {"shrinking", static_cast<double>(t.shrinking)},
-    };
-}
+inline constexpr RoundingTuning rounding_tuning{};
 
 } // namespace terrane::rounding::detail

@@ -66,7 +66,7 @@ double farthest_sample(const Surface& from, const Surface& to) {
 TEST_CASE("build: each mesh is proven once, and searched for volumes once", "[volumes][once]") {
     const WorkCount count;
     Project project;
-    project.improve = ProjectImprove{.edge_length = 2, .max_deviation = {}, .edge_length_of = {}};
+    project.improve = ProjectImprove{.options = {.edge_length = 2}};
     std::size_t regions = 8;
 #ifdef TERRANE_HAS_TETGEN
     project.outputs.tetrahedra = {"vtu"};
@@ -102,8 +102,7 @@ TEST_CASE("build: stages are observed in their order, those not asked for are le
 TEST_CASE("build: a name that no surface has is an error with its key", "[volumes]") {
     Project project;
     project.source = "p.json";
-    project.improve =
-        ProjectImprove{.edge_length = {}, .max_deviation = {}, .edge_length_of = {{"fourth", 1}}};
+    project.improve = ProjectImprove{.edge_length_of = {{"fourth", 1}}};
     const auto built = build(project, {.surfaces = sectors()});
     REQUIRE_FALSE(built);
     CHECK(built.error().message() == "p.json: improve.edge_length_of.fourth: no surface is called "
@@ -122,8 +121,7 @@ TEST_CASE("build: refine_bad takes the best round, and each round refines the be
                                         wall("second", 0, 4.5, 8, 4.3)};
     const auto built_with = [&](unsigned rounds) {
         Project project;
-        project.improve =
-            ProjectImprove{.edge_length = 2, .max_deviation = {}, .edge_length_of = {}};
+        project.improve = ProjectImprove{.options = {.edge_length = 2}};
         project.outputs.tetrahedra = {"vtu"};
         project.tetrahedra.refine_bad = rounds;
         project.tetrahedra.move_vertices = false;
@@ -168,8 +166,7 @@ TEST_CASE("build: vertices slide on the surfaces where tetrahedra are bad", "[vo
                                         wall("second", 0, 4.9, 8, 4.2)};
     const auto built_with = [&](bool move) {
         Project project;
-        project.improve =
-            ProjectImprove{.edge_length = 2, .max_deviation = {}, .edge_length_of = {}};
+        project.improve = ProjectImprove{.options = {.edge_length = 2}};
         project.outputs.tetrahedra = {"vtu"};
         project.tetrahedra.move_vertices = move;
         auto built = build(project, {.surfaces = surfaces});
@@ -214,7 +211,7 @@ TEST_CASE("build: vertices slide on the surfaces where tetrahedra are bad", "[vo
     Run run;
     run.threads = 3;
     Project project;
-    project.improve = ProjectImprove{.edge_length = 2, .max_deviation = {}, .edge_length_of = {}};
+    project.improve = ProjectImprove{.options = {.edge_length = 2}};
     project.outputs.tetrahedra = {"vtu"};
     const auto parallel = build(project, {.surfaces = surfaces}, run);
     REQUIRE(parallel);
@@ -241,8 +238,7 @@ TEST_CASE("build: surfaces whose vertices moved are within the bounds of improve
     std::size_t moved = 0;
     for (const double gap : {0.2, 0.3, 0.4, 0.5}) {
         Project project;
-        project.improve =
-            ProjectImprove{.edge_length = 2, .max_deviation = 0.02, .edge_length_of = {}};
+        project.improve = ProjectImprove{.options = {.edge_length = 2, .max_deviation = 0.02}};
         project.outputs.tetrahedra = {"vtu"};
         const auto built =
             build(project, {.surfaces = {box({0, 0, 0}, {8, 8, 8}), curved("first", 4, 0.3),
@@ -268,8 +264,8 @@ TEST_CASE(
     Surface boundary = box({0, 0, 1}, {8, 8, 7});
     boundary.role = Role::boundary;
     Project project;
-    project.improve = ProjectImprove{.edge_length = 2, .max_deviation = {}, .edge_length_of = {}};
-    project.improve->resolution = resolution;
+    project.improve = ProjectImprove{.options = {.edge_length = 2}};
+    project.improve->resolution.length = resolution;
     project.outputs.tetrahedra = {"vtu"};
     const auto built = build(project, {.surfaces = surfaces, .boundary = {boundary}});
     REQUIRE(built);
@@ -306,9 +302,8 @@ TEST_CASE("build: surfaces are simplified once, in whatever round tetrahedra are
     constexpr double resolution = 0.5;
     const auto built = [&](unsigned rounds) {
         Project project;
-        project.improve =
-            ProjectImprove{.edge_length = 2, .max_deviation = {}, .edge_length_of = {}};
-        project.improve->resolution = resolution;
+        project.improve = ProjectImprove{.options = {.edge_length = 2}};
+        project.improve->resolution.length = resolution;
         project.outputs.tetrahedra = {"vtu"};
         project.tetrahedra.refine_bad = rounds;
         return build(project, {.surfaces = {box({0, 0, 0}, {8, 8, 8}), wall("first", -1, 4, 9, 4),

@@ -54,7 +54,7 @@ struct Memory {
 
 Project improving_project() {
     Project project;
-    project.improve = ProjectImprove{.edge_length = 2, .max_deviation = {}, .edge_length_of = {}};
+    project.improve = ProjectImprove{.options = {.edge_length = 2}};
 #ifdef TERRANE_HAS_TETGEN
     project.outputs.tetrahedra = {"vtu"};
 #endif
@@ -105,13 +105,13 @@ TEST_CASE("kept results: other options have another key", "[kept][once]") {
     Project project = improving_project();
     REQUIRE(memory.build(project));
     SECTION("edge length") {
-        project.improve->edge_length = 2.5;
+        project.improve->options.edge_length = 2.5;
     }
     SECTION("of a surface") {
         project.improve->edge_length_of = {{"first", 3}};
     }
     SECTION("deviation") {
-        project.improve->max_deviation = 0.01;
+        project.improve->options.max_deviation = 0.01;
     }
     REQUIRE(memory.build(project));
     CHECK(std::count(memory.taken.begin(), memory.taken.end(), BuildStage::improve) == 0);
