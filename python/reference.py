@@ -75,6 +75,9 @@ def members(name):
             value = vars(base).get(key)
             if not key.startswith("_") and key not in [f.rstrip("()") for f in found]:
                 found.append(f"{key}()" if inspect.isfunction(value) else key)
+    if not found:  # attributes that only the docstring lists
+        section = inspect.getdoc(cls).split("Attributes\n----------\n")[1].split("\n\n")[0]
+        found = [k for line in section.splitlines() if not line.startswith(" ") for k in line.split(" : ")[0].split(", ")]
     return f"- `{name}`: {', '.join(f'`{f}`' for f in found)}"
 
 

@@ -10,6 +10,7 @@ HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*\s*$")
 LINK = re.compile(r"!?\[(?:[^\[\]]|\[[^\[\]]*\])*\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")
 LINK_DEFINITION = re.compile(r"^\s{0,3}\[[^\]]+\]:\s+<?(\S+?)>?(?:\s|$)")
 HTML_LINK = re.compile(r"""<(?:a|img)\b[^>]*?\b(?:href|src)=["']([^"']+)["']""")
+QUOTED_NUMBER = re.compile(r"\*\*(\d[\d. ]*(?:e[+-]?\d+)?)\*\*")
 INLINE_CODE = re.compile(r"(`+)(?:(?!\1).)+?\1")
 
 
@@ -109,6 +110,14 @@ def without_code(text):
         else:
             lines.append(INLINE_CODE.sub("", line))
     return "\n".join(lines)
+
+
+def numbers_not_shown(text):
+    """Pairs of line number and number: bold numbers in sentences that no block of the page has."""
+    shown = {word.strip(".,;:") for block in blocks_of(text) for line in block.lines
+             for word in re.split(r"[\s()%]+", line)}
+    return [(number, found) for number, line in enumerate(without_code(text).splitlines(), 1)
+            for found in QUOTED_NUMBER.findall(line) if found.replace(" ", "") not in shown]
 
 
 def links_of(text):

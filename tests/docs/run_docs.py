@@ -18,7 +18,7 @@ import sys
 import tempfile
 import time
 
-from markdown_pages import PageError, blocks_of, commands_of, needs_of
+from markdown_pages import PageError, blocks_of, commands_of, needs_of, numbers_not_shown
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SHELLS = {"sh", "bash", "shell", "zsh", "shell-session"}
@@ -142,6 +142,8 @@ def looks_like_commands(block):
 def run_page(path, page, shell, tally):
     """Runs a page from top to bottom; the changes of output, see run_block."""
     changes = []
+    for line, number in numbers_not_shown(path.read_text()):
+        tally.fail(f"{page}:{line}", f"no block of the page shows {number}")
     for block in blocks_of(path.read_text(), page):
         if block.directive == "not run":
             if not block.argument:
