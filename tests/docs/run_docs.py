@@ -4,7 +4,7 @@
 
 run_docs.py --program build/release/cli/terrane [--update] [--keep FOLDER] [PAGE.md ...]
 
-Without pages it runs all of docs/. tests/docs/README.md has the rules for pages. --update replaces
+Without pages it runs README.md and all of docs/. tests/docs/README.md has the rules for pages. --update replaces
 the output that a page shows where it differs from what the commands print.
 """
 import argparse
@@ -226,7 +226,7 @@ def main():
     parser.add_argument("--keep", help="folder in which the pages' folders are made and kept")
     parser.add_argument("pages", nargs="*", type=lambda p: pathlib.Path(p).resolve())
     options = parser.parse_args()
-    options.pages = options.pages or sorted((ROOT / "docs").rglob("*.md"))
+    options.pages = options.pages or [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
     if options.keep:
         os.makedirs(options.keep, exist_ok=True)
     tally = Tally()
