@@ -19,6 +19,7 @@ import shutil
 import subprocess
 import sys
 import tarfile
+import textwrap
 from dataclasses import dataclass
 
 import numpy as np
@@ -219,7 +220,8 @@ def main():
             complete = False
             continue
         told = run(model, options.terrane.resolve(), files, folder)
-        page += f"## {model.name[0].upper()}{model.name[1:]}\n\n{model.source}. {model.hard}\n\n"
+        about = textwrap.fill(f"{model.source}. {model.hard}", 120)
+        page += f"## {model.name[0].upper()}{model.name[1:]}\n\n{about}\n\n"
         if model.shows:
             draw(model, folder, ROOT / f"docs/gallery/{slug}.png")
             page += f"![{model.name}]({slug}.png)\n\n"

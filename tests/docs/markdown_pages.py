@@ -95,20 +95,25 @@ def commands_of(block, page="page"):
     return commands
 
 
-def without_code(text):
-    """The text with fenced blocks and code spans blanked; the lines keep their numbers."""
-    lines, marker = [], ""
-    for line in text.splitlines():
+def lines_of_text(text):
+    """Pairs of number and line of all lines outside of fenced blocks."""
+    marker = ""
+    for number, line in enumerate(text.splitlines(), 1):
         fence = FENCE.match(line)
         if marker:
             if line.strip().startswith(marker) and line.strip().strip(marker[0]) == "":
                 marker = ""
-            lines.append("")
         elif fence:
             marker = fence.group(2)
-            lines.append("")
         else:
-            lines.append(INLINE_CODE.sub("", line))
+            yield number, line
+
+
+def without_code(text):
+    """The text with fenced blocks and code spans blanked; the lines keep their numbers."""
+    lines = [""] * len(text.splitlines())
+    for number, line in lines_of_text(text):
+        lines[number - 1] = INLINE_CODE.sub("", line)
     return "\n".join(lines)
 
 
@@ -135,19 +140,8 @@ def links_of(text):
 
 def headings_of(text):
     """The headings of a page as plain text, in order."""
-    headings, marker = [], ""
-    for line in text.splitlines():
-        fence = FENCE.match(line)
-        if marker:
-            if line.strip().startswith(marker) and line.strip().strip(marker[0]) == "":
-                marker = ""
-        elif fence:
-            marker = fence.group(2)
-        else:
-            found = HEADING.match(line)
-            if found:
-                headings.append(re.sub(r"[`*]|\[([^\]]*)\]\([^)]*\)", r"\1", found.group(1)))
-    return headings
+    found = (HEADING.match(line) for _, line in lines_of_text(text))
+    return [re.sub(r"[`*]|\[([^\]]*)\]\([^)]*\)", r"\1", heading.group(1)) for heading in found if heading]
 
 
 def host_slug(heading):

@@ -166,9 +166,10 @@ class Links(unittest.TestCase):
             (root / "docs").mkdir()
             (root / "README.md").write_text("[ok](docs/a.md#one-two) [no](docs/b.md)\n[out](../x.md)\n")
             (root / "docs" / "a.md").write_text(
-                "# One two\n[up](../README.md) [no](#three) [ok](#one-two) [net](https://x.org/y)\n")
+                "# One two\n[up](../README.md) [no](#three) [ok](#one-two) [net](https://x.org/y)\n" + 121 * "w" + "\n" +
+                "|" + 121 * "w" + "\n```text\n" + 121 * "w" + "\n```\n")
             pages, links, others, flaws = check_links.check(root.resolve())
-        self.assertEqual((pages, links, others, len(flaws)), (2, 6, 1, 4), flaws)
+        self.assertEqual((pages, links, others, len(flaws)), (2, 6, 1, 5), flaws)
 
 
 class Reference(unittest.TestCase):
