@@ -7,7 +7,7 @@
 // Steps:
 //   (1) the exact arrangement of all horizons (with the copies of (4)) and of walls, which are
 //       vertical surfaces on the free borders. Each of its triangles is as a whole above, below, on
-//       or beside each horizon, seen along z;
+//       or next to each horizon, seen along z;
 //   (2) an exact test decides which, for each pair of triangles whose projections overlap;
 //   (3) from the hardest horizon to the softest: at each place, the nearest harder one that exists
 //       there decides, among those that it belongs above (below). Its triangles below (above) that

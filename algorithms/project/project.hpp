@@ -84,7 +84,7 @@ struct ProjectImprove {
     std::vector<ProjectSize> edge_length_of{}; ///< by surface
     std::optional<double> layers_in_gaps{};    ///< see ImproveOptions; none: gaps don't count
     std::optional<double> smallest{};          ///< see ImproveOptions; unit of the surfaces
-    std::optional<double> resolution{}; ///< what is smaller or nearer becomes one first, unit of
+    std::optional<double> resolution{}; ///< smaller or nearer features are joined first, unit of
                                         ///< the surfaces; none: nothing does, see resolution.hpp
     bool dissolve = false;              ///< blocks thinner than the resolution are zipped
 };

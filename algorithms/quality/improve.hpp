@@ -61,7 +61,7 @@ struct LocalSize {
 };
 
 /// Bounds ImproveOptions::layers_in_gaps. The search for gaps compares a triangle with the sheets
-/// within so many wanted lengths of it. With more than a thousand, these are all sheets of a model.
+/// within layers_in_gaps wanted lengths of it; from a thousand on, these are all sheets of a model.
 inline constexpr double most_layers_in_gaps = 1000;
 
 /// Options of improve(). Lengths are in the unit of the mesh, angles in degrees.

@@ -40,9 +40,8 @@ struct RoundingOptions {
     unsigned max_rounds = 8;  ///< limit on the rounds of snapping, for a part of an arrangement
                               ///< in place and with moved input each; 0: nearest doubles only
     PairCheckOptions check{}; ///< how the doubles are checked; the mesh does not depend on it
-    /// The farthest that surfaces may move, unit of the input: what no move up to it makes
-    /// conforming is refused. None: default_max_move(). Must be at least the error of the nearest
-    /// doubles.
+    /// Largest move of a surface, unit of the input; none: default_max_move(). A mesh that no move up
+    /// to it makes conforming is refused. Must be at least the error of the nearest doubles.
     std::optional<double> max_move{};
 };
 
@@ -68,13 +67,15 @@ struct RoundingReport {
     /// an input triangle is farther from its parts, except for what vanished; unit of the input.
     double surface_deviation = 0;
     double max_allowed = 0; ///< the limit of surface_deviation: max_move of the options
-    double lost_length = 0; ///< points of slivers that became narrower than doubles, and vanished,
-                            ///< are at most so much farther from the mesh
-    double max_move = 0;    ///< no vertex is farther from its exact point
-    bool arranged_again = false; ///< whether exact points are those in which surfaces cross after
-                                 ///< they were moved, by at most surface_deviation
-    double deviation = 0; ///< what a certificate states of all points, vanished slivers included:
-                          ///< >= surface_deviation + lost_length, >= max_move of the same triangles
+    /// Largest distance from the mesh, in addition to surface_deviation, of a point of a sliver that
+    /// was too narrow for doubles and vanished.
+    double lost_length = 0;
+    double max_move = 0;         ///< no vertex is farther from its exact point
+    bool arranged_again = false; ///< whether surfaces were moved by at most surface_deviation and
+                                 ///< arranged again
+    /// Bound of a certificate for all points, with those of vanished slivers: >= surface_deviation +
+    /// lost_length, >= max_move of the same triangles.
+    double deviation = 0;
     std::array<std::size_t, 32> moves{};   ///< vertices by move: [0] none, [k] from 10^(k - 24) on
     std::size_t moved_input_vertices = 0;  ///< number of input vertices that moved
     std::size_t merged_vertices = 0;       ///< number of points that were merged with another one

@@ -18,7 +18,7 @@
 
 namespace terrane {
 
-/// What can be wrong with tetrahedra, in the order in which it is reported. "Near" means within the
+/// The defects of tetrahedra, in the order in which they are reported. "Near" means within the
 /// allowance, a few spacings of the doubles at the coordinates of the input triangle.
 enum class TetrahedraDefect : std::uint8_t {
     unusable_lists, ///< an index, a length or a coordinate makes no sense; nothing else is checked

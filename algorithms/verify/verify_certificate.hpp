@@ -94,7 +94,7 @@ struct RoundedClaim {
     std::vector<std::uint32_t> vanished; ///< input triangles, sorted
 };
 
-/// What a certificate is about.
+/// The kinds of certificates.
 enum class CertificateKind : std::uint8_t {
     arrangement, ///< the arrangement of the surfaces as they are in the input files
     volumes,     ///< this, and the blocks of the mesh of doubles
@@ -177,7 +177,7 @@ struct SurfaceChange {
     double max_limit = 0; ///< the largest that was accepted
 };
 
-/// What the verifier found.
+/// The verdict of the verifier.
 struct Verdict {
     std::vector<Violation> violations; ///< sorted by rule and elements; none: the claims are true
     std::optional<Measured> measured;  ///< of the mesh of doubles; none if it was not judged
@@ -197,7 +197,7 @@ Verdict verify_certificate(std::span<const InputFile> files, const Certificate& 
 Verdict verify_rounded(std::span<const Surface> inputs, const ArrangementClaim& exact,
                        const RoundedClaim& rounded, const VerifyOptions& options = {});
 
-/// What an output file was compared with.
+/// The kinds of comparison of an output file.
 enum class OutputCheck : std::uint8_t {
     doubles,  ///< with all coordinates and triangles (or tetrahedra)
     numbers,  ///< with the numbers of blocks, interfaces and patches; not with all that it holds
@@ -205,7 +205,7 @@ enum class OutputCheck : std::uint8_t {
     hash_only ///< with its SHA-256 only: the verifier has no reader for the format
 };
 
-/// What the verifier found about an output file.
+/// The verdict about an output file.
 struct OutputVerdict {
     OutputCheck check = OutputCheck::doubles; ///< what it was compared with
     std::vector<Violation> violations;        ///< of R21; none: the file is the one it should be

@@ -12,8 +12,8 @@
 
 namespace terrane::cli {
 
-/// Warns if the volume of a block changed by more than so many percent. Returns whether the run may
-/// succeed: if none did, or warnings are no errors.
+/// Warns if the volume of a block changed by more than `most` percent. Returns whether the run may
+/// succeed: no volume did, or warnings are no errors.
 bool keeps_volumes(const ImprovedAndMeasured& measured, bool strict,
                    double most = ImproveOptions{}.max_volume_change);
 

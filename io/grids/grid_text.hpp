@@ -49,7 +49,7 @@ private:
 };
 
 /// Sets all nx ny heights of the grid to no_height. Fails if the rest of the file is too short for
-/// so many numbers.
+/// nx ny numbers.
 [[nodiscard]] MaybeError make_room(const TokenStream& text, Grid& grid);
 
 /// Fails if a step of the grid is 0 or not finite. The step along an axis with a single node, which

@@ -60,8 +60,8 @@ struct OptimiseConstants {
     std::size_t most_in_remeshing = 100;
     /// Passes over such a copy, at most.
     unsigned remeshing_passes = 4;
-    /// Tetrahedra that may be measured in all: so many, or so many for each by which good ones are
-    /// more than bad ones, whichever is more. Larger: meshes of bad surfaces take longer, and a
+    /// Tetrahedra that may be measured in all: least_effort or, if that is more, effort_per_good for
+    /// each good one in excess of the bad ones. Larger: meshes of bad surfaces take longer, and a
     /// little more is found.
     std::size_t least_effort = 150'000'000;
     std::size_t effort_per_good = 4000;
@@ -72,8 +72,8 @@ struct OptimiseConstants {
     /// Larger: hopeless meshes take longer, and a little more is found.
     std::size_t effort_per_cell = 1000;
     std::size_t effort_per_change = 2000;
-    /// Changes are proposed for so many cells or vertices at a time. Larger: more of them come too
-    /// late, since another one was made beside them; fewer: less for each thread.
+    /// Cells or vertices for which changes are proposed at a time. Larger: more proposals come too
+    /// late, since a neighbour has changed; smaller: less work for each thread.
     std::size_t batch = 64;
 };
 inline constexpr OptimiseConstants constants{};

@@ -34,16 +34,16 @@ struct RoundingTuning {
     int allowed_digits = 10;      ///< the largest move allowed by default, as digits of a grid
     double decimal_share = 0.125; ///< inputs are decimals only if the spacing of doubles is less
                                   ///< than this share of that of the decimals
-    double cluster_spacings = 16; ///< triangles are nearly coplanar if they are so many spacings of
-                                  ///< the doubles from one plane
-    std::size_t few = 64; ///< so few contacts are separated by moves to doubles nearby first
+    double cluster_spacings = 16; ///< triangles are nearly coplanar within this distance of one
+                                  ///< plane, in spacings of the doubles
+    std::size_t few = 64; ///< most contacts that are separated by moves to doubles nearby first
     static constexpr int search_steps = 2; ///< how many doubles away along each axis
     std::size_t many = 1024;               ///< fewer contacts are never crowded
-    std::size_t crowded = 8;    ///< contacts are crowded if there are fewer triangles per contact
-    std::size_t sampled = 16;   ///< so many parts of a triangle, or up to twice, tell with which
-                                ///< others it is in contact where contacts are too many to list
-    std::size_t hopeless = 4;   ///< so many contacts per triangle are never divided, unless there
-                                ///< are fewer than RoundingReport::most_counted
+    std::size_t crowded = 8;  ///< contacts are crowded if there are fewer triangles per contact
+    std::size_t sampled = 16; ///< parts of a triangle, up to twice as many, that are searched for
+                              ///< contacts where these are too many to list
+    std::size_t hopeless = 4; ///< contacts per triangle from which on they are not divided, unless
+                              ///< they are fewer than RoundingReport::most_counted
     std::size_t multiplied = 8; ///< growth of contacts, or of triangles, in a round that counts
                                 ///< as a failure
     unsigned widenings = 3;     ///< attempts per grid of the input, each on more triangles

@@ -21,8 +21,8 @@ struct TetrahedraConstants {
     double least_ratio = 1.1;
     /// Largest expected number of tetrahedra; TetGen counts in int.
     double most_tetrahedra = 5e8;
-    /// Where TetGen has a bound on shapes and keeps all facets, it has this share of the time limit,
-    /// but so many seconds per point at least: 1.5.0 may then refine forever. Larger: longer waits.
+    /// Time for TetGen where it has a bound on shapes and keeps all facets: a share of the time limit,
+    /// or seconds per point if that is more; 1.5.0 may refine forever. Larger: longer waits.
     double bounded_share = 0.1, bounded_seconds_per_point = 2e-3;
 };
 

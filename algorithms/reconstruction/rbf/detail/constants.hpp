@@ -83,7 +83,7 @@ struct RbfConstants {
     std::size_t centres_per_term = 3;
     /// Least number of centres at the start.
     std::size_t least_start = 10;
-    /// The start has one in so many of the centres that are allowed.
+    /// Ratio of the allowed centres to those of the start.
     std::size_t start_part = 4;
     /// Largest growth of the number of centres in a round.
     std::size_t centre_growth = 2;
@@ -113,7 +113,7 @@ struct RbfConstants {
     double least_slope = 0.1;
     /// Length of the mean border normal below which it is no axis.
     double least_mean_normal = 0.1;
-    /// One normal in so many may lean farther than the steepness that is compared.
+    /// One normal in this many may lean farther than the steepness that is compared.
     std::size_t outlier_part = 20;
     /// Least degree of smoothing that cross-validation tries: power of ten, in largest
     /// eigenvalues.
@@ -161,7 +161,7 @@ struct RbfConstants {
     double least_noise_share = 0.5;
     /// Least factor of a kernel whose data may as well be noise.
     double least_share = 1e-6;
-    /// The model of kriging is believed up to so many times the error of the fit at such blocks.
+    /// The model of kriging is believed up to this multiple of the error of the fit at such blocks.
     double worth_own = 1.5;
     /// Square of what kriging misses of blocks beyond noise, in squares of the noise, above which
     /// this tells two models apart.
