@@ -247,7 +247,7 @@ void add_choice(CLI::App& app, FillCommand& command) {
     app.add_flag("--bridge-faults", command.settings.bridge,
                  "Fill gaps that a fault has torn as well");
     app.add_option("--gap-slope", command.settings.gap_slope,
-                   "A throw of so many widths makes a hole a gap (default: 0.25)")
+                   "Ratio of throw to width from which a hole is a gap (default: 0.25)")
         ->check(CLI::PositiveNumber.description(""))
         ->type_name("S");
     app.add_flag("--list", command.list, "Say which holes there are, and fill none");

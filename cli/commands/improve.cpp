@@ -297,7 +297,7 @@ void add_lengths(CLI::App& app, ImproveCommand& command) {
                    "Wanted length along curves, where that is shorter (default: as elsewhere)")
         ->type_name("L");
     app.add_option("--turn", command.options.turn,
-                   "Shorter edges where a surface is curved: normals turn by so many degrees "
+                   "Shorter edges where a surface is curved: normals turn by this angle "
                    "along one (default: the same length everywhere)")
         ->type_name("DEGREES");
     app.add_option("--layers-in-gaps", command.options.layers_in_gaps,
@@ -358,7 +358,7 @@ void add_limits(CLI::App& app, ImproveCommand& command) {
                    "Vertices at which a curve turns by more are kept (default: 45)")
         ->type_name("DEGREES");
     app.add_option("--passes", command.options.passes,
-                   "At most so many passes of the four operations (default: 6)")
+                   "Most passes of the four operations (default: 6)")
         ->type_name("N");
 }
 
