@@ -18,7 +18,7 @@ namespace terrane {
 
 /// Where vertices on surfaces may be.
 struct VertexFreedom {
-    std::vector<bool> is_free{}; ///< per vertex of the mesh; those on no surface are free anyhow
+    std::vector<bool> is_free{}; ///< per vertex of the mesh; vertices on no surface are always free
     /// Returns the place nearest to p, about, where vertex v may be; none where it does not know one.
     /// Called by several threads at a time.
     std::function<std::optional<Point3>(std::uint32_t v, const Point3& p)> place{};

@@ -25,8 +25,6 @@ public:
     std::string_view next();
     /// Returns the next token of the current line; empty at its end.
     std::string_view next_in_line();
-    /// Skips the rest of the current line.
-    void skip_line() { rest_ = {}; }
     /// Continues with the tokens of `line`.
     void set_line(std::string_view line) { rest_ = line; }
 
