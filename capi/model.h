@@ -30,7 +30,7 @@ typedef struct terrane_simplify_options {
     int32_t reserved;   ///< 0
 } terrane_simplify_options;
 
-/// What was joined.
+/// The changes of a simplification.
 typedef struct terrane_simplify_report {
     double max_move;   ///< limit of all movements, shown in both directions
     uint64_t corners;  ///< joins of two corners
@@ -125,7 +125,7 @@ TERRANE_API const terrane_arrangement*
 terrane_simplified_arrangement(const terrane_simplified* simplified);
 /// Returns the conforming mesh that the arrangement was rounded to, a part of the handle.
 TERRANE_API const terrane_mesh* terrane_simplified_mesh(const terrane_simplified* simplified);
-/// Copies what was joined; `struct_size` is sizeof(terrane_simplify_report). Errors: BAD_ARGUMENT.
+/// Copies the report; `struct_size` is sizeof(terrane_simplify_report). Errors: BAD_ARGUMENT.
 TERRANE_API terrane_code terrane_simplified_get_report(const terrane_simplified* simplified,
                                                        terrane_simplify_report* report,
                                                        size_t struct_size);

@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/// What the verifier found.
+/// The verdict of the verifier.
 typedef struct terrane_verdict terrane_verdict;
 
 /// Options of terrane_verify_certificate.
@@ -54,7 +54,7 @@ TERRANE_API int terrane_verdict_is_valid(const terrane_verdict* verdict);
 TERRANE_API size_t terrane_verdict_count(const terrane_verdict* verdict);
 /// Returns the rule that a violation breaks, "R5"; "output" for a file that could not be judged.
 TERRANE_API const char* terrane_verdict_rule(const terrane_verdict* verdict, size_t violation);
-/// Returns what is wrong, in a sentence.
+/// Returns the sentence of a violation.
 TERRANE_API const char* terrane_verdict_sentence(const terrane_verdict* verdict, size_t violation);
 /// Returns the elements that a violation is about; docs/reference/certificate.md says of what kind.
 TERRANE_API const uint32_t* terrane_verdict_elements(const terrane_verdict* verdict,
