@@ -33,8 +33,7 @@ Result<std::vector<std::uint32_t>> dropped_triangles(const Arrangement& whole,
         else
             dropped.push_back(t);
     if (next < part.triangles.size())
-        return Error{ErrorCode::internal, "what was cut is no part of the arrangement",
-                     "certificate"};
+        return Error{ErrorCode::internal, "the cut is no part of the arrangement", "certificate"};
     return dropped;
 }
 
