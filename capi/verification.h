@@ -17,10 +17,10 @@ typedef struct terrane_verdict terrane_verdict;
 
 /// Options of terrane_verify_certificate.
 typedef struct terrane_verify_options {
-    size_t struct_size;           ///< sizeof(terrane_verify_options)
-    const char* const* inputs;    ///< the input files in the order of the certificate; NULL: beside
-                                  ///< it
-    size_t input_count;           ///< number of them
+    size_t struct_size;        ///< sizeof(terrane_verify_options)
+    const char* const* inputs; ///< the input files in the order of the certificate; NULL: next to
+                               ///< it
+    size_t input_count;        ///< number of them
     terrane_read_options reading; ///< how they are read; terrane_verify_options_init sets it, too
     double max_deviation;         ///< the largest that is accepted; < 0: the default
     double max_change;            ///< the largest limit of a change that is accepted; < 0: the

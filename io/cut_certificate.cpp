@@ -37,7 +37,7 @@ Result<std::vector<std::uint32_t>> dropped_triangles(const Arrangement& whole,
     return dropped;
 }
 
-/// What the parts of a certificate need beside the arrangement.
+/// The input of the parts of a certificate in addition to the arrangement.
 struct CutParts {
     std::vector<std::uint32_t> dropped; ///< triangles of the whole
     std::vector<double> limits;         ///< per surface that grew

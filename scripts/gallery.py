@@ -67,7 +67,7 @@ MODELS = [
            "terrane tetrahedralize better.vtp -o model.vtu --blocks-only --quality 1.4"], "blocks"),
     Model("faults and a topography", ["tests/data/arch-platform/faults.ts", "tests/data/arch-platform/mnt.ts"],
           "arch-platform (MIT)",
-          "32 faults that cross each other and the topography in 3 382 pairs of triangles; degrees beside kilometres.",
+          "32 faults that cross each other and the topography in 3 382 pairs of triangles; coordinates in degrees and kilometres.",
           ["terrane arrange $IN -o model.vtp"], "surfaces", 1.6, (-0.28, -1.0, 0.42)),
     Model("joints at Nash Point",
           ["xaliphostes+arch-platform/public/models/NashPoint/all_joints_3D.ts"], "arch-platform (MIT)",

@@ -36,7 +36,7 @@ struct OptimiseConstants {
     /// Vertices on walls that are free move until tetrahedra are that good: the sine of 12 degrees.
     /// Larger: surfaces move farther.
     double loose_enough = 0.20791169081775934;
-    /// Largest step of such a vertex, as a share of the distance to the farthest one beside it: the
+    /// Largest step of such a vertex, as a share of the distance to its farthest neighbour: the
     /// nearest one may be what is too near. Larger: surfaces move farther.
     double largest_step = 0.25;
     /// First step, as a share of the largest one.

@@ -174,7 +174,7 @@ private:
     }
 
     /// Removes the vertices of the line between border vertices. Removing one may make others
-    /// removable; at last, vertices of the filling beside them are removed as well.
+    /// removable; at last, vertices of the filling next to them are removed as well.
     Status straighten() {
         std::vector<std::uint32_t> left = part_.between;
         while (!left.empty()) {
