@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // The C interface of Terrane: all stages of the library for C11 and for all languages that call C.
-// docs/how-to/c.md shows how to use it, docs/reference/c.md lists its functions.
+// docs/how-to/c.md shows how to use it.
 //
 // (1) Handles are opaque. Each function that makes one says how it is freed; freeing NULL is
 //     allowed, and so is freeing a handle by the function of another type, or a `const` handle that

@@ -47,7 +47,7 @@ typedef struct terrane_arrangement_summary {
     uint64_t intersection_edges; ///< of the result
 } terrane_arrangement_summary;
 
-/// What the cut did to one surface. Areas are in squared units, in floating point.
+/// The effect of the cut on one surface. Areas are in squared units, in floating point.
 typedef struct terrane_surface_cut {
     double area_inside;      ///< of the part that was kept
     double area_outside;     ///< of the part that was dropped
@@ -125,7 +125,7 @@ TERRANE_API terrane_code terrane_cut_to_volume(const terrane_arrangement* arrang
 TERRANE_API void terrane_cut_free(terrane_cut* cut);
 /// Returns the inside with the boundary, a part of the cut.
 TERRANE_API const terrane_arrangement* terrane_cut_arrangement(const terrane_cut* cut);
-/// Returns what the cut did, per surface.
+/// Returns the effect of the cut per surface.
 TERRANE_API const terrane_surface_cut* terrane_cut_surfaces(const terrane_cut* cut,
                                                             size_t* surface_count);
 

@@ -22,7 +22,7 @@ extern "C" {
 /// An index that stands for none.
 #define TERRANE_NONE UINT32_MAX
 
-/// What a function returns: TERRANE_OK or why it failed.
+/// The code that a function returns: TERRANE_OK or the kind of failure.
 typedef int32_t terrane_code;
 enum {
     TERRANE_OK = 0,                ///< success
@@ -66,11 +66,11 @@ typedef struct terrane_contact {
     double place[3];       ///< a common point, rounded to the nearest doubles
 } terrane_contact;
 
-/// Told of the progress of a stage, between steps and in the thread that called the stage: the name
+/// Receives the progress of a stage, between steps and in the thread that called the stage: the name
 /// of the stage and the share that is done, 0 to 1. A result other than 0 requests a stop. It must
 /// return normally.
 typedef int (*terrane_progress)(const char* stage, double share, void* user);
-/// Told how long a stage or a step of it took: its path ("arrange/search") and the seconds. Calls
+/// Receives the time that a stage or a step of it took: its path ("arrange/search") and the seconds. Calls
 /// may come from several threads at a time.
 typedef void (*terrane_timing)(const char* stage, double seconds, void* user);
 
@@ -87,7 +87,7 @@ TERRANE_API const char* terrane_contact_kind_name(int32_t kind);
 
 /// Returns the code of an error; TERRANE_OK for NULL.
 TERRANE_API terrane_code terrane_error_code(const terrane_error* error);
-/// Returns what is wrong, in a sentence without full stop; "" for NULL.
+/// Returns the sentence of an error, without full stop; "" for NULL.
 TERRANE_API const char* terrane_error_sentence(const terrane_error* error);
 /// Returns where it is wrong, "basin.ts:1204", "triangle 812", the name of an argument, or "".
 TERRANE_API const char* terrane_error_place(const terrane_error* error);
@@ -104,7 +104,7 @@ TERRANE_API void terrane_run_free(terrane_run* run);
 /// Sets the number of threads; 0: one for each processor. Errors: BAD_ARGUMENT.
 TERRANE_API terrane_code terrane_run_set_threads(terrane_run* run, unsigned threads,
                                                  terrane_error** error);
-/// Sets the function that is told of the progress, and what it is given as `user`; NULL: none.
+/// Sets the function that receives the progress, and its argument `user`; NULL: none.
 /// Errors: BAD_ARGUMENT.
 TERRANE_API terrane_code terrane_run_set_progress(terrane_run* run, terrane_progress progress,
                                                   void* user, terrane_error** error);

@@ -34,7 +34,7 @@ typedef struct terrane_surface_growth {
     uint64_t extended; ///< these, and those that terrane_extend_to_boundary added; the rest seals
 } terrane_surface_growth;
 
-/// A result, the handles it was made with, and its files. What is not part of the result is NULL
+/// A result, the handles it was made with, and its files. Members that do not belong to it are NULL
 /// or 0. The members decide on the kind of the certificate: `holes` makes it one of filled surfaces,
 /// `layered` one of layers, `tetrahedra` one of tetrahedra, `model` one of blocks, `improved` one of
 /// an improved mesh, and without them it is one of an arrangement; this one says what was cut away

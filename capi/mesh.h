@@ -15,10 +15,10 @@ extern "C" {
 typedef struct terrane_mesh terrane_mesh;
 /// The regions into which intersection edges divide the surfaces of a mesh.
 typedef struct terrane_regions terrane_regions;
-/// An improved mesh and what was done for it.
+/// An improved mesh and its report.
 typedef struct terrane_improved terrane_improved;
 
-/// What rounding did.
+/// The moves, contacts and losses of rounding.
 typedef struct terrane_rounding_report {
     int32_t is_conforming;         ///< 1: by exact check of the doubles
     uint32_t rounds;               ///< number of snapping rounds
@@ -108,7 +108,7 @@ typedef struct terrane_improve_options {
     uint32_t reserved;            ///< 0
 } terrane_improve_options;
 
-/// What improvement did.
+/// The changes of an improvement.
 typedef struct terrane_improve_report {
     terrane_quality before; ///< of the given mesh
     terrane_quality after;  ///< of the improved mesh
@@ -166,7 +166,7 @@ TERRANE_API terrane_code terrane_mesh_parents(const terrane_mesh* mesh, terrane_
 /// Returns the edges along which surfaces meet, 2 vertices each, sorted: `count` edges.
 TERRANE_API const uint32_t* terrane_mesh_intersection_edges(const terrane_mesh* mesh,
                                                             size_t* count);
-/// Copies what rounding did; all is 0 in a mesh that was not rounded. `struct_size` is
+/// Copies the report of rounding; all is 0 in a mesh that was not rounded. `struct_size` is
 /// sizeof(terrane_rounding_report). Errors: BAD_ARGUMENT.
 TERRANE_API terrane_code terrane_mesh_get_rounding(const terrane_mesh* mesh,
                                                    terrane_rounding_report* report,
@@ -214,7 +214,7 @@ TERRANE_API terrane_code terrane_improve(const terrane_mesh* mesh,
 TERRANE_API void terrane_improved_free(terrane_improved* improved);
 /// Returns the improved mesh, a part of the handle.
 TERRANE_API const terrane_mesh* terrane_improved_mesh(const terrane_improved* improved);
-/// Copies what was done; `struct_size` is sizeof(terrane_improve_report). Errors: BAD_ARGUMENT.
+/// Copies the report; `struct_size` is sizeof(terrane_improve_report). Errors: BAD_ARGUMENT.
 TERRANE_API terrane_code terrane_improved_get_report(const terrane_improved* improved,
                                                      terrane_improve_report* report,
                                                      size_t struct_size);

@@ -30,18 +30,18 @@ typedef struct terrane_simplify_options {
     int32_t reserved;   ///< 0
 } terrane_simplify_options;
 
-/// What was joined.
+/// The changes of a simplification.
 typedef struct terrane_simplify_report {
     double max_move;   ///< limit of all movements, shown in both directions
-    uint64_t corners;  ///< times that two corners were joined
-    uint64_t curves;   ///< that places of two curves were
-    uint64_t sheets;   ///< that other places of surfaces were
+    uint64_t corners;  ///< joins of two corners
+    uint64_t curves;   ///< joins of places of two curves
+    uint64_t sheets;   ///< joins of other places of surfaces
     uint64_t divided;  ///< edges divided where surfaces are near
     uint64_t left;     ///< near places that were left alone
     uint64_t changed;  ///< blocks that did not stay one and the same
-    uint64_t vanished; ///< surfaces of which nothing is left
+    uint64_t vanished; ///< surfaces that vanished
     uint32_t rounds;   ///< arrangements of moved surfaces
-    uint32_t attempts; ///< times that it began
+    uint32_t attempts; ///< number of attempts
 } terrane_simplify_report;
 
 /// A unit of a stratigraphic column.
@@ -125,7 +125,7 @@ TERRANE_API const terrane_arrangement*
 terrane_simplified_arrangement(const terrane_simplified* simplified);
 /// Returns the conforming mesh that the arrangement was rounded to, a part of the handle.
 TERRANE_API const terrane_mesh* terrane_simplified_mesh(const terrane_simplified* simplified);
-/// Copies what was joined; `struct_size` is sizeof(terrane_simplify_report). Errors: BAD_ARGUMENT.
+/// Copies the report; `struct_size` is sizeof(terrane_simplify_report). Errors: BAD_ARGUMENT.
 TERRANE_API terrane_code terrane_simplified_get_report(const terrane_simplified* simplified,
                                                        terrane_simplify_report* report,
                                                        size_t struct_size);

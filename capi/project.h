@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-/// What was built of a project.
+/// The model of a project, and the results of its stages.
 typedef struct terrane_built terrane_built;
 
 /// Builds the model of a project file, as `terrane build` does, without writing files. Free the
@@ -29,7 +29,7 @@ TERRANE_API terrane_code terrane_build_file(const char* path, const terrane_run*
 TERRANE_API terrane_code terrane_build(const char* json, const char* folder,
                                        const terrane_surfaces* surfaces, const terrane_run* run,
                                        terrane_built** out, terrane_error** error);
-/// Frees what was built.
+/// Frees a built project.
 TERRANE_API void terrane_built_free(terrane_built* built);
 /// Returns the model, a part of the handle.
 TERRANE_API const terrane_model* terrane_built_model(const terrane_built* built);

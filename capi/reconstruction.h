@@ -68,7 +68,7 @@ typedef struct terrane_layer_options {
     uint32_t reserved;    ///< 0
 } terrane_layer_options;
 
-/// What stacking did to one horizon. Areas are true areas, in squared units.
+/// The effect of stacking on one horizon. Areas are true areas, in squared units.
 typedef struct terrane_layer_report {
     uint32_t surface;    ///< number of the surface
     uint32_t reserved;   ///< 0
@@ -140,7 +140,7 @@ TERRANE_API void terrane_layered_free(terrane_layered* layered);
 TERRANE_API int terrane_layered_is_stack(const terrane_layered* layered);
 /// Returns the mesh, whose surfaces are the layers from the top down; a part of the handle.
 TERRANE_API const terrane_mesh* terrane_layered_mesh(const terrane_layered* layered);
-/// Returns what was done to each layer, from the top down.
+/// Returns the effect on each layer, from the top down.
 TERRANE_API const terrane_layer_report* terrane_layered_reports(const terrane_layered* layered,
                                                                 size_t* count);
 /// Returns the width of the strips along steps over which the order is not claimed, in the unit of

@@ -55,7 +55,7 @@ typedef struct terrane_open_gap {
 
 /// The change of one connected part of a border by sealing.
 typedef struct terrane_seal_change {
-    int32_t is_trimmed; ///< 1: what was beyond another surface was removed; 0: the border was
+    int32_t is_trimmed; ///< 1: the part beyond another surface was removed; 0: the border was
                         ///< extended
     uint32_t surface;   ///< number of the surface
     double length;      ///< of the free border there, before the change
@@ -92,7 +92,7 @@ TERRANE_API void terrane_sealed_free(terrane_sealed* sealed);
 /// Returns the surfaces with the triangles that close gaps, which come last in each; a part of the
 /// handle.
 TERRANE_API const terrane_surfaces* terrane_sealed_surfaces(const terrane_sealed* sealed);
-/// Returns the arrangement of these surfaces, without what was trimmed; a part of the handle.
+/// Returns the arrangement of these surfaces without trimmed parts; a part of the handle.
 TERRANE_API const terrane_arrangement* terrane_sealed_arrangement(const terrane_sealed* sealed);
 /// Returns the changes, by kind, surface and place.
 TERRANE_API const terrane_seal_change* terrane_sealed_changes(const terrane_sealed* sealed,

@@ -11,7 +11,7 @@ extern "C" {
 
 /// A list of triangulated surfaces, numbered from 0.
 typedef struct terrane_surfaces terrane_surfaces;
-/// What terrane_check found.
+/// The findings of terrane_check.
 typedef struct terrane_check_report terrane_check_report;
 
 /// The geological role of a surface. It does not influence the geometry of an arrangement.

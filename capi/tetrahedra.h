@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-/// A tetrahedral mesh that conforms to the triangles of a model, and what its check found.
+/// A tetrahedral mesh that conforms to the triangles of a model, and the findings of its check.
 typedef struct terrane_tetrahedra terrane_tetrahedra;
 
 /// The program that makes tetrahedra.
@@ -60,7 +60,7 @@ typedef struct terrane_tetrahedra_options {
     int32_t reserved;                  ///< 0
 } terrane_tetrahedra_options;
 
-/// What was done to make the shapes better that the mesher made. The quality of a tetrahedron is
+/// The improvement of the shapes that the mesher made. The quality of a tetrahedron is
 /// the least sine of its dihedral angles, 0.7 times that of an obtuse one; angles are in degrees.
 typedef struct terrane_shape_report {
     double quality_before;       ///< the least one
@@ -77,7 +77,7 @@ typedef struct terrane_shape_report {
     uint64_t inserted;           ///< vertices that were added
     uint64_t remeshed;           ///< neighbourhoods where several of these were made at a time
     uint64_t left;               ///< tetrahedra that are still worse than wanted
-    uint64_t untried;            ///< of these: not tried again after the last change beside them
+    uint64_t untried;            ///< of these: not tried again after a neighbour changed
     uint64_t effort;             ///< possible tetrahedra that were measured
     int32_t is_cut_short;        ///< 1: a limit of the effort ended the work
     int32_t reserved;            ///< 0
@@ -149,7 +149,7 @@ TERRANE_API const terrane_region_volume*
 terrane_tetrahedra_volumes(const terrane_tetrahedra* tetrahedra, size_t* region_count);
 /// Returns the program that made the tetrahedra, "TetGen" or "Gmsh".
 TERRANE_API const char* terrane_tetrahedra_mesher(const terrane_tetrahedra* tetrahedra);
-/// Copies what was done to make shapes better; all is 0 where nothing was. `struct_size` is
+/// Copies the report about shapes; all is 0 where they were not improved. `struct_size` is
 /// sizeof(terrane_shape_report). Errors: BAD_ARGUMENT.
 TERRANE_API terrane_code terrane_tetrahedra_shape_report(const terrane_tetrahedra* tetrahedra,
                                                          terrane_shape_report* report,

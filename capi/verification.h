@@ -12,15 +12,15 @@
 extern "C" {
 #endif
 
-/// What the verifier found.
+/// The verdict of the verifier.
 typedef struct terrane_verdict terrane_verdict;
 
 /// Options of terrane_verify_certificate.
 typedef struct terrane_verify_options {
-    size_t struct_size;           ///< sizeof(terrane_verify_options)
-    const char* const* inputs;    ///< the input files in the order of the certificate; NULL: beside
-                                  ///< it
-    size_t input_count;           ///< number of them
+    size_t struct_size;        ///< sizeof(terrane_verify_options)
+    const char* const* inputs; ///< the input files in the order of the certificate; NULL: next to
+                               ///< it
+    size_t input_count;        ///< number of them
     terrane_read_options reading; ///< how they are read; terrane_verify_options_init sets it, too
     double max_deviation;         ///< the largest that is accepted; < 0: the default
     double max_change;            ///< the largest limit of a change that is accepted; < 0: the
@@ -54,7 +54,7 @@ TERRANE_API int terrane_verdict_is_valid(const terrane_verdict* verdict);
 TERRANE_API size_t terrane_verdict_count(const terrane_verdict* verdict);
 /// Returns the rule that a violation breaks, "R5"; "output" for a file that could not be judged.
 TERRANE_API const char* terrane_verdict_rule(const terrane_verdict* verdict, size_t violation);
-/// Returns what is wrong, in a sentence.
+/// Returns the sentence of a violation.
 TERRANE_API const char* terrane_verdict_sentence(const terrane_verdict* verdict, size_t violation);
 /// Returns the elements that a violation is about; docs/reference/certificate.md says of what kind.
 TERRANE_API const uint32_t* terrane_verdict_elements(const terrane_verdict* verdict,

@@ -80,7 +80,7 @@ struct InputRecord {
 Result<InputRecord> record_input(const std::filesystem::path& path, std::string name,
                                  std::size_t surfaces);
 
-/// An output file: the hash of its bytes, and what it calls the surfaces.
+/// An output file: the hash of its bytes, and its names of the surfaces.
 struct OutputRecord {
     std::string name;                  ///< its name in the certificate; "-": standard output
     std::string format;                ///< "obj", "stl", "stl-ascii", ...
@@ -111,7 +111,7 @@ struct VolumeRecord {
     std::vector<Surface> surfaces{};              ///< of a surface: of these files, in order
 };
 
-/// What was left out of surfaces, and added to them.
+/// The parts that were left out of surfaces, and those that were added.
 struct CutRecord {
     const VolumeRecord* volume = nullptr; ///< what was cut out; nullptr: nothing
     std::size_t boundary_count = 0;       ///< number of the last surfaces, which bound the volume

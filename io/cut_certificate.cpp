@@ -33,12 +33,11 @@ Result<std::vector<std::uint32_t>> dropped_triangles(const Arrangement& whole,
         else
             dropped.push_back(t);
     if (next < part.triangles.size())
-        return Error{ErrorCode::internal, "what was cut is no part of the arrangement",
-                     "certificate"};
+        return Error{ErrorCode::internal, "the cut is no part of the arrangement", "certificate"};
     return dropped;
 }
 
-/// What the parts of a certificate need beside the arrangement.
+/// The input of the parts of a certificate in addition to the arrangement.
 struct CutParts {
     std::vector<std::uint32_t> dropped; ///< triangles of the whole
     std::vector<double> limits;         ///< per surface that grew

@@ -135,7 +135,7 @@ Status write_mesh(const Mesh& mesh, const std::filesystem::path& path,
                   const WriteOptions& options = {});
 
 /// Writes tetrahedra in a format that holds them. If this fails, no file is written, also in formats of
-/// several files: the others stand beside `path`, and their names begin with its stem. Errors: those
+/// several files: the others are in the folder of `path`, and their names begin with its stem. Errors: those
 /// of write_mesh; unsupported also for an order that the format does not have, and for split nodes
 /// where the simulator splits them itself; bad_option for several files on standard output, and for
 /// an order other than 1 and 2.

@@ -17,7 +17,7 @@
 
 namespace terrane {
 
-/// A model, and what is known beside it; by reference: the values must outlive it.
+/// A model with its sealing and its leaks; by reference: the values must outlive it.
 struct ModelReports {
     const Model& model;                      ///< what is written
     const std::optional<SealReport>& sealed; ///< what was sealed; none: nothing

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // A project file describes the whole chain from surfaces to tetrahedra in JSON. Its schema is
-// project.schema.json, beside this file; a test compares the two.
+// project.schema.json, in this folder; a test compares the two.
 #pragma once
 
 #include <filesystem>

@@ -7,6 +7,7 @@ usage: PYTHONPATH=build/release/python python/reference.py > docs/reference/pyth
 
 import inspect
 import sys
+import textwrap
 
 sys.path.pop(0)  # the sources beside this file have no extension module
 
@@ -30,17 +31,19 @@ CONSTANTS = {"ROLES": "The roles that a surface can have: {}.", "ERROR_CODES": "
 
 HEAD = """# Python package
 
-This page lists what `import terrane` gives, by the first sentences of the docstrings; `help(terrane.model)` shows all of one.
-`python/reference.py` writes it, and a test compares. [Use Terrane in Python](../how-to/python.md) shows how to begin.
+This page lists what `import terrane` gives, by the first sentences of the docstrings; `help(terrane.model)` shows all
+of one. `python/reference.py` writes it, and a test compares. [Use Terrane in Python](../how-to/python.md) shows how to
+begin.
 
-All stages take `threads` (all cores unless given; no result depends on it) and `progress` (a function of the name of the
-stage and the share of it that is done, or a bar of tqdm). They run without the GIL and stop at a KeyboardInterrupt. Arrays
-of results are read-only views of the library's memory, which they keep alive. Coordinates, lengths, areas and volumes are
-in the unit of the input, angles in degrees. Results can be pickled, copied and compared; a pickle of an arrangement or of
-a model holds its surfaces, and the rest is made again when it is read, bit for bit the same.
+All stages take `threads` (all cores unless given; no result depends on it) and `progress` (a function of the name of
+the stage and the share of it that is done, or a bar of tqdm). They run without the GIL and stop at a
+KeyboardInterrupt. Arrays of results are read-only views of the library's memory, which they keep alive. Coordinates,
+lengths, areas and volumes are in the unit of the input, angles in degrees. Results can be pickled, copied and
+compared; a pickle of an arrangement or of a model holds its surfaces, and the rest is made again when it is read, bit
+for bit the same.
 
-Memory: a `Surface` has a copy of its arrays, 24 bytes per vertex and 12 per triangle, which was checked when it was made and which
-nobody can change. While a stage runs it has one more.
+Memory: a `Surface` has a copy of its arrays, 24 bytes per vertex and 12 per triangle, which was checked when it was
+made and which nobody can change. While a stage runs it has one more.
 """
 
 
@@ -62,12 +65,17 @@ def row(name):
     return f"| `{name}` | {first_paragraph(value)} |"
 
 
+def item(name, fields):
+    """Return an item of a list, in lines of at most 120 columns."""
+    return textwrap.fill(f"- `{name}`: {', '.join(f'`{f}`' for f in fields)}", 120, subsequent_indent="  ")
+
+
 def members(name):
     """Return a sentence with the attributes and methods of a result."""
     cls = getattr(terrane, name)
     fields = getattr(cls, "_fields", None)
     if fields is not None:
-        return f"- `{name}`: {', '.join(f'`{f}`' for f in fields)}"
+        return item(name, fields)
     found = []
     ours = [base for base in cls.__mro__ if base.__module__.startswith("terrane.")]
     for base in [*reversed(ours), *(base for base in cls.__mro__[:-1] if base not in ours)]:
@@ -76,7 +84,10 @@ def members(name):
             value = vars(base).get(key)
             if not key.startswith("_") and key not in [f.rstrip("()") for f in found]:
                 found.append(f"{key}()" if inspect.isfunction(value) else key)
-    return f"- `{name}`: {', '.join(f'`{f}`' for f in found)}"
+    if not found:  # attributes that only the docstring lists
+        section = inspect.getdoc(cls).split("Attributes\n----------\n")[1].split("\n\n")[0]
+        found = [k for line in section.splitlines() if not line.startswith(" ") for k in line.split(" : ")[0].split(", ")]
+    return item(name, found)
 
 
 def page():

@@ -1,29 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Writes docs/reference/c.md, the reference of the C interface, from its headers.
+"""Makes the reference of the C interface from its headers: MkDocs calls it to put that on the page reference/c.md.
 
-    scripts/c_reference.py [--check]
+    scripts/c_reference.py
 
-With --check it writes nothing, and ends with status 1 if the page is not what the headers say.
+Prints the reference; the status is 1 if a function or a header is not in it.
 """
-import argparse
 import re
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-PAGE = ROOT / "docs/reference/c.md"
 HEADERS = ("base", "surfaces", "arrangement", "mesh", "sealing", "structure", "model", "reconstruction",
            "tetrahedra", "verification", "certificate", "project")
-START = """# C interface
-
-The header `<terrane/terrane.h>` declares the functions of this page; [Use the library from C](../how-to/c.md)
-shows a program. `scripts/c_reference.py` writes the page from the headers, and a test compares them.
-
-## Rules
-
-"""
-
 
 def prose(comment):
     """The text of comment lines, with names of the interface as code."""
@@ -101,8 +90,9 @@ def wrapped(code, width=100):
     return "\n".join(lines)
 
 
-def page():
-    text = START + rules()
+def reference():
+    """The rules and all declarations."""
+    text = "\n## Rules\n\n" + rules()
     for header in HEADERS:
         source = (ROOT / f"capi/{header}.h").read_text()
         purpose = re.match(r"// SPDX[^\n]*\n//\n((?://[^\n]*\n)+)", source)[1]
@@ -111,21 +101,20 @@ def page():
     return text
 
 
+def on_page_markdown(markdown, page, **_):
+    """MkDocs: a page as it is, and the reference below that of C."""
+    return markdown + reference() if page.file.src_path == "reference/c.md" else markdown
+
+
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--check", action="store_true", help="compare, and write nothing")
-    options = parser.parse_args()
-    text = page()
+    text = reference()
     declared = set(re.findall(r"^TERRANE_API [^;(]*?(\w+)\(",
                               "".join((ROOT / f"capi/{h}.h").read_text() for h in HEADERS), re.M))
     missing = {name for name in declared if f"### `{name}`" not in text}
     unlisted = {p.stem for p in (ROOT / "capi").glob("*.h")} ^ set(HEADERS)
     if missing or unlisted or len(declared) < 100:
         sys.exit(f"c_reference: not documented: {sorted(missing | unlisted)}, of {len(declared)} functions")
-    if not options.check:
-        PAGE.write_text(text)
-    elif not PAGE.exists() or PAGE.read_text() != text:
-        sys.exit("c_reference: docs/reference/c.md is not what the headers say; run scripts/c_reference.py")
+    print(text, end="")
     return 0
 
 

@@ -19,6 +19,7 @@ import shutil
 import subprocess
 import sys
 import tarfile
+import textwrap
 from dataclasses import dataclass
 
 import numpy as np
@@ -66,7 +67,7 @@ MODELS = [
            "terrane tetrahedralize better.vtp -o model.vtu --blocks-only --quality 1.4"], "blocks"),
     Model("faults and a topography", ["tests/data/arch-platform/faults.ts", "tests/data/arch-platform/mnt.ts"],
           "arch-platform (MIT)",
-          "32 faults that cross each other and the topography in 3 382 pairs of triangles; degrees beside kilometres.",
+          "32 faults that cross each other and the topography in 3 382 pairs of triangles; coordinates in degrees and kilometres.",
           ["terrane arrange $IN -o model.vtp"], "surfaces", 1.6, (-0.28, -1.0, 0.42)),
     Model("joints at Nash Point",
           ["xaliphostes+arch-platform/public/models/NashPoint/all_joints_3D.ts"], "arch-platform (MIT)",
@@ -95,8 +96,9 @@ MODELS = [
            f"terrane improve $IN -o better.vtp {SCEC_BOX} --seal auto --min-volume auto --edge-length 6000",
            "terrane tetrahedralize better.vtp -o model.vtu --blocks-only"]),
 ]
-# Files of an archive that belong to the model, where not all do.
-PARTS = {"blocks of southern California": ("fault_boundaries/*.ts", "moho_extended_crop.ts")}
+# Files of an archive that belong to the model, as a shell names them.
+PARTS = {"community fault model of southern California": ("preferred/native/*.ts",),
+         "blocks of southern California": ("fault_boundaries/*.ts", "moho_extended_crop.ts")}
 TOLD = re.compile(
     r"^\d+ surfaces?: .*|^\d+ closed blocks.*|^\d+ tetrahedra, .*|^dihedral angles.*|^\d+ of \d+ tetrahedra have.*|"
     r"^ *chosen distance: .*|^sealed by .*|^blocks below .*|^verified: .*|^quality .*|^  (before|after) .*|"
@@ -113,7 +115,7 @@ def inputs_of(model, data, folder):
         if name.endswith(".tar.xz"):
             with tarfile.open(path) as archive:
                 archive.extractall(folder / "in")
-            for pattern in PARTS.get(model.name, ("**/*.ts",)):
+            for pattern in PARTS[model.name]:
                 files += sorted((folder / "in").glob(pattern))
         elif name.endswith(".xz"):
             files.append(folder / path.stem)
@@ -123,9 +125,22 @@ def inputs_of(model, data, folder):
     return files
 
 
+def as_typed(model):
+    """The commands that unpack the files, and the names of the input files in a shell."""
+    commands, names = "", []
+    for name in (pathlib.Path(f).name for f in model.files):
+        if name.endswith(".tar.xz"):
+            commands += f"$ tar -xf {name}\n"
+            names += PARTS[model.name]
+        else:
+            commands += f"$ xz -dk {name}\n" if name.endswith(".xz") else ""
+            names.append(name.removesuffix(".xz"))
+    return commands, " ".join(names)
+
+
 def run(model, program, files, folder):
     """Runs the commands; returns what the page shows of them."""
-    text = ""
+    text, names = as_typed(model)
     for command in model.commands:
         words = command.split()
         at = words.index("$IN") if "$IN" in words else None
@@ -136,7 +151,6 @@ def run(model, program, files, folder):
         if done.returncode != 0:
             sys.exit(f"gallery: {model.name}: {command}: status {done.returncode}\n{done.stderr}")
         used = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        names = " ".join(pathlib.Path(f).name for f in model.files)
         told = [line for line in done.stdout.splitlines() if TOLD.match(line)]
         text += f"$ {command.replace('$IN', names)}\n" + "".join(line + "\n" for line in told)
         text += f"({used:.1f} seconds of one processor)\n"
@@ -206,7 +220,8 @@ def main():
             complete = False
             continue
         told = run(model, options.terrane.resolve(), files, folder)
-        page += f"## {model.name[0].upper()}{model.name[1:]}\n\n{model.source}. {model.hard}\n\n"
+        about = textwrap.fill(f"{model.source}. {model.hard}", 120)
+        page += f"## {model.name[0].upper()}{model.name[1:]}\n\n{about}\n\n"
         if model.shows:
             draw(model, folder, ROOT / f"docs/gallery/{slug}.png")
             page += f"![{model.name}]({slug}.png)\n\n"

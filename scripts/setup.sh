@@ -18,7 +18,6 @@ packages=(
     python3-matplotlib               # draws the figures of the examples
     python3-vtk9 python3-meshio gmsh # these read the written files back, in tests only
     python3-netcdf4                  # likewise, with python3-cftime: 2 MB
-    python3-yaml                     # reads recipes of packages, in tests only
     gappa                            # checks the proofs of error bounds, in tests only
     chromium                         # opens report pages, in tests only
 )

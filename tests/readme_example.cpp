@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// README.md shows the lines between the marks; a test compares them.
+// README.md shows the lines between the marks and what they print; a test compares both.
+#include <cstddef>
 #include <cstdio>
+#include <utility>
 
 #include <terrane/terrane.hpp>
 
@@ -12,23 +14,23 @@ int fail(const terrane::Error& error) {
     return 2;
 }
 
-int arrange_file(const char* in, const char* out) {
+int list_blocks() {
     // [readme]
-    const auto rounded =
-        terrane::read_surfaces(in)
-            .and_then([](auto&& surfaces) { return terrane::arrange(surfaces); })
-            .and_then([](auto&& exact) { return terrane::round_to_doubles(exact); });
-    if (!rounded) return fail(rounded.error());
-    if (!rounded->report.clean) return 1; // report.contacts names the pairs in the way
-    const terrane::Mesh& mesh = rounded->mesh;
-    std::printf("%zu triangles, %zu vertices\n", mesh.triangles.size(), mesh.vertices.size());
-    const auto written = terrane::write_mesh(mesh, out);
+    terrane::Project project;
+    project.surfaces = {{"top.ts"}, {"base.ts"}, {"fault.ts"}};
+    project.volume = terrane::ProjectBox{{0, 0, -1700}, {2000, 1500, -700}};
+    project.seal = 20;
+    auto inputs = terrane::read_inputs(project);
+    if (!inputs) return fail(inputs.error());
+    const auto built = terrane::build(project, std::move(inputs->build));
+    if (!built) return fail(built.error());
+    const auto& blocks = built->model->structure.blocks;
+    for (std::size_t b = 1; b < blocks.size(); ++b) // 0 is the outside
+        std::printf("%s: %.6f km3\n", blocks[b].name.c_str(), blocks[b].volume / 1e9);
     // [readme]
-    return written ? 0 : fail(written.error());
+    return 0;
 }
 
 } // namespace
 
-int main(int argc, char** argv) {
-    return argc == 3 ? arrange_file(argv[1], argv[2]) : 2;
-}
+int main() { return list_blocks(); }

@@ -26,15 +26,15 @@ std::string_view name_of(PairCheck method);
 /// Options of all that proves a mesh conforming. The verdict depends on none of them.
 struct PairCheckOptions {
     PairCheck method = PairCheck::bounds; ///< which pairs are tested
-    /// What decided each pair is counted for meshes of at most so many triangles. This takes one
-    /// more box search, which proven bounds spare otherwise: for many narrow triangles as long as
+    /// Largest mesh, in triangles, for which the report counts what decided each pair. Counting takes
+    /// one more box search, which proven bounds spare otherwise: for many narrow triangles as long as
     /// all else.
     std::size_t count_up_to = 0;
     /// Pairs with overlapping boxes are not counted if there are more than this for each triangle: of
     /// long triangles side by side nearly all boxes overlap.
     std::uint64_t most_per_triangle = UINT64_MAX;
 
-    /// Returns how many pairs of so many triangles are counted at most; 0: none.
+    /// Returns how many pairs are counted at most for a mesh of this size; 0: none.
     [[nodiscard]] constexpr std::uint64_t most_counted(std::size_t triangles) const {
         if (triangles > count_up_to || triangles == 0) return 0;
         return most_per_triangle > UINT64_MAX / triangles ? UINT64_MAX

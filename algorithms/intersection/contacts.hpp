@@ -52,8 +52,8 @@ struct FaceCrossing {
     PointIndex point;
 };
 
-/// Sets of coplanar triangles of which so many overlap that each plane is divided as a whole. Two
-/// coplanar triangles that overlap are in one pool or in none.
+/// Sets of coplanar triangles, most of which overlap: each plane is divided as a whole. Two coplanar
+/// triangles that overlap are in one pool or in none.
 struct PlanePools {
     std::vector<std::uint32_t> of;   ///< per triangle: its pool or no_group; empty without pools
     IndexLists<std::uint32_t> faces; ///< per pool: its triangles, ascending

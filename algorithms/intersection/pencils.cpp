@@ -12,7 +12,7 @@
 namespace terrane {
 namespace {
 
-/// A pencil pays if it has so many triangles.
+/// A pencil pays from this many triangles on.
 constexpr std::size_t least_triangles = 128;
 constexpr unsigned most_failures = 8;      ///< triangles in turn that are in no pencil
 constexpr std::size_t partners_tried = 64; ///< others that each of these is compared with

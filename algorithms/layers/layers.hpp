@@ -7,7 +7,7 @@
 // Steps:
 //   (1) the exact arrangement of all horizons (with the copies of (4)) and of walls, which are
 //       vertical surfaces on the free borders. Each of its triangles is as a whole above, below, on
-//       or beside each horizon, seen along z;
+//       or next to each horizon, seen along z;
 //   (2) an exact test decides which, for each pair of triangles whose projections overlap;
 //   (3) from the hardest horizon to the softest: at each place, the nearest harder one that exists
 //       there decides, among those that it belongs above (below). Its triangles below (above) that
@@ -90,8 +90,8 @@ struct Layered {
     double step_width = 0; ///< over strips of this width along steps the order is not claimed; a
                            ///< few spacings of the doubles, unit of the surfaces
     std::vector<OutOfOrder> out_of_order; ///< pairs that are out of order in doubles elsewhere
-    double min_thickness = 0; ///< D as it was used: rounded where the stack was made once more
-    double height_error = 0;  ///< of copies that were moved by multiples of D and rounded, at most
+    double min_thickness = 0;             ///< D in use: rounded where the stack was made once more
+    double height_error = 0; ///< of copies that were moved by multiples of D and rounded, at most
 
     /// Tells whether the doubles are a conforming mesh of layers in their order, by exact checks.
     [[nodiscard]] bool is_stack() const { return rounded.report.clean && out_of_order.empty(); }

@@ -2,14 +2,6 @@
 #include <terrane/algorithms/mesh/diffusion.hpp>
 
 namespace terrane {
-namespace {
-
-SharedFacet<3> sorted(Triangle t) {
-    std::sort(t.begin(), t.end());
-    return t;
-}
-
-} // namespace
 
 std::vector<std::uint32_t> regions_of_polygons(const IndexLists<std::uint32_t>& polygons,
                                                std::span<const Edge> stops) {
@@ -23,22 +15,6 @@ std::vector<std::uint32_t> regions_of_polygons(const IndexLists<std::uint32_t>& 
         }
     }
     return diffuse<2>(polygons.size(), std::move(sides), stops);
-}
-
-std::vector<std::uint32_t> regions_of_tetrahedra(const TetrahedralMesh& mesh) {
-    std::vector<CellFacet<3>> faces;
-    faces.reserve(4 * mesh.tetrahedra.size());
-    for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-        const auto& [a, b, c, d] = mesh.tetrahedra[t];
-        for (const Triangle& face :
-             {Triangle{a, b, c}, Triangle{a, b, d}, Triangle{a, c, d}, Triangle{b, c, d}})
-            faces.push_back({sorted(face), t});
-    }
-    std::vector<SharedFacet<3>> stops;
-    stops.reserve(mesh.faces.size());
-    for (const Triangle& face : mesh.faces) stops.push_back(sorted(face));
-    std::sort(stops.begin(), stops.end());
-    return diffuse<3>(mesh.tetrahedra.size(), std::move(faces), stops);
 }
 
 } // namespace terrane

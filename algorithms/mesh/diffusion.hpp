@@ -57,7 +57,4 @@ std::vector<std::uint32_t> diffuse(std::size_t cells, std::vector<CellFacet<N>> 
 std::vector<std::uint32_t> regions_of_polygons(const IndexLists<std::uint32_t>& polygons,
                                                std::span<const Edge> stops);
 
-/// Returns the region of each tetrahedron, by diffusion across the faces that are on no surface.
-std::vector<std::uint32_t> regions_of_tetrahedra(const TetrahedralMesh& mesh);
-
 } // namespace terrane

@@ -14,7 +14,7 @@ namespace terrane {
 /// Two vertices, the lower index first.
 using Edge = std::array<std::uint32_t, 2>;
 
-/// What a mesh keeps of an input surface besides its triangles.
+/// The name and the role of an input surface, which a mesh keeps.
 struct SurfaceInfo {
     std::string name;          ///< as in Surface; need not be unique
     Role role = Role::unknown; ///< as in Surface

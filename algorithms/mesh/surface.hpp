@@ -23,7 +23,8 @@ enum class VerticalAxis : std::uint8_t {
     down,     ///< depths; they were turned into heights when the file was read
 };
 
-/// What the file of a surface states about its coordinates. It does not influence any geometry.
+/// The units and the system of coordinates that the file of a surface states. No geometry depends
+/// on them.
 struct CoordinateFrame {
     std::string horizontal_unit{}; ///< of x and y: "m", "ft"; empty: not stated
     std::string vertical_unit{};   ///< of z; empty: not stated

@@ -54,7 +54,7 @@ struct SealReport {
     double left = 0;                   ///< see Sealed
 };
 
-/// What was simplified to a resolution (resolution.hpp).
+/// The simplification to a resolution (resolution.hpp).
 struct AtResolution {
     SharedMesh before{};     ///< the rounded mesh before
     SimplifyReport report{}; ///< what was joined, left alone and changed

@@ -6,7 +6,7 @@
 // (choose_seal()), without blocks that are certainly dirt (small_volume_for()). A gap separates
 // blocks if a triangle of the strip that closes it has different volumes on its sides: opening this
 // gap alone joins the two. That is decided exactly. The other gaps up to the break are harmless by
-// the same criterion: tips, borders that reach beyond another surface, gaps beside others that stay
+// the same criterion: tips, borders that reach beyond another surface, gaps next to others that stay
 // open. Not seen are gaps that are wider than the break, and those that sealing can't close. Where two gaps lead between the same blocks, both are found.
 // Cost: that of seal() and find_volumes().
 #pragma once
@@ -22,7 +22,7 @@
 
 namespace terrane {
 
-/// What closing a leak does.
+/// The effect of closing a leak.
 enum class LeakVerdict : std::uint8_t {
     separates, ///< it separates blocks
     harmless,  ///< it separates none

@@ -39,7 +39,7 @@ struct Model {
     [[nodiscard]] std::size_t block_count() const { return exact_volumes.size() - 1; }
 };
 
-/// What people said about the blocks.
+/// The names of blocks that people gave.
 struct BlockNaming {
     StratigraphicColumn column{};        ///< empty: none
     std::vector<StatedRegion> regions{}; ///< that files state, by the surfaces of the arrangement

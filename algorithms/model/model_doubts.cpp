@@ -82,9 +82,4 @@ std::vector<PlausibilityWarning> find_model_doubts(const Model& model, bool bloc
     return warnings;
 }
 
-std::vector<NamedConstant> model_doubt_constants() {
-    return {{"horizon_footprint", horizon_footprint},
-            {"crossing_patches", static_cast<double>(crossing_patches)}};
-}
-
 } // namespace terrane

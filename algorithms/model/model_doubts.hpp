@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/plausibility/plausibility.hpp>
 
@@ -15,8 +14,5 @@ namespace terrane {
 /// horizons that run through each other, which cuts layers into pieces. A surface without a role
 /// counts as a horizon if its footprint is most of its area. Cost: linear.
 std::vector<PlausibilityWarning> find_model_doubts(const Model& model, bool blocks = true);
-
-/// Returns the thresholds of find_model_doubts.
-std::vector<NamedConstant> model_doubt_constants();
 
 } // namespace terrane

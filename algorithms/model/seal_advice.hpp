@@ -28,7 +28,7 @@ struct SealTrial {
     double left = 0;           ///< of free borders that are as near to another surface still
 };
 
-/// What is known about gaps, and the models that result from closing them.
+/// The breaks in the widths of gaps, and the models that result from closing them.
 struct SealAdvice {
     SealChoice choice;               ///< the breaks, and the distance that is chosen among them
     double small_volume = 0;         ///< see small_volume_for()

@@ -6,7 +6,7 @@
 //
 // A block is merged by removing its largest interface: the triangles between it and one neighbour
 // that belong to the same surfaces. Nothing else changes: no vertex moves, and no triangle is
-// added. The smallest block comes first; what is merged counts as one block from then on. The
+// added. The smallest block comes first; merged blocks count as one block from then on. The
 // outside is a neighbour only of a block that has no other, and no boundary of the model is removed
 // there. Cost: that of find_volumes, and sorting.
 #pragma once

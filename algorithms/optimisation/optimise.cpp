@@ -254,7 +254,7 @@ private:
     }
 
     /// Returns the vertices around cells that are still far from being good enough, but for those
-    /// that did not move and beside which nothing has changed since; ascending.
+    /// that did not move and whose neighbours have not changed since; ascending.
     [[nodiscard]] std::vector<std::uint32_t> vertices_to_move() const {
         std::vector<bool> is_corner(cells_.points().size(), false), is_around(is_corner.size());
         for (const std::uint32_t c : cells_below(constants.relaxed * wanted_))

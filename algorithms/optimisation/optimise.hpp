@@ -18,14 +18,14 @@ namespace terrane {
 
 /// Where vertices on surfaces may be.
 struct VertexFreedom {
-    std::vector<bool> is_free{}; ///< per vertex of the mesh; those on no surface are free anyhow
+    std::vector<bool> is_free{}; ///< per vertex of the mesh; vertices on no surface are always free
     /// Returns the place nearest to p, about, where vertex v may be; none where it does not know one.
     /// Called by several threads at a time.
     std::function<std::optional<Point3>(std::uint32_t v, const Point3& p)> place{};
-    bool is_wide = false; ///< there is so much room that vertices move for each gain and for mean
-        ///< ratios below 0.2, and that more tetrahedra may be bad for the sake of one with an angle
-        ///< below 3 degrees; otherwise only if all around them has a quality above the sine of 5.6
-        ///< degrees then
+    /// false: a vertex moves only if all tetrahedra around it then have a quality above the sine of
+    /// 5.6 degrees. true: it moves for each gain and for mean ratios below 0.2, and one tetrahedron
+    /// with an angle below 3 degrees may be replaced by several bad ones.
+    bool is_wide = false;
 };
 
 /// Options of optimise().
@@ -36,9 +36,9 @@ struct OptimiseOptions {
     bool outside = true;  ///< whether region 0 is improved, too; not needed if it is dropped later
     bool may_grow = true; ///< whether a new tetrahedron may be larger than all that it replaces:
                           ///< false where their volumes are bounded
-    std::size_t max_effort = 0; ///< tetrahedra that are measured at most, apart from those of the
-        ///< last 64 proposals; 0: 150 000 000, or 4000 for each one by which
-        ///< good ones are more than bad ones if that is more
+    /// Most tetrahedra to measure, apart from those of the last 64 proposals; 0: 150 000 000 or, if
+    /// that is more, 4000 for each good tetrahedron in excess of the bad ones.
+    std::size_t max_effort = 0;
     VertexFreedom freedom{}; ///< how vertices on surfaces may move where tetrahedra are bad; empty:
                              ///< they stay
     bool angles = true; ///< whether angles are improved, before vertices on surfaces move; false
@@ -53,7 +53,7 @@ struct WorstShapes {
     double largest_angle = 0; ///< dihedral, degrees
 };
 
-/// What optimise() did.
+/// The numbers of changes, and the worst shapes before and after.
 struct OptimiseReport {
     WorstShapes before; ///< of the regions that are improved
     WorstShapes after;  ///< likewise
@@ -64,12 +64,12 @@ struct OptimiseReport {
     std::size_t loosened = 0;      ///< of these: moves of vertices on surfaces
     std::size_t contracted = 0;    ///< vertices that joined a neighbour
     std::size_t inserted = 0;      ///< vertices that were added
-    std::size_t remeshed = 0; ///< neighbourhoods of bad tetrahedra in which several of these were
-                              ///< made at a time
-    std::size_t left = 0;     ///< tetrahedra that are still worse than wanted
-    std::size_t untried = 0; ///< of these: something beside them has changed since they were tried,
-                             ///< or they were not; passes or effort came to an end
-    std::size_t effort = 0;  ///< tetrahedra that were measured, or looked at around an edge
+    std::size_t remeshed = 0;  ///< neighbourhoods of bad tetrahedra in which several of these were
+                               ///< made at a time
+    std::size_t left = 0;      ///< tetrahedra that are still worse than wanted
+    std::size_t untried = 0;   ///< of these: tetrahedra not tried since a neighbour changed, as
+                               ///< passes or effort came to an end
+    std::size_t effort = 0;    ///< tetrahedra that were measured, or looked at around an edge
     bool is_cut_short = false; ///< max_effort ended the work
 };
 
@@ -94,7 +94,7 @@ struct OptimiseReport {
 /// (4) Where qualities can't be computed reliably in doubles, tetrahedra stay as they are.
 /// (5) The same mesh gives the same result, with any number of threads.
 ///
-/// Cost: each tetrahedron that is worse than wanted is tried again only after a change beside it.
+/// Cost: each tetrahedron that is worse than wanted is tried again only after a neighbour changed.
 /// Work ends early where it has little success: 1000 possible tetrahedra are measured for each one
 /// of the mesh, and 2000 for each change that is made. In all, max_effort are, which takes a tenth to
 /// a quarter of a microsecond each. Where that does not suffice for all, changes that take little

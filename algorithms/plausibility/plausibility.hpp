@@ -19,10 +19,10 @@
 
 namespace terrane {
 
-/// What a warning is about. The names in statistics are those of name_of().
+/// The kinds of warnings. name_of() gives their names in statistics.
 enum class Doubt : std::uint8_t {
     heights_mixed,   ///< heights of some surfaces look like depths, those of others do not
-    depths_unstated, ///< a column of depths, or a grid beside files of depths, is read as heights
+    depths_unstated, ///< a column of depths, or a grid among files of depths, is read as heights
     far_apart,       ///< a surface is far away from all others
     units_mixed,     ///< files state different units, or one for x and y and another for z
     systems_mixed,   ///< files state different coordinate systems, or degrees meet lengths

@@ -43,7 +43,7 @@ struct BuildInput {
 /// The stages in their order. A stage that the project does not ask for is left out.
 enum class BuildStage : std::uint8_t { preprocess, arrange, improve, blocks, tetrahedra };
 
-/// What came of one round of making triangles smaller where tetrahedra are bad.
+/// The result of one round that makes triangles smaller where tetrahedra are bad.
 struct RefinementRound {
     std::size_t triangles = 0;  ///< of the improved mesh
     std::size_t tetrahedra = 0; ///< that are left, without the outside if that is not wanted

@@ -68,7 +68,7 @@ std::array<Corners, 4> quarters(const Corners& c) {
     return {Corners{c[0], m[0], m[2]}, Corners{m[0], c[1], m[1]}, Corners{m[2], m[1], c[2]}, m};
 }
 
-/// Parts of a triangle are divided at most so many times, and examined at most so many.
+/// The most divisions of a part of a triangle, and the most parts that are examined.
 constexpr unsigned most_divisions = 16;
 constexpr std::size_t most_parts = 1U << 18U;
 

@@ -92,7 +92,7 @@ struct NumberedHole {
     std::string refused{};              ///< why it was not
 };
 
-/// A surface as it becomes: what was given, then what was interpolated.
+/// A filled surface: the given vertices and triangles come first, then the interpolated ones.
 struct HoledSurface {
     FillTask task;                      ///< what was asked for
     std::string label;                  ///< its name, made unique among all surfaces

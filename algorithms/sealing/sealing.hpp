@@ -85,7 +85,7 @@ enum class OpenReason : std::uint8_t {
     small_angle,    ///< the surfaces meet at too small an angle
     ends_beside,    ///< the other surface ends there, too, and not in nearly one plane
     partly_farther, ///< the other surface is farther than the distance for part of the edge
-    ends_free,      ///< what would close it ends free beside it
+    ends_free,      ///< the strip that would close it has a free end there
 };
 
 /// Returns the name of a reason, as above.

@@ -32,7 +32,7 @@ enum class Search : std::uint8_t {
 /// "hierarchy" (bvh) or "brute".
 std::string_view name_of(Search method);
 
-/// Returns the method with a name; std::nullopt if there is none.
+/// Returns the method with a name, or std::nullopt.
 std::optional<Search> search_named(std::string_view name);
 
 } // namespace terrane

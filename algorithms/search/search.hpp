@@ -76,8 +76,8 @@ struct CandidatePair {
 /// The group of boxes that are paired with all others.
 constexpr std::uint32_t no_group = UINT32_MAX;
 
-/// Tells for each vertex whether it is crowded: whether so many triangles have it that a test of
-/// all their pairs could cost more than all else. Empty if no vertex is. Cost: linear.
+/// Tells for each vertex whether it is crowded: a test of all pairs of its triangles could cost more
+/// than all else. Empty if no vertex is. Cost: linear.
 std::vector<bool> crowded_vertices(std::size_t vertex_count, std::span<const Triangle> triangles);
 
 /// Returns for each box a crowd or no_group; or an empty list. Pairs within one crowd are left out:

@@ -102,8 +102,8 @@ public:
         list_kept(locked);
         if (std::find(result_.block_before.begin(), result_.block_before.end(), none) !=
             result_.block_before.end())
-            return bad_resolution("what was joined encloses a block of which it can't be told "
-                                  "which block it was; try another one");
+            return bad_resolution("joining encloses a block that matches no block of the "
+                                  "model for certain; try another one");
         if (auto measured = measure(); !measured) return measured.error();
         if (!result_.report.is_shown)
             return bad_resolution("the surfaces can't be joined so that all of each is shown to "

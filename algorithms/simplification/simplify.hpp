@@ -57,7 +57,7 @@ struct SimplifyOptions {
     RoundingOptions rounding{}; ///< of each arrangement
 };
 
-/// Why what is near was left alone.
+/// Why a near place was left alone.
 enum class LeftReason : std::uint8_t {
     move,     ///< a vertex would have moved by more than max_move
     boundary, ///< a vertex would have left the boundary of the volume of interest
@@ -77,11 +77,11 @@ struct LeftAlone {
     double distance = 0;                  ///< of the other one
 };
 
-/// A block of which nothing would be left, or that would become several, or one with another.
+/// A block that would vanish, fall into several, or become one with another.
 struct ChangedBlock {
     std::uint32_t block = 0; ///< number by find_volumes(mesh) of the given mesh; 0: the outside
     double volume = 0;       ///< before, after the triangles were made regular; 0 of the outside
-    std::size_t parts = 0;   ///< blocks that it is now; 0: it is gone
+    std::size_t parts = 0;   ///< number of blocks that it became; 0: it vanished
     std::uint32_t into = 0;  ///< block before that it is one with now; itself: with none
 };
 
@@ -95,12 +95,12 @@ struct ChangedContact {
 struct SimplifyReport {
     double resolution = 0;              ///< as asked for
     double max_move = 0;                ///< limit of all movements
-    std::size_t corners = 0;            ///< times that two corners were joined
-    std::size_t curves = 0;             ///< that places of two curves were
-    std::size_t sheets = 0;             ///< that other places of surfaces were
+    std::size_t corners = 0;            ///< joins of two corners
+    std::size_t curves = 0;             ///< joins of places of two curves
+    std::size_t sheets = 0;             ///< joins of other places of surfaces
     std::size_t divided = 0;            ///< edges divided where surfaces are near
     unsigned rounds = 0;                ///< arrangements of moved surfaces
-    unsigned attempts = 0;              ///< times that it began, see `kept`
+    unsigned attempts = 0;              ///< attempts, see `kept`
     std::vector<LeftAlone> left{};      ///< found near by the last search, by distance
     std::vector<std::uint32_t> kept{};  ///< blocks before that were thinner than the resolution
                                         ///< and are there still, and those that were left alone
@@ -108,7 +108,7 @@ struct SimplifyReport {
     std::vector<ChangedBlock> blocks{}; ///< that did not stay one and the same, by number
     std::vector<ChangedContact> block_contacts{};   ///< by numbers before; 0: the outside
     std::vector<ChangedContact> surface_contacts{}; ///< pairs that have an edge in common
-    std::vector<std::uint32_t> vanished{};          ///< surfaces of which nothing is left
+    std::vector<std::uint32_t> vanished{};          ///< surfaces that vanished
     std::vector<Deviation> deviations{};            ///< per surface, measured, both ways
     bool is_shown = false; ///< guarantee (2) is shown for all surfaces that did not vanish
 };

@@ -37,7 +37,7 @@ public:
         return contacts_[block];
     }
 
-    /// Returns the name by what is above and below; else by what is beside.
+    /// Returns the name by the surfaces above and below; else by those on the sides.
     [[nodiscard]] std::string name(std::size_t block) const {
         const auto& around = contacts_[block];
         if (around.empty()) return "too thin for doubles";

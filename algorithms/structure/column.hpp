@@ -18,7 +18,7 @@
 
 namespace terrane {
 
-/// How a unit lies on what is below it.
+/// The contact of a unit with the one below.
 enum class UnitContact : std::uint8_t { conformable, erosive };
 
 /// A unit of a column.

@@ -17,13 +17,13 @@
 
 namespace terrane {
 
-/// What two surfaces do where they meet, or nearly meet.
+/// The relation of two surfaces where they meet, or nearly meet.
 enum class RelationKind : std::uint8_t {
     stops,    ///< `from` ends at `to`, which goes on
     crosses,  ///< both go on
     meets,    ///< both end
     overlaps, ///< both have the triangles at the line
-    near,     ///< `from` ends beside `to` without meeting it
+    near,     ///< `from` ends near `to` without meeting it
 };
 
 /// Names the kind: "stops at", "crosses", "meets", "overlaps", "ends near".

@@ -101,7 +101,7 @@ struct TetrahedraOptions {
 ///
 /// (1) Without sizes and split_surfaces, the faces on the mesh are its triangles, undivided,
 ///     unless TetGen needs more vertices on them. Vertices added on a triangle are rounded to
-///     doubles next to it. The bound radius_edge_ratio is then missed beside thin triangles, and
+///     doubles next to it. The bound radius_edge_ratio is then missed at thin triangles, and
 ///     where surfaces are closer than their triangles are long.
 /// (2) The vertices are the used ones of the mesh in its order and bit by bit, then the eight
 ///     corners of the box, then added ones.

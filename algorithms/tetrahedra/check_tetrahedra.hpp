@@ -18,7 +18,7 @@
 
 namespace terrane {
 
-/// What can be wrong with tetrahedra, in the order in which it is reported. "Near" means within the
+/// The defects of tetrahedra, in the order in which they are reported. "Near" means within the
 /// allowance, a few spacings of the doubles at the coordinates of the input triangle.
 enum class TetrahedraDefect : std::uint8_t {
     unusable_lists, ///< an index, a length or a coordinate makes no sense; nothing else is checked
@@ -80,9 +80,8 @@ struct TetrahedraReport {
 ///     projections along an axis tile it without overlap (3); all their points are within a reach
 ///     of the triangle that depends on its coordinates only (5); a triangle that is not divided is
 ///     its face;
-///   - the tetrahedra of a block are those in the block, but for what is within reach of its
-///   divided
-///     triangles (6); so no node farther away is on the wrong side of a surface (7);
+///   - the tetrahedra of a block fill the block, except within reach of its divided triangles (6);
+///     so no node farther away is on the wrong side of a surface (7);
 ///   - the volume of each block is that of its tetrahedra, within a bound that depends on its
 ///     triangles only (8);
 ///   - each face names the surfaces of its triangle.

@@ -75,7 +75,7 @@ struct VolumeClaim {
     std::vector<Surface> boundary; ///< the surfaces that bound the volume together
 };
 
-/// The claims of a certificate about what was left out of an arrangement.
+/// The claims of a certificate about the parts that were left out of an arrangement.
 struct CutClaim {
     VolumeClaim
         volume; ///< what was cut out; without a boundary: nothing was, as surfaces were only
@@ -83,7 +83,7 @@ struct CutClaim {
     std::vector<std::uint32_t> dropped; ///< triangles of the exact part that were left out, sorted
 };
 
-/// What was added to a surface. Its triangles, given, then extended, then sealed, have the numbers
+/// The triangles that were added to a surface. Its triangles, given, then extended, then sealed, have the numbers
 /// of input triangles, with three vertices of their own each.
 struct SealedPart {
     double limit = 0; ///< the surface as given and as kept are nowhere farther apart, unit of the

@@ -59,7 +59,7 @@ struct Folder;
 /// number is out of range. Cost: linear; about three times the size of the text in memory.
 Result<Certificate> parse_certificate(std::string_view text, std::string_view source);
 
-/// An input file as it was found.
+/// The hash, the length and the surfaces of an input file.
 struct InputFile {
     std::string sha256;            ///< of its bytes, 64 lower-case hexadecimal digits
     std::uint64_t bytes = 0;       ///< length of the file

@@ -191,7 +191,7 @@ Result<std::vector<bool>> find_reached(std::vector<Surface> surfaces,
     return reached;
 }
 
-/// Removes fans beside removed pieces.
+/// Removes fans next to removed pieces.
 void drop_lone_fans(std::vector<ExtensionTriangle>& strips) {
     std::set<std::pair<Point3, Point3>> sides;
     const auto side_of = [](const ExtensionTriangle& t) {

@@ -266,7 +266,7 @@ private:
             said += borders_text(*done.filled) + filled_text(*done.filled);
             refused_ = refusals_text(*done.filled);
             if (!done.contacts.empty())
-                refused_ += complaint("what was invented meets other triangles") +
+                refused_ += complaint("new triangles meet other triangles") +
                             contacts_text(*done.filled, done.contacts);
             add_statistics(statistics_, *done.filled);
         }

@@ -91,7 +91,7 @@ except ImportError as missing:
 sys.exit(main(sys.argv[1:]))
 )";
 
-/// Returns folders beside the program that may have the package: that of a build, and that of an installation.
+/// Returns folders near the program that may have the package: that of a build, and that of an installation.
 std::vector<fs::path> package_places() {
     std::error_code failed;
     const fs::path program = fs::read_symlink("/proc/self/exe", failed);

@@ -165,7 +165,7 @@ Result<FillOutcome> fill_and_write(const FillCommand& command, const std::vector
     session.end_stage();
     if (!contacts) return contacts.error();
     if (!contacts.value().empty()) {
-        print(stderr, complaint("nothing written: what was invented meets other triangles") +
+        print(stderr, complaint("nothing written: new triangles meet other triangles") +
                           contacts_text(work, contacts.value()));
         return FillOutcome{};
     }

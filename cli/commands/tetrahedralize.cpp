@@ -143,7 +143,7 @@ Result<FilledBlocks> fill(const Model& model, const TetrahedraRequest& wishes, S
     return filled;
 }
 
-/// Names an output, and how many files stand beside it.
+/// Names an output, and the number of its further files.
 std::string said_of(const Output& output, std::size_t files) {
     if (output.path == "-" || files == 1) return output.path;
     return fmt::format("{}, and {} that begin with {}_", output.path, counted(files - 1, "file"),

@@ -19,7 +19,7 @@ struct VerifyCommand {
 constexpr auto verify_footer =
     R"(A certificate says how a mesh follows from its input files. It is judged with rational
 arithmetic, by code that shares nothing with what made it. IN are the input files in the order of
-the certificate; without IN they are looked for beside it, under the names that it gives. What
+the certificate; without IN they are looked for in its folder, under the names that it gives. What
 changed how they were read (--depth, --max-edge, --input-format) must be given here, too.
 
 The output files that the certificate names are read and compared with it: every coordinate and

@@ -116,7 +116,7 @@ Status check_folder(const std::string& path) {
     if (there != fs::file_type::not_found && access(path.c_str(), W_OK) != 0)
         return refused("this file is protected against writing");
     const bool beside = there == fs::file_type::not_found || there == fs::file_type::regular;
-    if (beside && access(folder.c_str(), W_OK) != 0) // the new file is made beside the old one
+    if (beside && access(folder.c_str(), W_OK) != 0) // the new file is made in the same folder
         return refused("nothing can be written in this folder");
     return Done{};
 }

@@ -14,9 +14,9 @@ void add_max_move(CLI::App& command, std::optional<double>& max_move) {
                     throw CLI::ValidationError("--max-move", "needs a positive length");
                 max_move = length;
             },
-            "No surface moves farther while exact points become doubles, but for slivers that "
-            "vanish; what then still meets improperly is refused and named; in the unit of the "
-            "files (default: 1024 spacings of the doubles at the largest coordinate)")
+            "No surface moves farther while exact points become doubles, except for slivers that "
+            "vanish; pairs that then still meet improperly are named and refused; in the unit of "
+            "the files (default: 1024 spacings of the doubles at the largest coordinate)")
         ->type_name("LENGTH");
 }
 

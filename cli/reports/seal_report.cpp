@@ -30,7 +30,7 @@ const char* sentence_for(OpenReason reason) {
     case OpenReason::partly_farther:
         return "for part of the edge it is farther";
     case OpenReason::ends_free:
-        return "what would close it ends free beside it";
+        return "the strip that would close it has a free end there";
     }
     return "";
 }

@@ -10,7 +10,7 @@
 
 namespace terrane::cli {
 
-/// Tells whether a character changes the direction or the line of the text beside it, without being
+/// Tells whether a character changes the direction or the line of the text next to it, without being
 /// seen: U+061C, U+200E and U+200F, the marks of a direction; U+2028 and U+2029; U+202A to U+202E and
 /// U+2066 to U+2069, embeddings, overrides and isolates. It is written as its code, "\u202e", which
 /// is code_width columns wide.

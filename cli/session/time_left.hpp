@@ -15,10 +15,10 @@ namespace terrane::cli {
 /// (3) What it says is at least half a second: an estimate that time has overtaken is not said.
 class TimeLeft {
 public:
-    /// Takes the share that is done after so many seconds. A smaller share than before begins a new
+    /// Takes the share that is done after `seconds`. A smaller share than before begins a new
     /// estimate.
     void update(double share, double seconds);
-    /// Returns the seconds left after so many seconds, or none.
+    /// Returns the seconds left after `seconds`, or none.
     std::optional<double> after(double seconds);
 
 private:

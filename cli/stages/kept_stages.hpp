@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Keeps results of finished stages of `build --resume` in a folder beside the folder of results,
+// Keeps results of finished stages of `build --resume` in a folder next to that of the results,
 // until a run has ended well.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace terrane::cli {
 /// Returns the name of a stage, as `build` prints it.
 std::string_view name_of(BuildStage stage);
 
-/// Returns where results of stages are kept: "RESULTS.stages" beside the folder of results.
+/// Returns where results of stages are kept: "RESULTS.stages" next to the folder of results.
 std::filesystem::path stages_folder(const std::filesystem::path& results);
 
 /// The folder of kept results. It is made when the first stage is kept. Each file has a line with the
@@ -27,7 +27,7 @@ std::filesystem::path stages_folder(const std::filesystem::path& results);
 /// another one than the stage that is looked for, is not taken.
 class KeptStages {
 public:
-    /// Keeps them beside the folder `results`. None, after a warning, if the user has no key.
+    /// Keeps them next to the folder `results`. None, after a warning, if the user has no key.
     static std::optional<KeptStages> beside(const std::filesystem::path& results);
 
     /// Returns callbacks for build(); this object must outlive them.

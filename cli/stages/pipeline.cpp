@@ -211,7 +211,7 @@ void add_settings(CLI::App& command, ArrangeSettings& settings) {
         ->type_name("METHOD");
     command
         .add_option("--rounds", settings.rounds,
-                    "At most so many rounds of snapping until the doubles are a conforming mesh; "
+                    "Most rounds of snapping until the doubles are a conforming mesh; "
                     "0: only to the nearest double (default: 8)")
         ->check(CLI::Range(0U, most_rounds).description(""))
         ->type_name("N");

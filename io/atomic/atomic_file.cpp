@@ -124,7 +124,7 @@ struct Target {
     mode_t mode = 0; ///< of the file that is there; 0: there is none
 };
 
-/// A temporary file beside the one that it is to become. It is removed at the end unless it was
+/// A temporary file in the folder of the one that it is to become. It is removed at the end unless it was
 /// handed on.
 class TemporaryFile {
 public:

@@ -74,7 +74,7 @@ const char* why_not_replaced(const fs::path& folder) {
     return nullptr;
 }
 
-/// Makes a new folder beside `target`, for its contents; returns its path.
+/// Makes a new folder next to `target`, for its contents; returns its path.
 Result<fs::path> make_beside(const fs::path& target, const fs::path& path) {
     for (unsigned k = 0;; ++k) {
         auto temporary =

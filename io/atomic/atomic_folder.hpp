@@ -11,7 +11,7 @@ namespace terrane {
 
 /// Fails where no folder can be made: its parent is missing or write-protected, or `path` exists
 /// and is not an empty folder that can be replaced, as a link, a mount point, a protected folder
-/// and the folder in which the program runs cannot. Makes and removes a folder beside it, as only
+/// and the folder in which the program runs cannot. Makes and removes a folder next to it, as only
 /// that shows that one can be made. Errors: cannot_open.
 Status check_new_folder(const std::filesystem::path& path);
 

@@ -47,7 +47,7 @@ struct ModelSide {
     friend bool operator==(const ModelSide&, const ModelSide&) = default;
 };
 
-/// A region of a model: what its sides bound.
+/// A region of a model, bounded by its sides.
 struct ModelRegion {
     std::uint32_t id = 0;         ///< number in the file
     std::string name;             ///< "Universe" is the outside

@@ -27,7 +27,7 @@ struct Grid {
     std::vector<double> values; ///< nx ny heights; node (i, j) at j nx + i; NaN: no height
 };
 
-/// What the user knows about a file beyond its contents.
+/// Options of reading.
 struct ReadOptions {
     bool depth = false;  ///< grids and points: values are depths, positive down; z becomes -value
     double max_edge = 0; ///< points: longest edge, in their unit; 0: twice the median edge

@@ -25,8 +25,6 @@ public:
     std::string_view next();
     /// Returns the next token of the current line; empty at its end.
     std::string_view next_in_line();
-    /// Skips the rest of the current line.
-    void skip_line() { rest_ = {}; }
     /// Continues with the tokens of `line`.
     void set_line(std::string_view line) { rest_ = line; }
 
@@ -49,7 +47,7 @@ private:
 };
 
 /// Sets all nx ny heights of the grid to no_height. Fails if the rest of the file is too short for
-/// so many numbers.
+/// nx ny numbers.
 [[nodiscard]] MaybeError make_room(const TokenStream& text, Grid& grid);
 
 /// Fails if a step of the grid is 0 or not finite. The step along an axis with a single node, which

@@ -23,7 +23,7 @@ std::string to_vtp_piece(const distribution::BlockPiece& piece, bool has_volumes
 /// Writes the file that names the pieces, by their paths from its folder.
 std::string to_pvtp(std::span<const std::string> pieces, bool has_volumes = false);
 
-/// Returns the folder of the pieces of a .pvtp file: beside it, with its name and "_pieces".
+/// Returns the folder of the pieces of a .pvtp file: next to it, with its name and "_pieces".
 std::filesystem::path folder_of_pieces(const std::filesystem::path& path);
 /// Returns the name of a piece in that folder.
 std::string name_of_piece(const std::filesystem::path& path, std::size_t piece);

@@ -14,7 +14,7 @@ namespace terrane {
 /// Fails where a .pvtp file and the folder of its pieces can't be made. Errors: cannot_open.
 Status check_pvtp(const std::filesystem::path& path);
 
-/// Writes a piece per block into a folder beside `path` (folder_of_pieces), then the file that names them.
+/// Writes a piece per block into a folder next to `path` (folder_of_pieces), then the file that names them.
 /// Both get their names when all pieces are complete. All processes call it, and see the same folder.
 /// `has_volumes`: whether volumes were found (volumes_in_blocks.hpp); pieces then tell those beside each
 /// triangle. `whole`: if it is not null, it is the piece of the first block, and those of others are

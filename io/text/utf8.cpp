@@ -12,7 +12,7 @@ namespace {
 struct Utf8Start {
     std::size_t more = 0;    ///< number of bytes that follow
     std::uint32_t bits = 0;  ///< those of the code in the first byte
-    std::uint32_t least = 0; ///< code that needs so many bytes
+    std::uint32_t least = 0; ///< least code with this number of bytes
 };
 
 Utf8Start utf8_start(unsigned byte) {

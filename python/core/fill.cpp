@@ -79,7 +79,7 @@ Result<FillWork> filled(const std::vector<Surface>& surfaces, const FillOptions&
     if (contacts->empty()) return work;
     const NewContact& c = contacts->front();
     return Error{ErrorCode::improper_contact,
-                 "what was invented meets other triangles: " + std::string(name_of(c.kind)),
+                 "new triangles meet other triangles: " + std::string(name_of(c.kind)),
                  "hole " + std::to_string(c.hole)};
 }
 

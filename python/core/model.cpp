@@ -24,7 +24,7 @@ using namespace py::literals;
 
 namespace {
 
-/// What model() takes beside surfaces.
+/// The options of model().
 struct ModelOptions {
     ArrangeWithinOptions within;
     bool small_automatic = false;

@@ -1,17 +1,21 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Checks that each relative link of each Markdown page leads to a file, and to a heading of it.
+"""Checks that each relative link of each Markdown page leads to a file, and to a heading of it, and the width of lines.
 
 check_links.py [ROOT]    Links to other hosts are counted, not followed: the test needs no network.
+
+No line has more than 120 columns, except in blocks, tables and comments, which Markdown cannot break.
 """
 import os
 import pathlib
 import sys
 import urllib.parse
 
-from markdown_pages import anchors_of, headings_of, host_slug, links_of
+from markdown_pages import anchors_of, headings_of, host_slug, lines_of_text, links_of
 
 LEFT_OUT = {".git", ".cache", "out"}
+MOST_COLUMNS = 120
+STILL_WIDE = {"docs/how-to/scale.md"}
 
 
 def pages_of(root):
@@ -51,12 +55,21 @@ def flaw_of(page, target, root):
     return "names no heading of the page"
 
 
+def too_wide(text):
+    """The numbers of lines that can be broken and are not."""
+    return [number for number, line in lines_of_text(text)
+            if len(line) > MOST_COLUMNS and not line.startswith(("|", "<!--"))]
+
+
 def check(root):
     """Counts of pages, links and other hosts, and the flaws."""
     pages = links = others = 0
     flaws = []
     for page in pages_of(root):
         pages += 1
+        if str(page.relative_to(root)) not in STILL_WIDE:
+            flaws += [f"{page.relative_to(root)}:{line}: more than {MOST_COLUMNS} columns"
+                      for line in too_wide(page.read_text())]
         for line, target in links_of(page.read_text()):
             if urllib.parse.urlsplit(target).scheme:
                 others += 1

@@ -10,6 +10,7 @@ HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*\s*$")
 LINK = re.compile(r"!?\[(?:[^\[\]]|\[[^\[\]]*\])*\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")
 LINK_DEFINITION = re.compile(r"^\s{0,3}\[[^\]]+\]:\s+<?(\S+?)>?(?:\s|$)")
 HTML_LINK = re.compile(r"""<(?:a|img)\b[^>]*?\b(?:href|src)=["']([^"']+)["']""")
+QUOTED_NUMBER = re.compile(r"\*\*(\d[\d. ]*(?:e[+-]?\d+)?)\*\*")
 INLINE_CODE = re.compile(r"(`+)(?:(?!\1).)+?\1")
 
 
@@ -94,21 +95,34 @@ def commands_of(block, page="page"):
     return commands
 
 
-def without_code(text):
-    """The text with fenced blocks and code spans blanked; the lines keep their numbers."""
-    lines, marker = [], ""
-    for line in text.splitlines():
+def lines_of_text(text):
+    """Pairs of number and line of all lines outside of fenced blocks."""
+    marker = ""
+    for number, line in enumerate(text.splitlines(), 1):
         fence = FENCE.match(line)
         if marker:
             if line.strip().startswith(marker) and line.strip().strip(marker[0]) == "":
                 marker = ""
-            lines.append("")
         elif fence:
             marker = fence.group(2)
-            lines.append("")
         else:
-            lines.append(INLINE_CODE.sub("", line))
+            yield number, line
+
+
+def without_code(text):
+    """The text with fenced blocks and code spans blanked; the lines keep their numbers."""
+    lines = [""] * len(text.splitlines())
+    for number, line in lines_of_text(text):
+        lines[number - 1] = INLINE_CODE.sub("", line)
     return "\n".join(lines)
+
+
+def numbers_not_shown(text):
+    """Pairs of line number and number: bold numbers in sentences that no block of the page has."""
+    shown = {word.strip(".,;:") for block in blocks_of(text) for line in block.lines
+             for word in re.split(r"[\s()%]+", line)}
+    return [(number, found) for number, line in enumerate(without_code(text).splitlines(), 1)
+            for found in QUOTED_NUMBER.findall(line) if found.replace(" ", "") not in shown]
 
 
 def links_of(text):
@@ -126,19 +140,8 @@ def links_of(text):
 
 def headings_of(text):
     """The headings of a page as plain text, in order."""
-    headings, marker = [], ""
-    for line in text.splitlines():
-        fence = FENCE.match(line)
-        if marker:
-            if line.strip().startswith(marker) and line.strip().strip(marker[0]) == "":
-                marker = ""
-        elif fence:
-            marker = fence.group(2)
-        else:
-            found = HEADING.match(line)
-            if found:
-                headings.append(re.sub(r"[`*]|\[([^\]]*)\]\([^)]*\)", r"\1", found.group(1)))
-    return headings
+    found = (HEADING.match(line) for _, line in lines_of_text(text))
+    return [re.sub(r"[`*]|\[([^\]]*)\]\([^)]*\)", r"\1", heading.group(1)) for heading in found if heading]
 
 
 def host_slug(heading):

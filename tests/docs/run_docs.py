@@ -4,7 +4,7 @@
 
 run_docs.py --program build/release/cli/terrane [--update] [--keep FOLDER] [PAGE.md ...]
 
-Without pages it runs all of docs/. tests/docs/README.md has the rules for pages. --update replaces
+Without pages it runs README.md and all of docs/. tests/docs/README.md has the rules for pages. --update replaces
 the output that a page shows where it differs from what the commands print.
 """
 import argparse
@@ -18,7 +18,7 @@ import sys
 import tempfile
 import time
 
-from markdown_pages import PageError, blocks_of, commands_of, needs_of
+from markdown_pages import PageError, blocks_of, commands_of, needs_of, numbers_not_shown
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SHELLS = {"sh", "bash", "shell", "zsh", "shell-session"}
@@ -142,6 +142,8 @@ def looks_like_commands(block):
 def run_page(path, page, shell, tally):
     """Runs a page from top to bottom; the changes of output, see run_block."""
     changes = []
+    for line, number in numbers_not_shown(path.read_text()):
+        tally.fail(f"{page}:{line}", f"no block of the page shows {number}")
     for block in blocks_of(path.read_text(), page):
         if block.directive == "not run":
             if not block.argument:
@@ -224,7 +226,7 @@ def main():
     parser.add_argument("--keep", help="folder in which the pages' folders are made and kept")
     parser.add_argument("pages", nargs="*", type=lambda p: pathlib.Path(p).resolve())
     options = parser.parse_args()
-    options.pages = options.pages or sorted((ROOT / "docs").rglob("*.md"))
+    options.pages = options.pages or [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
     if options.keep:
         os.makedirs(options.keep, exist_ok=True)
     tally = Tally()

@@ -15,7 +15,7 @@ import check_links
 import check_reference
 import run_docs
 from json_keys import key_paths
-from markdown_pages import (PageError, anchors_of, blocks_of, commands_of, links_of, needs_of,
+from markdown_pages import (PageError, anchors_of, blocks_of, commands_of, links_of, needs_of, numbers_not_shown,
                             site_slug)
 
 PAGE = """# A page
@@ -166,9 +166,10 @@ class Links(unittest.TestCase):
             (root / "docs").mkdir()
             (root / "README.md").write_text("[ok](docs/a.md#one-two) [no](docs/b.md)\n[out](../x.md)\n")
             (root / "docs" / "a.md").write_text(
-                "# One two\n[up](../README.md) [no](#three) [ok](#one-two) [net](https://x.org/y)\n")
+                "# One two\n[up](../README.md) [no](#three) [ok](#one-two) [net](https://x.org/y)\n" + 121 * "w" + "\n" +
+                "|" + 121 * "w" + "\n```text\n" + 121 * "w" + "\n```\n")
             pages, links, others, flaws = check_links.check(root.resolve())
-        self.assertEqual((pages, links, others, len(flaws)), (2, 6, 1, 4), flaws)
+        self.assertEqual((pages, links, others, len(flaws)), (2, 6, 1, 5), flaws)
 
 
 class Reference(unittest.TestCase):
@@ -202,6 +203,13 @@ class Reference(unittest.TestCase):
                 ("  --edge-length-of NAME=L ... The same", "--edge-length-of", " NAME=L", "The same"),
                 ("  --json                      All", "--json", "", "All")):
             self.assertEqual(check_reference.OPTION_LINE.match(line).groups(), (flags, placeholder, text))
+
+
+class Numbers(unittest.TestCase):
+    def test_a_bold_number_must_be_shown(self):
+        page = "It is **1 234** of **0.5** m, not `**7**`.\n\n```text\n1234 triangles, %s m.\n```\n"
+        self.assertEqual(numbers_not_shown(page % "0.5"), [])
+        self.assertEqual(numbers_not_shown(page % "10.5"), [(1, "0.5")])
 
 
 class DataFiles(unittest.TestCase):

@@ -17,7 +17,7 @@ class ConstructionTable {
 public:
     explicit ConstructionTable(PointIndex first) : first_(first), slots_(64, none) {}
 
-    /// Makes room for so many constructions.
+    /// Makes room for `count` constructions.
     void reserve(std::size_t count) {
         constructions_.reserve(count);
         if (2 * count > slots_.size()) resize(std::bit_ceil(2 * count));

@@ -19,7 +19,7 @@ class EqualPoints {
 public:
     explicit EqualPoints(const PointStore& store) : store_(store), slots_(64, none) {}
 
-    /// Makes room for so many points.
+    /// Makes room for `count` points.
     void reserve(std::size_t count) {
         if (2 * count > slots_.size()) rebuild(std::bit_ceil(2 * count));
     }

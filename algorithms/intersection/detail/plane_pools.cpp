@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Finds sets of coplanar triangles of which so many overlap that dividing each by itself would
-// cost far more than dividing their plane once.
+// Finds sets of coplanar triangles that overlap many others of the set: dividing their plane once
+// costs far less than dividing each triangle by itself.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -15,8 +15,8 @@
 namespace terrane {
 namespace {
 
-/// A pool pays if its triangles have so many candidates among themselves, on average. Stacks of a
-/// few sheets have fewer, and their triangles are divided one by one as ever.
+/// A pool pays if each of its triangles has at least this many candidates in it, on average. Stacks
+/// of a few sheets have fewer, and their triangles are divided one by one.
 constexpr std::size_t least_partners = 32;
 
 /// Larger coordinates leave no room for the frame round the pool.
@@ -83,8 +83,8 @@ private:
         return pairs;
     }
 
-    /// Tells whether a triangle has so many coplanar partners after it as the triangles of a pool have on
-    /// average. Otherwise there is no pool, as is quickly seen for most inputs.
+    /// Tells whether some triangle has at least least_partners / 2 coplanar partners after it. Otherwise
+    /// there is no pool; for most inputs this is seen quickly.
     bool has_seeds() {
         constexpr std::size_t needed = least_partners / 2; // half of the partners come before it
         for (std::size_t start = 0, end = 0; start < candidates_.size(); start = end) {

@@ -145,7 +145,7 @@ private:
     /// Returns how new cells fit; none if they do not.
     [[nodiscard]] std::optional<Fit> fit(std::span<const std::uint32_t> old,
                                          std::span<const Corners> added) const;
-    /// Frees the numbers of old cells and returns numbers for so many new ones.
+    /// Frees the numbers of old cells and returns numbers for `count` new ones.
     std::vector<std::uint32_t> renew(std::span<const std::uint32_t> old, std::size_t count);
     void add_cell();
     void set_wall(const Face& face);

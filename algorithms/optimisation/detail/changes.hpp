@@ -39,7 +39,7 @@ std::optional<Change> without_edge(const Cells& cells, std::uint32_t c, unsigned
 std::optional<Change> with_fewer_faces(const Cells& cells, std::uint32_t c, unsigned i, unsigned j,
                                        double gain, std::size_t& effort);
 
-/// Removes the face opposite to corner k, and faces beside it between the same two vertices where
+/// Removes the face opposite to corner k, and neighbouring faces between the same two vertices where
 /// that is better.
 std::optional<Change> without_face(const Cells& cells, std::uint32_t c, unsigned k, double gain,
                                    std::size_t& effort);

@@ -36,7 +36,7 @@ enum class Depth : std::uint8_t {
     insertions ///< or a vertex is inserted
 };
 
-/// Proposes the best change that makes a cell, or one beside it, better: edges and faces go or
+/// Proposes the best change that makes a cell, or a neighbour, better: edges and faces go or
 /// vertices join; if none of these is a gain, a corner moves; if none of these is, a vertex is
 /// inserted. Only reads the cells.
 Proposal change_for_cell(const Cells& cells, std::uint32_t c, const Permission& permission,

@@ -149,12 +149,6 @@ std::size_t FacesAround::count_below(const Point3& p, double quality) const {
     return count;
 }
 
-double FacesAround::largest_volume(const Point3& p) const {
-    double most = 0;
-    for (const Face& face : faces_) most = std::max(most, dot(minus(p, face.a), face.normal));
-    return most;
-}
-
 Point3 FacesAround::away_from_nearest(const Point3& p) const {
     Point3 way;
     double least = HUGE_VAL;

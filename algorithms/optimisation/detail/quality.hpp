@@ -57,8 +57,6 @@ public:
     [[nodiscard]] double least(const Point3& p);
     /// Returns how many of these are worse than that.
     [[nodiscard]] std::size_t count_below(const Point3& p, double quality) const;
-    /// Returns six times the largest volume of these tetrahedra.
-    [[nodiscard]] double largest_volume(const Point3& p) const;
     /// Returns the distance from p to the nearest corner elsewhere; infinite if there is none.
     [[nodiscard]] double nearest(const Point3& p) const;
 

@@ -145,7 +145,7 @@ private:
             if (offsets[i] < offsets[i - 1]) return false;
         return true;
     }
-    /// Takes a number of objects; 0 if so many of at least this size can't follow.
+    /// Takes a number of objects; 0 if the rest is too short for them at this least size.
     std::size_t taken_count(std::size_t least_size) {
         std::uint64_t count = 0;
         take(count);

@@ -16,7 +16,7 @@
 
 namespace terrane::project::detail {
 
-/// What vertices are moved of.
+/// The mesh and tetrahedra whose vertices are moved.
 struct LoosenInput {
     const Arranged& arranged; ///< the surfaces before they were improved
     const ImprovedAndMeasured& improved;
@@ -34,17 +34,17 @@ struct Loosened {
     LoosenedVertices moved;
 };
 
-/// Moves vertices of the improved mesh where its tetrahedra are bad, see optimise(). The mesh is
-/// conforming then, by proof, and blocks are as they were.
+/// Moves vertices of the improved mesh where its tetrahedra are bad, see optimise(). The mesh is then
+/// proven conforming again; its blocks stay.
 ///
 /// Where surfaces were simplified, all their vertices may move, in the sides of the boundary, as far as
 /// the resolution leaves room; all of each surface is shown to be within the resolution again, and
 /// report.bound_of grows by the movement. Otherwise only vertices inside of sheets move, on the
 /// original surface, and each of their triangles is proven to be within report.bound_of of that; and no
-/// dihedral angle is larger than the largest one before. What is
-/// not shown moves less, or not at all: three times at most, then none does.
+/// dihedral angle is larger than the largest one before. Vertices of triangles without proof move less,
+/// or not at all. After three attempts without a complete proof no vertex moves.
 ///
-/// None if the tetrahedra are not sound. Errors: those of improve_tetrahedra() and with_vertices_at().
+/// Returns none if the tetrahedra are not sound. Errors: those of improve_tetrahedra() and with_vertices_at().
 Result<std::optional<Loosened>> loosen(const LoosenInput& input, const Run& run);
 
 } // namespace terrane::project::detail

@@ -81,7 +81,7 @@ inline double shape_of(const WorkMesh& mesh, const Triangle& t) {
 }
 
 /// Makes the passes leave a finished mesh as it is, apart from vertices whose wanted lengths differ
-/// from these ones, and from what changes beside them.
+/// from these ones, and from their neighbours that change.
 void settle(RemeshContext& context, std::span<const double> lengths);
 /// Tells whether the passes leave a vertex and its triangles as they are.
 bool is_settled(const RemeshContext& context, std::uint32_t v);

@@ -28,7 +28,7 @@ class Remesher {
 public:
     Remesher(const RemeshInput& input, LeastQuality least, const Run& run);
 
-    /// Makes at most so many passes, then improves single triangles. Reports progress from `from`
+    /// Makes at most `passes` passes, then improves single triangles. Reports progress from `from`
     /// to `to`.
     void operator()(unsigned passes, double from, double to);
 

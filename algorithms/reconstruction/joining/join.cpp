@@ -84,7 +84,7 @@ Result<std::vector<Point3>> edge_normals(const Surface& surface, const LoopNames
     sort_unique(chords);
     for (std::size_t i = 0; i < n; ++i)
         if (normals[i] == Point3{})
-            return Error{ErrorCode::bad_option, "the loop has an edge that is none of the surface",
+            return Error{ErrorCode::bad_option, "the loop has an edge that the surface lacks",
                          "edge " + std::to_string(i) + " of the loop"};
     return normals;
 }
@@ -174,7 +174,7 @@ private:
     }
 
     /// Removes the vertices of the line between border vertices. Removing one may make others
-    /// removable; at last, vertices of the filling beside them are removed as well.
+    /// removable; at last, vertices of the filling next to them are removed as well.
     Status straighten() {
         std::vector<std::uint32_t> left = part_.between;
         while (!left.empty()) {

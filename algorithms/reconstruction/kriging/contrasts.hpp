@@ -27,7 +27,7 @@ struct LikelyNugget {
 struct NoiseAlone {
     explicit NoiseAlone(const Eigen::VectorXd& contrasts);
 
-    /// Computes how probable it is that there is a surface beside the trend: by Akaike's criterion,
+    /// Computes how probable it is that the trend leaves a surface: by Akaike's criterion,
     /// the most likely kernel must be more likely by a factor of e for each of its parameters.
     [[nodiscard]] double probability_of(const LikelyNugget& likely, double parameters) const;
 
@@ -79,7 +79,7 @@ struct SpreadPairs {
     double gap = 0;                    ///< median distance of those neighbours; 0 if there are none
 };
 
-/// Selects `count` well-spread points and, beside the first `pairs` of them, the nearest one that
+/// Selects `count` well-spread points and, for the first `pairs` of them, the nearest one that
 /// is not taken: without such pairs nobody could tell noise from a surface that is rough within the
 /// distance of well-spread points. Of equally near ones, that farthest from the mean height is
 /// taken.

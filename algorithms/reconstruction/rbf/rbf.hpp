@@ -116,7 +116,7 @@ Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
 ///   (7) a constrained Delaunay triangulation of the hole, seen along z, with the heights of the
 ///       function.
 /// The filling has the exact border, and options.tolerance does not matter: what the function
-/// leaves of noisy data stays at the border. Cost: linear in the border, but for the triangulation.
+/// leaves of noisy data stays at the border. Cost: linear in the border, except for the triangulation.
 /// Errors: those of fill_by_rbf(), and unsupported where the surface is no such graph next to the
 /// hole.
 Result<Filling> fill_graph_by_rbf(const Surface& surface, const BorderLoop& loop,

@@ -11,8 +11,8 @@
 namespace terrane::rounding::detail {
 namespace {
 
-/// A lattice is taken for one if its step is at least so many tolerances: a random number is a
-/// multiple of it by chance in one of some thirty cases.
+/// Least step of a lattice, in tolerances: a random number is a multiple of it by chance in about
+/// one case of thirty.
 constexpr double least_step = 64;
 constexpr double most_steps = 1 << 20; ///< of a lattice along an axis
 

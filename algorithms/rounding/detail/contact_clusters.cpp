@@ -31,9 +31,9 @@ struct Cluster {
     std::size_t contacts = 0;
 };
 
-/// A normal of a triangle that is lower than so many tolerances says little.
+/// Least height of a triangle whose normal counts, in tolerances.
 constexpr double least_height = 64;
-/// Directions are told apart from a plane if they are at least so far out of it.
+/// Least distance from a plane of a direction outside of it.
 constexpr double least_independence = 0.05;
 constexpr std::size_t most_directions = 64;
 

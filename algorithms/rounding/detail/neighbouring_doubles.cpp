@@ -39,7 +39,7 @@ std::vector<Steps> all_steps() {
     return all;
 }
 
-/// Returns the double so many steps from x; x where a kept plane is there or in between.
+/// Returns the double that is `steps` doubles from x; x where a kept plane is there or in between.
 double stepped(double x, int steps, std::span<const double> planes) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double to = x;

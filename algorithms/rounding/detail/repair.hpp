@@ -33,7 +33,7 @@ struct RepairTask {
     double limit = 0;             ///< of the deviation of the state, with what is used up
     double used = 0;              ///< of the limit, as the input was moved
     unsigned max_rounds = 0;      ///< of moving and snapping
-    std::size_t hopeless = 0;     ///< so many contacts are not divided
+    std::size_t hopeless = 0;     ///< least number of contacts that are not divided
     bool is_whole = true;         ///< see Repair::operator()
     bool tests_all = false;       ///< whether searches test all pairs
     const Elsewhere* elsewhere{}; ///< null: the state has the whole mesh
@@ -44,8 +44,8 @@ inline double deviation_of(const RoundingState& state, double moved) {
     return moved == 0 ? state.deviation : (state.deviation + moved) * (1 + 0x1p-52);
 }
 
-/// Return how many contacts are too many for a mesh of so many triangles: crowded ones are left for a
-/// moved input, hopeless ones are not divided.
+/// Return the least number of contacts that is too large for a mesh of this size: crowded ones are left
+/// for a moved input, hopeless ones are not divided.
 std::size_t crowded_from(std::size_t triangles);
 std::size_t hopeless_from(std::size_t triangles);
 

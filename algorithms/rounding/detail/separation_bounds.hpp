@@ -7,20 +7,20 @@
 
 namespace terrane::rounding::detail {
 
-/// (1) A unit normal, and so the distance from a plane or beyond an edge in it, errs by at most so
-/// many units times the square of the longest edge over twice the area.
+/// (1) A unit normal, and so the distance from a plane or beyond an edge in it, errs by at most
+/// direction_factor units times the square of the longest edge over twice the area.
 constexpr double direction_factor = 64;
-/// (2) An altitude errs by at most so many units of the longest edge and this share of itself, a
-/// length by this share of itself.
+/// (2) An altitude errs by at most altitude_factor units of the longest edge and size_share of
+/// itself, a length by size_share of itself.
 constexpr double altitude_factor = 64, size_share = 0x1p-40;
-/// (3) The margin d of the statements is so many times the sum of the largest move and the largest
-/// error of a functional.
+/// (3) The margin d of the statements is margin_factor times the sum of the largest move and the
+/// largest error of a functional.
 constexpr double margin_factor = 4;
 /// (4) A vertex is well conditioned where a^2 >= condition_factor d l; the computed heights of
 /// statement (4) must be twice as large as the true ones.
 constexpr double condition_factor = 64, rise_factor = 128;
-/// (5) The sine of the angle between planes must exceed so many times the errors of their normals:
-/// it then errs by a hundredth of itself at most.
+/// (5) The sine of the angle between planes must exceed least_sine_factor times the errors of their
+/// normals: it then errs by a hundredth of itself at most.
 constexpr double least_sine_factor = 1024;
 
 } // namespace terrane::rounding::detail

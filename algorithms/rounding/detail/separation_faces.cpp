@@ -89,7 +89,7 @@ private:
 /// A grid of squares over a face, seen along the axis that its normal is closest to.
 class FaceGrid {
 public:
-    /// Makes about one cell for so many of `count` items.
+    /// Makes about one cell for each `per_cell` of `count` items.
     FaceGrid(const Face& f, std::size_t count, std::size_t per_cell) {
         const std::array<double, 3> n{std::fabs(f.normal.x), std::fabs(f.normal.y),
                                       std::fabs(f.normal.z)};

@@ -12,7 +12,7 @@
 namespace terrane {
 namespace {
 
-/// A vertex with so many triangles is crowded. Fewer cost at most half as many tests each.
+/// Least number of triangles at a crowded vertex. Fewer cost at most half as many tests each.
 constexpr std::uint32_t crowd = 128;
 
 } // namespace

@@ -128,7 +128,7 @@ private:
     /// triangles next to these. Other vertices stay: TetGen may take a face inside the box for a part
     /// of its side.
     Status take_vertices() {
-        if (!put_on_triangles(domain_, in_)) return broken("put a vertex beside its triangle");
+        if (!put_on_triangles(domain_, in_)) return broken("put a vertex off its triangle");
         out_.vertices = std::move(in_.points);
         const auto& [low, high] = domain_.box;
         for (std::size_t i = 0; i < in_.faces.size(); ++i) {

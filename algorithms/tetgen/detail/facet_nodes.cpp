@@ -21,7 +21,7 @@ using polynomial::cartesian;
 using Directed = std::array<std::uint32_t, 2>; ///< a step along the border of some faces
 
 /// A node that is off by more allowances than this is not there because of rounding. Up to 38 were
-/// seen, beside triangles with angles of a degree.
+/// seen, next to triangles with angles of a degree.
 constexpr double farthest_allowances = 0x1p13;
 
 /// Returns the doubles nearest to p + share v, where share is a fraction.

@@ -68,7 +68,7 @@ Error from_mesher(std::int32_t code, const HelperProcess& helper) {
     case 10:
         return {ErrorCode::internal, fmt::format("{} did not accept its input", mesher), ""};
     case bad_request:
-        return helper.broken("did not understand what it was told");
+        return helper.broken("did not understand its input");
     case mesher_failed:
         return {ErrorCode::internal, fmt::format("{} failed", mesher), ""};
     default:

@@ -20,8 +20,8 @@ struct FaultPlane {
     /// Of these surfaces together. However their triangles are oriented, the plane is the same.
     FaultPlane(std::span<const Surface> all, std::span<const std::uint32_t> surfaces);
 
-    /// Returns by how much a point moves that is at `p` from the centre when the plane turns about its
-    /// strike, by so many turns.
+    /// Returns the move of the point at `p` from the centre when the plane makes `turns` turns about
+    /// its strike.
     [[nodiscard]] Point3 turned(const Point3& p, double turns) const;
 };
 

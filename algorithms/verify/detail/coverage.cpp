@@ -69,7 +69,7 @@ bool Coverage::has_in(const Triangle& child, const Vector4& point) const {
     return true;
 }
 
-/// Tells whether an edge is near the border. A region's border may have several edges beside it.
+/// Tells whether an edge is near the border. A region's border may have several edges near it.
 bool Coverage::near_border(const Edge& edge) const {
     const Vector4 &a = points_[edge[0]], &b = points_[edge[1]];
     if (near_border(a, b)) return true;

@@ -167,15 +167,14 @@ bool check_covered(const RoundedParts& parts, std::uint32_t input, const Remains
     if (!coverage.holds(triangles)) {
         found.push_back({Rule::R18_coverage,
                          {input},
-                         "what is left of input triangle " + text(input) + " has a hole"});
+                         "the parts of input triangle " + text(input) + " leave a hole"});
         return false;
     }
     if (sides_are_near(parts, input, triangles)) return false;
     if (is_near_mesh(parts, input, remains)) return true;
-    found.push_back(
-        {Rule::R18_coverage,
-         {input},
-         "what is left of input triangle " + text(input) + " does not reach its border"});
+    found.push_back({Rule::R18_coverage,
+                     {input},
+                     "the parts of input triangle " + text(input) + " do not reach its border"});
     return false;
 }
 

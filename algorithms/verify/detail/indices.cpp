@@ -44,7 +44,7 @@ void check_parents(const Parts& parts, std::size_t input_triangles, Rule rule, V
         found.push_back(
             {rule,
              {t},
-             "the parents of triangle " + text(t) + " are none, unsorted or out of range"});
+             "the parents of triangle " + text(t) + " are missing, unsorted or out of range"});
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The kinds of certificates. Each kind has sections of its own beside "format", "version", "kind",
+// The kinds of certificates. Each kind has sections of its own in addition to "format", "version", "kind",
 // "inputs" and "outputs", and a file NAME_kind.cpp that reads and judges them.
 #pragma once
 
@@ -37,7 +37,7 @@ struct WrittenMesh {
 struct Kind {
     CertificateKind kind;
     std::string_view name;                  ///< value of the key "kind"
-    std::span<const std::string_view> keys; ///< its keys beside those of all kinds
+    std::span<const std::string_view> keys; ///< its keys in addition to those of all kinds
     /// Reads the sections of the kind. The certificate has these keys. Throws Malformed.
     void (*parse)(const Node& node, Certificate& certificate);
     /// Adds violations and measures to the verdict. `surfaces` are those of all input files, which

@@ -230,9 +230,9 @@ void check_layer_numbers(std::span<const Surface> surfaces, const LayeredClaim& 
     check_finite(layered.vertices, "vertex", rule, found);
     check_corners(layered.triangles, layered.vertices.size(), rule, found);
     if (!has_order(layered, surfaces.size()))
-        found.push_back({rule, {}, "the order names no surface, one that is none, or one twice"});
+        found.push_back({rule, {}, "the order names no surface, an unknown one, or one twice"});
     if (!has_layers(layered))
-        found.push_back({rule, {}, "a triangle belongs to no layer, or to one that is none"});
+        found.push_back({rule, {}, "a triangle belongs to no layer, or to an unknown one"});
     if (!std::isfinite(layered.deviation) || layered.deviation < 0)
         found.push_back({rule, {}, "the deviation is negative or not finite"});
     else if (layered.deviation > accepted)

@@ -39,9 +39,9 @@ public:
     /// Tells whether each point of a triangle is shown to be at most `bound` away from some target.
     /// The distance to one target is convex, so a piece of the triangle is near it if its corners
     /// are. The triangle is halved until each piece is near one target, or a corner is near none.
-    /// Numbers in double precision choose the target, rational numbers decide. It is false, too,
-    /// where so many pieces do not suffice as most_pieces. Cost: some microseconds per piece; few
-    /// pieces unless the bound is small beside the triangle.
+    /// Numbers in double precision choose the target, rational numbers decide. Also false
+    /// where more than most_pieces pieces would be needed. Cost: some microseconds per piece; few
+    /// pieces unless the bound is small relative to the triangle.
     [[nodiscard]] bool covers(const Triangle& triangle, const Bound& bound) const;
 
 private:

@@ -36,7 +36,7 @@ AreaFraction area_beside(const Vector4& from, const Vector4& to, std::size_t axi
     return {from[u] * to[v] - from[v] * to[u], from[3] * to[3]};
 }
 
-/// Returns the areas beside all edges of the children, each of which is made counterclockwise. An
+/// Returns the areas next to all edges of the children, each of which is made counterclockwise. An
 /// edge that occurs in both directions, as most edges do, contributes nothing and is left out.
 std::vector<AreaFraction> areas_beside_borders(const ExactMesh& mesh,
                                                std::span<const std::uint32_t> children,

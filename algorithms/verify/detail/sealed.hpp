@@ -49,7 +49,7 @@ struct SealedParts {
 ///     border, and its opposite corner is an end of another edge of the border at which they are.
 /// (4) R56: no edge divides a trimmed triangle from one that was kept unless other triangles are
 ///     there, of the given ones and the kept added ones. No edge has a single one of these left if
-///     it had more. Each connected part that was trimmed is beside a part of its surface that was
+///     it had more. Each connected part that was trimmed is next to a part of its surface that was
 ///     not.
 /// Precondition: R1 to R8, R51 and R53 hold.
 void check_sealed(const SealedParts& parts, Violations& found);

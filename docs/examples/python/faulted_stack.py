@@ -12,9 +12,11 @@ import drawing
 import terrane
 from shapes import faulted, plane
 
+
 def main():
     fault = plane((1000, 1000, -700), 0, 70, 4000, 3000, "main fault")
-    stack = [faulted(lambda x, y, z=z: z + 60 * np.sin((x + y) / 700), 180, name=name) for z, name in ((-350, "Upper"), (-650, "Middle"), (-950, "Lower"))]
+    stack = [faulted(lambda x, y, z=z: z + 60 * np.sin((x + y) / 700), 180, name=name)
+             for z, name in ((-350, "Upper"), (-650, "Middle"), (-950, "Lower"))]
     box = ((0, 0, -1500), (2000, 2000, 0))
     open_model = terrane.model([*stack, fault], box=box)
     model = terrane.model([*stack, fault], box=box, seal=20, column=[

@@ -29,7 +29,7 @@ struct Wall {
 
 enum class StripKind { none, fault, side };
 
-/// The top or the base of an active cell beside a wall.
+/// The top or the base of an active cell at a wall.
 struct CellEdge {
     double p = 0, q = 0; ///< its depths on both pillars
     std::uint32_t k = 0; ///< layer of the cell

@@ -227,7 +227,7 @@ private:
     [[nodiscard]] bool is_disk_with_holes() const;
     [[nodiscard]] Result<InnerPart> part() const;
 
-    /// Calls visit(index into of_filling_, whether on the left) for the triangles beside a line.
+    /// Calls visit(index into of_filling_, whether on the left) for the triangles along a line.
     template <class Visit>
     void beside(const CurveLine& line, const Visit& visit) const {
         const std::size_t n = line.edges.size();

@@ -291,7 +291,7 @@ void raise_degree(const DataAroundHole& around, const FittedData& fitted, double
 }
 
 /// Computes the factor of nugget and sill. Blocks overlap, so that many count as `most_counted`;
-/// they are beside the hole, not in it: if they are missed by less than expected, the hole need not
+/// they are next to the hole, not in it: if they are missed by less than expected, the hole need not
 /// be, unless all of them agree.
 double calibration(const BlockValidation& validation) {
     const double n = std::min(static_cast<double>(validation.blocks), constants.most_counted);

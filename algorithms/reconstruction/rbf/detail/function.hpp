@@ -69,7 +69,6 @@ public:
 
     [[nodiscard]] double operator()(const Point3& p) const;
     [[nodiscard]] Point3 gradient(const Point3& p) const;
-    [[nodiscard]] std::size_t centre_count() const { return x_.size(); }
     /// The unit of u, v, w, half the longest side of the box of the centres.
     [[nodiscard]] double unit() const { return scale_; }
     /// Converts a point to u, v, w, from the middle of the box.
