@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parent.parent
 ORDER = (
     "kernel algorithms/core algorithms/mesh algorithms/plausibility algorithms/search algorithms/intersection "
     "algorithms/triangulation algorithms/arrangement algorithms/check algorithms/regions "
-    "algorithms/rounding algorithms/distribution algorithms/volumes algorithms/structure algorithms/layers "
+    "algorithms/rounding algorithms/volumes algorithms/structure algorithms/tiles algorithms/layers "
     "algorithms/quality algorithms/simplification algorithms/reconstruction/holes algorithms/reconstruction/joining "
     "algorithms/reconstruction/kriging algorithms/reconstruction/rbf algorithms/reconstruction "
     "algorithms/sealing algorithms/volume_of_interest algorithms/model algorithms/tetrahedra "

@@ -10,12 +10,13 @@
 
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
-#include <terrane/algorithms/structure/detail/block_contacts.hpp>
+#include <terrane/algorithms/structure/block_contacts.hpp>
 #include <terrane/algorithms/structure/detail/block_units.hpp>
 #include <terrane/algorithms/structure/detail/constants.hpp>
 
 namespace terrane {
 
+using namespace structure;
 using namespace structure::detail;
 
 namespace {
@@ -165,8 +166,8 @@ std::string at_block(const std::vector<std::string>& names, std::size_t block) {
 } // namespace
 
 std::vector<std::string>
-structure::detail::names_by_contacts(std::span<const SurfaceInfo> surfaces,
-                                     std::vector<std::vector<BlockContact>> contacts) {
+structure::names_by_contacts(std::span<const SurfaceInfo> surfaces,
+                             std::vector<std::vector<BlockContact>> contacts) {
     const std::size_t count = contacts.size();
     const BlockDescriptions descriptions(surfaces, std::move(contacts));
     std::vector<std::string> names{"outside"};

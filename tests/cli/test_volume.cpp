@@ -61,7 +61,7 @@ std::map<std::string, int> kinds_of(const Json& lines) {
 
 } // namespace
 
-TEST_CASE("cli: arrange --memory finds the same volumes in blocks of space", "[cli]") {
+TEST_CASE("cli: arrange --memory finds the same volumes in tiles", "[cli]") {
     const Folder folder;
     const auto in = folder.input("model.obj", boxed_model);
     // So little memory that space is divided.

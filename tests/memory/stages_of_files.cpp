@@ -111,7 +111,7 @@ std::vector<Stage> reading() {
     stages.push_back(stage(
         "read_model", [model] { return read_model(model); },
         [](const GocadModel& read) { return text_of(read.surfaces); }));
-    distribution::BlockPiece piece{*f.mesh, {}, {}};
+    tiles::TilePiece piece{*f.mesh, {}, {}};
     piece.mesh.intersection_edges.clear();
     for (std::uint32_t v = 0; v < f.mesh->vertices.size(); ++v) piece.vertex_ids.push_back(v);
     for (std::uint32_t t = 0; t < f.mesh->triangles.size(); ++t) piece.triangle_ids.push_back(t);

@@ -5,7 +5,7 @@
 #include <array>
 #include <memory>
 
-#include <terrane/algorithms/distribution/local_supersteps.hpp>
+#include <terrane/algorithms/tiles/local_supersteps.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/meshes/pvtp_output.hpp>
 #ifdef TERRANE_TESTS_PAGE
@@ -79,25 +79,24 @@ std::vector<Stage> writing_models() {
 }
 
 std::vector<Stage> writing_pieces() {
-    using namespace distribution;
+    using namespace tiles;
     const auto arranged = [] {
         static const Run run;
-        auto blocks =
-            std::make_unique<LocalSupersteps>(LocalOptions{.blocks = 2, .spool = {}}, run);
+        auto tiles = std::make_unique<LocalSupersteps>(LocalOptions{.tiles = 2, .spool = {}}, run);
         const auto read = [](std::size_t file) -> Result<std::vector<Surface>> {
             return std::vector{Fixture::get().surfaces[file]};
         };
-        needed(arrange_in_blocks(*blocks, read, {.files = 3, .digest = false}));
-        return blocks;
+        needed(arrange_in_tiles(*tiles, read, {.files = 3, .digest = false}));
+        return tiles;
     };
     std::vector<Stage> stages{
         writing_stage("write_pvtp", "pieces with a long name.pvtp", true, arranged,
-                      [](const fs::path& path, const std::unique_ptr<LocalSupersteps>& blocks) {
-                          return write_pvtp(*blocks, path, false);
+                      [](const fs::path& path, const std::unique_ptr<LocalSupersteps>& tiles) {
+                          return write_pvtp(*tiles, path, false);
                       }),
         writing_stage("check_pvtp", "pieces with a long name.pvtp", true,
                       [](const fs::path& path) { return check_pvtp(path); })};
-    for (Stage& s : stages) s.returns_errors = false; // see distributed_arrangement.hpp
+    for (Stage& s : stages) s.returns_errors = false; // see tiled_arrangement.hpp
     return stages;
 }
 

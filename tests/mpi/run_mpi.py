@@ -68,10 +68,10 @@ def check_case(arguments, folder: Path, work: Path):
             continue
         found = json.loads(stats.read_text())
         assert found["digest"] == expected["digest"], (where, found["digest"])
-        assert found["blocks"] == ranks, where
+        assert found["tiles"] == ranks, where
         if folder.name in REPAIRED:
             assert found["rounding"]["gathered_triangles"] > 0, (where, found)
-        assert found["rounding"]["in_blocks"], (where, found)
+        assert found["rounding"]["in_tiles"], (where, found)
         assert found["rounding"]["arranged_again"] == (folder.name in MOVED), (where, found)
         assert found["volumes"] == volumes, (where, found["volumes"], volumes)
         converted = run([arguments.terrane, "convert", pieces, joined])

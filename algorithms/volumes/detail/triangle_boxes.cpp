@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-namespace terrane::volumes::detail {
+namespace terrane::volumes {
 namespace {
 
 constexpr std::uint32_t most_triangles_in_leaf = 8;
@@ -68,4 +68,4 @@ void TriangleBoxes::add_node(std::uint32_t first, std::uint32_t last) {
     nodes_.push_back({all, first, last});
 }
 
-} // namespace terrane::volumes::detail
+} // namespace terrane::volumes
