@@ -71,7 +71,7 @@ TEST_CASE("cli: arrange --memory finds the same volumes in tiles", "[cli]") {
     REQUIRE(r.status == 0);
     CHECK(contains(r.out, "3 closed blocks, volume 512 in all\n  block 1    volume "));
     const auto stats = Json::parse(folder.read("s.json"));
-    CHECK(stats["blocks"] > 2);
+    CHECK(stats["tiles"] > 2);
     CHECK(stats["volumes"]["count"] == 3);
     REQUIRE(folder.run("convert m.pvtp m.vtp").status == 0);
     REQUIRE(folder.run("volume m.vtp -o model").status == 0);
