@@ -151,7 +151,7 @@ Status share_edges(Tile& b, Inbox&, Outbox& out) {
 }
 
 /// Channel 0: FacingSides, to the tile of the first of two sides.
-Status decide_edges(Tile&, Inbox& in, Outbox& out) {
+Status pair_sides(Tile&, Inbox& in, Outbox& out) {
     struct Sent {
         RoundEdge edge;
         std::uint32_t from;
@@ -201,7 +201,7 @@ Status decide_edges(Tile&, Inbox& in, Outbox& out) {
 }
 
 /// Channel 0: JoinedShell, to the tile of the other side.
-Status join_within(Tile& b, Inbox& in, Outbox& out) {
+Status join_shells_within(Tile& b, Inbox& in, Outbox& out) {
     const OwnSheets own(b);
     const TriangleComplex sheets = own.view();
     const auto shared = shared_vertices(b, own.piece());
@@ -256,7 +256,7 @@ Status gather_shells(Tile& b, Inbox& in, Outbox& out) {
 
 /// In the first tile. Channel 0: NumberedShell, back; channel 1: for each line the triangle through
 /// which it passes, to all.
-Status join_across(Tile& b, Inbox& in, Outbox& out) {
+Status join_shells_across(Tile& b, Inbox& in, Outbox& out) {
     if (b.index != 0) return Done{};
     struct Shell {
         std::uint32_t tile;
@@ -465,10 +465,12 @@ Status receive_measures(Tile& b, Inbox& in, Outbox&) {
 
 Result<std::vector<double>> find_volumes_in_tiles(Supersteps& tiles) {
     const std::pair<std::string_view, Status (*)(Tile&, Inbox&, Outbox&)> steps[] = {
-        {"shells", share_edges},     {"shells", decide_edges},   {"shells", join_within},
-        {"nesting", gather_shells},  {"nesting", join_across},   {"nesting", cross_lines},
-        {"nesting", join_along},     {"numbers", tell_tied},     {"numbers", number_volumes},
-        {"measures", measure_parts}, {"measures", add_measures}, {"measures", receive_measures},
+        {"shells", share_edges},         {"shells", pair_sides},
+        {"shells", join_shells_within},  {"nesting", gather_shells},
+        {"nesting", join_shells_across}, {"nesting", cross_lines},
+        {"nesting", join_along},         {"numbers", tell_tied},
+        {"numbers", number_volumes},     {"measures", measure_parts},
+        {"measures", add_measures},      {"measures", receive_measures},
     };
     for (const auto& [name, work] : steps)
         if (const auto done = tiles.step(name, work); !done) return done.error();
