@@ -25,7 +25,7 @@ std::vector<std::uint32_t> regions_of_polygons(const IndexLists<std::uint32_t>& 
     return diffuse<2>(polygons.size(), std::move(sides), stops);
 }
 
-std::vector<std::uint32_t> regions_of_tetrahedra(const TetrahedralMesh& mesh) {
+std::vector<std::uint32_t> blocks_of_tetrahedra(const TetrahedralMesh& mesh) {
     std::vector<CellFacet<3>> faces;
     faces.reserve(4 * mesh.tetrahedra.size());
     for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {

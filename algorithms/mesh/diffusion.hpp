@@ -58,6 +58,6 @@ std::vector<std::uint32_t> regions_of_polygons(const IndexLists<std::uint32_t>& 
                                                std::span<const Edge> stops);
 
 /// Returns the region of each tetrahedron, by diffusion across the faces that are on no surface.
-std::vector<std::uint32_t> regions_of_tetrahedra(const TetrahedralMesh& mesh);
+std::vector<std::uint32_t> blocks_of_tetrahedra(const TetrahedralMesh& mesh);
 
 } // namespace terrane

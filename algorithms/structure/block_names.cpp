@@ -193,7 +193,7 @@ void name_blocks(const Mesh& mesh, const Volumes& volumes, const GivenNames& giv
         const auto units = column.units_of(descriptions.contacts(b), ends_inside);
         block.unit = units ? column.name_of(*units) : at_block(given.layers, b);
         block.age = units ? column.age_of(*units) : std::nullopt;
-        std::string name = units ? block.unit : at_block(given.regions, b);
+        std::string name = units ? block.unit : at_block(given.stated, b);
         names.push_back(name.empty() ? descriptions.name(b) : std::move(name));
     }
     tell_apart(descriptions, names);

@@ -11,7 +11,7 @@
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
-#include <terrane/algorithms/volumes/region_points.hpp>
+#include <terrane/algorithms/volumes/block_points.hpp>
 #include <terrane/cli/commands/build_help.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/commands/file_options.hpp>
@@ -320,15 +320,15 @@ private:
     Status write_surfaces(const fs::path& to) {
         WriteOptions options;
         options.ascii = true; // binary STL would round the checked coordinates
-        std::vector<RegionPoint> points;
+        std::vector<BlockPoint> points;
         for (const std::string& format : project_.outputs.surfaces) {
             options.format = format_named(format);
             if (points.empty() && (format == "poly" || format == "smesh")) {
                 auto found =
-                    region_points(built_.model->mesh, built_.model->volumes, session_.run());
+                    block_points(built_.model->mesh, built_.model->volumes, session_.run());
                 if (!found) return found.error();
                 points = std::move(found).value();
-                options.regions = points;
+                options.block_points = points;
             }
             written_.push_back(file_name("surfaces", format));
             if (auto done = write_mesh(built_.model->mesh, to / written_.back(), options); !done)
@@ -340,7 +340,7 @@ private:
     Status write_cells(const fs::path& to) {
         if (!built_.filled) return Done{};
         WriteOptions options;
-        options.region_names = built_.filled->block_names;
+        options.block_names = built_.filled->block_names;
         options.order = project_.tetrahedra.order;
         for (const std::string& format : project_.outputs.tetrahedra) {
             options.format = format_named(format);

@@ -149,7 +149,7 @@ Status write_in_tiles(const FileOptions& files, Supersteps& tiles, InTiles& made
     if (!all) return all.error();
     WriteOptions options;
     options.cells = all->volumes;
-    options.region_names = made.report.volume_names;
+    options.block_names = made.report.volume_names;
     for (const std::string& path : files.outputs) {
         if (is_in_pieces(path)) continue;
         const Output output{path, Format::vtp};

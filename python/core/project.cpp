@@ -7,7 +7,7 @@
 
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/project/build.hpp>
-#include <terrane/algorithms/volumes/region_points.hpp>
+#include <terrane/algorithms/volumes/block_points.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 #include <terrane/io/files.hpp>
@@ -57,14 +57,14 @@ private:
         const Model& model = built_.model->model;
         WriteOptions options;
         options.ascii = true; // binary STL would round the checked coordinates
-        std::vector<RegionPoint> points;
+        std::vector<BlockPoint> points;
         for (const std::string& format : built_.project.outputs.surfaces) {
             options.format = format_named(format);
             if (points.empty() && (format == "poly" || format == "smesh")) {
-                auto found = region_points(model.mesh, model.volumes, run_);
+                auto found = block_points(model.mesh, model.volumes, run_);
                 if (!found) return found.error();
                 points = std::move(*found);
-                options.regions = points;
+                options.block_points = points;
             }
             if (auto done = write_mesh(model.mesh, to / name("surfaces", format), options); !done)
                 return done;
@@ -75,7 +75,7 @@ private:
     Status write_cells(const std::filesystem::path& to) {
         if (!built_.tetrahedra) return Done{};
         WriteOptions options;
-        options.region_names = built_.tetrahedra->block_names;
+        options.block_names = built_.tetrahedra->block_names;
         options.order = built_.project.tetrahedra.order;
         for (const std::string& format : built_.project.outputs.tetrahedra) {
             options.format = format_named(format);

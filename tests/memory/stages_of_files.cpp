@@ -53,8 +53,8 @@ std::string vtu_text() {
     mesh.surfaces = {{.name = "a face with a name that needs memory"}};
     mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     mesh.tetrahedra = {{0, 1, 2, 3}};
-    mesh.region_of = {1};
-    mesh.region_count = 2;
+    mesh.block_of = {1};
+    mesh.block_count = 2;
     mesh.faces = {{0, 1, 2}};
     mesh.face_triangle = {0};
     const std::uint32_t surface = 0;

@@ -29,8 +29,8 @@ TetrahedralMesh few_tetrahedra() {
                      {.name = "box", .role = Role::boundary}};
     mesh.vertices = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 1}};
     mesh.tetrahedra = {{0, 1, 2, 4}, {0, 2, 3, 4}};
-    mesh.region_of = {1, 2};
-    mesh.region_count = 3;
+    mesh.block_of = {1, 2};
+    mesh.block_count = 3;
     mesh.faces = {{0, 2, 4}, {0, 2, 1}, {0, 3, 2}};
     mesh.face_triangle = {0, UINT32_MAX, UINT32_MAX};
     for (const std::uint32_t surface : {0U, 1U, 1U}) mesh.surfaces_of.push_back({&surface, 1});
@@ -54,7 +54,7 @@ std::vector<Stage> writing_tetrahedra() {
                                                options.format = format;
                                                options.order = order;
                                                if (format != Format::medit)
-                                                   options.region_names = names;
+                                                   options.block_names = names;
                                                return write_tetrahedra(mesh, path, options);
                                            }));
         }

@@ -90,7 +90,7 @@ std::vector<NamedConstant> structure_constants() {
             {"least_resultant", c.least_resultant},
             {"most_listed", static_cast<double>(c.most_listed)},
             {"most_added", static_cast<double>(c.most_added)},
-            {"least_common", region_constants.least_common}};
+            {"least_common", stated_block_constants.least_common}};
 }
 
 } // namespace terrane

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/volumes/region_points.hpp>
+#include <terrane/algorithms/volumes/block_points.hpp>
 
 #include <algorithm>
 #include <array>
@@ -189,11 +189,11 @@ std::optional<BlockId> volume_around(const Point3& place, const Mesh& mesh,
     return std::nullopt;
 }
 
-Result<std::vector<RegionPoint>> region_points(const Mesh& mesh, const Volumes& volumes,
-                                               const Run& run) {
-    return guarded("for the points", "points", [&]() -> Result<std::vector<RegionPoint>> {
+Result<std::vector<BlockPoint>> block_points(const Mesh& mesh, const Volumes& volumes,
+                                             const Run& run) {
+    return guarded("for the points", "points", [&]() -> Result<std::vector<BlockPoint>> {
         const auto sides = largest_sides(mesh, volumes);
-        std::vector<RegionPoint> points;
+        std::vector<BlockPoint> points;
         for (std::uint32_t block = 1; block < sides.size(); ++block)
             for (const BlockSide& side : sides[block]) {
                 if (run.stop.stop_requested())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/structure/stated_regions.hpp>
+#include <terrane/algorithms/structure/stated_blocks.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -13,20 +13,20 @@
 namespace terrane {
 namespace {
 
-/// The borders of all regions, each once.
+/// The borders of all stated blocks, each once.
 struct Borders {
     std::vector<std::uint32_t> of_input;               ///< per input triangle: its border
-    std::vector<std::vector<std::uint32_t>> of_region; ///< per region, ascending
+    std::vector<std::vector<std::uint32_t>> of_stated; ///< per stated block, ascending
     std::size_t count = 0;
 };
 
-Borders number_borders(const Arrangement& a, std::span<const StatedRegion> regions) {
+Borders number_borders(const Arrangement& a, std::span<const StatedBlock> stated) {
     Borders all;
     all.of_input.assign(a.inputs.first.back(), no_index);
     std::map<StatedBorder, std::uint32_t> numbers;
-    for (const StatedRegion& region : regions) {
-        auto& own = all.of_region.emplace_back();
-        for (const StatedBorder& border : region.borders) {
+    for (const StatedBlock& one : stated) {
+        auto& own = all.of_stated.emplace_back();
+        for (const StatedBorder& border : one.borders) {
             if (border.surface + std::size_t{1} >= a.inputs.first.size()) continue;
             if (a.inputs.first[border.surface] + std::uint64_t{border.first_triangle} +
                     border.triangle_count >
@@ -52,7 +52,7 @@ double area_of(const Arrangement& a, std::uint32_t t) {
     return length(cross(minus(q, p), minus(r, p))) / 2;
 }
 
-/// Areas of the borders of regions.
+/// Areas of the borders of stated blocks.
 struct Areas {
     std::vector<double> all;                               ///< per border
     std::vector<std::map<std::uint32_t, double>> of_block; ///< per block, by border
@@ -75,18 +75,19 @@ Areas measure(const Arrangement& a, const Volumes& volumes, const Borders& borde
     return areas;
 }
 
-std::uint32_t region_of(const std::map<std::uint32_t, double>& block, const Borders& borders,
+std::uint32_t stated_of(const std::map<std::uint32_t, double>& block, const Borders& borders,
                         const std::vector<double>& all) {
     double boundary = 0, best = 0;
     for (const auto& [border, area] : block) boundary += area;
     std::uint32_t found = no_index;
-    for (std::uint32_t r = 0; r < borders.of_region.size(); ++r) {
+    for (std::uint32_t r = 0; r < borders.of_stated.size(); ++r) {
         double common = 0, stated = 0;
-        for (const std::uint32_t border : borders.of_region[r]) {
+        for (const std::uint32_t border : borders.of_stated[r]) {
             stated += all[border];
             if (const auto own = block.find(border); own != block.end()) common += own->second;
         }
-        if (!(common >= structure::detail::region_constants.least_common * boundary)) continue;
+        if (!(common >= structure::detail::stated_block_constants.least_common * boundary))
+            continue;
         const double share = common / (boundary + stated - common);
         if (!(share > best)) continue;
         best = share;
@@ -97,15 +98,15 @@ std::uint32_t region_of(const std::map<std::uint32_t, double>& block, const Bord
 
 } // namespace
 
-std::vector<std::uint32_t> match_regions(const Arrangement& arrangement, const Volumes& volumes,
-                                         std::span<const StatedRegion> regions) {
+std::vector<std::uint32_t> match_blocks(const Arrangement& arrangement, const Volumes& volumes,
+                                        std::span<const StatedBlock> stated) {
     const StandardArithmetic guard;
     std::vector<std::uint32_t> match(volumes.measures.size(), no_index);
-    if (regions.empty()) return match;
-    const Borders borders = number_borders(arrangement, regions);
+    if (stated.empty()) return match;
+    const Borders borders = number_borders(arrangement, stated);
     const Areas areas = measure(arrangement, volumes, borders);
     for (std::size_t b = 1; b < match.size(); ++b)
-        match[b] = region_of(areas.of_block[b], borders, areas.all);
+        match[b] = stated_of(areas.of_block[b], borders, areas.all);
     return match;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/volumes/region_points.hpp>
+#include <terrane/algorithms/volumes/block_points.hpp>
 
 #include <stop_token>
 
@@ -38,13 +38,13 @@ std::size_t level_of(const Point3& p) {
 
 } // namespace
 
-TEST_CASE("region points: one in each of three nested boxes", "[volumes]") {
+TEST_CASE("block points: one in each of three nested boxes", "[volumes]") {
     const ModelOfCubes m = model_of({cube(0, 8), cube(1, 4), cube(2, 3)});
-    const auto points = region_points(m.mesh, m.volumes);
+    const auto points = block_points(m.mesh, m.volumes);
     REQUIRE(points);
     REQUIRE(points.value().size() == 3);
     for (std::uint32_t i = 0; i < 3; ++i) {
-        CHECK(points.value()[i].region == i + 1);
+        CHECK(points.value()[i].block == i + 1);
         CHECK(level_of(points.value()[i].place) == i + 1);
     }
 }
@@ -67,27 +67,27 @@ TEST_CASE("volume_around: agrees with boxes, none on a triangle", "[volumes]") {
     CHECK(volume_around({100, 0, 0}, m.mesh, m.volumes) == 0U);
 }
 
-TEST_CASE("region points: dangling sheets part nothing, real models have all", "[volumes]") {
+TEST_CASE("block points: dangling sheets part nothing, real models have all", "[volumes]") {
     const ModelOfCubes sheet = model_of({cube(0, 8), level(4, 1, 1, 7, 7)});
-    const auto one = region_points(sheet.mesh, sheet.volumes);
+    const auto one = block_points(sheet.mesh, sheet.volumes);
     REQUIRE(one);
     CHECK(one.value().size() == 1);
     const auto surfaces = read_surfaces(test_data() + "/ringmesh/modelA2.ml");
     REQUIRE(surfaces);
     const ModelOfCubes real = model_of(surfaces.value());
-    const auto points = region_points(real.mesh, real.volumes);
+    const auto points = block_points(real.mesh, real.volumes);
     REQUIRE(points);
     REQUIRE(points.value().size() == 12);
-    for (std::uint32_t i = 0; i < 12; ++i) CHECK(points.value()[i].region == i + 1);
+    for (std::uint32_t i = 0; i < 12; ++i) CHECK(points.value()[i].block == i + 1);
 }
 
-TEST_CASE("region points: a stop request is heard", "[volumes]") {
+TEST_CASE("block points: a stop request is heard", "[volumes]") {
     const ModelOfCubes m = model_of({cube(0, 8)});
     std::stop_source source;
     source.request_stop();
     Run run;
     run.stop = source.get_token();
-    const auto points = region_points(m.mesh, m.volumes, run);
+    const auto points = block_points(m.mesh, m.volumes, run);
     REQUIRE_FALSE(points);
     CHECK(points.error().code == ErrorCode::interrupted);
 }

@@ -8,10 +8,10 @@
 
 namespace terrane {
 
-/// A point inside a volume (see region_points.hpp).
-struct RegionPoint {
-    Point3 place;     ///< strictly inside, in the unit of the mesh
-    BlockId region{}; ///< number of the block
+/// A point inside a volume (see block_points.hpp).
+struct BlockPoint {
+    Point3 place;    ///< strictly inside, in the unit of the mesh
+    BlockId block{}; ///< number of the block
 };
 
 } // namespace terrane

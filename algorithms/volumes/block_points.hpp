@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// A point inside each block, for programs that find regions from points (TetGen).
+// A point inside each block, for programs that find blocks from points (TetGen).
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 #include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/mesh/block_point.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/mesh/region_point.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane {
@@ -21,8 +21,8 @@ namespace terrane {
 /// triangle that it faces, is verified by volume_around. `volumes` are those of the mesh, which is
 /// conforming.
 /// Cost: a few passes over the triangles per block. Errors: interrupted.
-Result<std::vector<RegionPoint>> region_points(const Mesh& mesh, const Volumes& volumes,
-                                               const Run& run = {});
+Result<std::vector<BlockPoint>> block_points(const Mesh& mesh, const Volumes& volumes,
+                                             const Run& run = {});
 
 /// Returns the volume that contains a point, by exact tests of a segment from it to the outside;
 /// none if the point lies on a triangle, or if every segment that was tried meets an edge.
