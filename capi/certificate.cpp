@@ -265,7 +265,7 @@ Result<std::string> filled_text(const terrane_certified& given, const fs::path& 
             return unfit("are not those of `surfaces`, in their order", "holes");
         infos.push_back({made.name, made.role});
         filled.push_back(
-            {&made, done.given_vertices, done.given_triangles, done.invented, done.deviation});
+            {&made, done.given_vertices, done.given_triangles, done.interpolated, done.deviation});
     }
     const auto outputs = outputs_of(given, infos, path);
     if (!outputs) return outputs.error();

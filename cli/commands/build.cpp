@@ -276,7 +276,7 @@ private:
             said += borders_text(*done.filled) + filled_text(*done.filled);
             refused_ = refusals_text(*done.filled);
             if (!done.contacts.empty())
-                refused_ += complaint("what was invented meets other triangles") +
+                refused_ += complaint("what was interpolated meets other triangles") +
                             contacts_text(*done.filled, done.contacts);
             add_statistics(statistics_, *done.filled);
         }
@@ -297,7 +297,7 @@ private:
         const fs::path& to = folder.value().temporary();
         for (const auto step :
              {&Build::write_surfaces, &Build::write_cells, &Build::write_blocks,
-              &Build::write_gocad, &Build::write_invented, &Build::write_certificates}) {
+              &Build::write_gocad, &Build::write_interpolated, &Build::write_certificates}) {
             if (auto done = (this->*step)(to); !done) return done;
             if (session_.stopped()) return Error{ErrorCode::interrupted, "", ""};
         }
@@ -372,10 +372,11 @@ private:
                                                           model.structure, "model", inputs_.unit));
     }
 
-    Status write_invented(const fs::path& to) {
+    Status write_interpolated(const fs::path& to) {
         if (!built_.preprocessed.filled) return Done{};
-        written_.insert(written_.end(), {"invented.csv", "filled.svg"});
-        if (auto done = write_file(to / "invented.csv", csv_of(*built_.preprocessed.filled)); !done)
+        written_.insert(written_.end(), {"interpolated.csv", "filled.svg"});
+        if (auto done = write_file(to / "interpolated.csv", csv_of(*built_.preprocessed.filled));
+            !done)
             return done;
         return write_file(to / "filled.svg", map_of(*built_.preprocessed.filled));
     }

@@ -260,7 +260,8 @@ Status write_filled_certificate(const std::string& path, const ProofFiles& files
     if (!outputs) return outputs.error();
     std::vector<FilledRecord> filled;
     for (const HoledSurface& s : work.surfaces)
-        filled.push_back({&s.filled, s.given_vertices, s.given_triangles, s.invented, s.deviation});
+        filled.push_back(
+            {&s.filled, s.given_vertices, s.given_triangles, s.interpolated, s.deviation});
     const auto text =
         to_filled_certificate(records.value(), inputs.surfaces, outputs.value(), filled);
     return write(path, text, files.told, session);

@@ -25,7 +25,7 @@ struct ScenePart {
     std::size_t first = 0; ///< triangle of the scene
     std::size_t count = 0; ///< number of triangles
     double area = 0;       ///< squared unit
-    bool filled = false;   ///< the triangles were invented to fill holes
+    bool filled = false;   ///< the triangles were interpolated to fill holes
 };
 
 /// A line, or all lines of one kind.

@@ -84,7 +84,7 @@ Result<FillWork> filled(const std::vector<Surface>& surfaces, const FillOptions&
     if (contacts->empty()) return work;
     const NewContact& c = contacts->front();
     return Error{ErrorCode::improper_contact,
-                 "what was invented meets other triangles: " + std::string(name_of(c.kind)),
+                 "what was interpolated meets other triangles: " + std::string(name_of(c.kind)),
                  "hole " + std::to_string(c.hole)};
 }
 
@@ -101,7 +101,7 @@ py::tuple fill(const py::sequence& surfaces, const py::dict& options,
                                     to_text(h.refused)));
     const HoledSurface& s = work->surfaces.at(0); // kept as it is for reports
     return py::make_tuple(from_surface(s.filled), s.given_vertices, s.given_triangles,
-                          owned(s.deviation), owned(s.invented), holes, work);
+                          owned(s.deviation), owned(s.interpolated), holes, work);
 }
 
 } // namespace
