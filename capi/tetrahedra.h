@@ -85,7 +85,7 @@ typedef struct terrane_shape_report {
 
 /// The volume of a block and that of its tetrahedra, in cubic units.
 typedef struct terrane_block_volume {
-    double block;      ///< nearest to the exact volume; [0]: negative, as the box is not counted
+    double block;      ///< nearest to the exact volume; [0], the outside: that of its tetrahedra
     double tetrahedra; ///< nearest to the exact sum of their volumes
     double difference; ///< nearest to the exact difference
     double bound;      ///< on the difference; 0 where no triangle of the block is divided

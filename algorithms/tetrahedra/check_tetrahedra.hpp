@@ -56,7 +56,7 @@ std::string message(const TetrahedraViolation& violation);
 
 /// The volume of a block and that of its tetrahedra, in cubic units of the input.
 struct BlockVolume {
-    double block = 0; ///< nearest to the exact volume; [0]: negative, as the box is not counted
+    double block = 0; ///< nearest to the exact volume; [0], the outside: that of its tetrahedra
     double tetrahedra = 0; ///< nearest to the exact sum of their volumes
     double difference = 0; ///< nearest to the exact difference, tetrahedra - block
     double bound = 0;      ///< on the difference: what nodes near the triangles of the block can
@@ -67,7 +67,7 @@ struct BlockVolume {
 /// The findings of check_tetrahedra().
 struct TetrahedraReport {
     std::vector<TetrahedraViolation> violations; ///< one per kind that occurs, in their order
-    std::vector<BlockVolume> volumes;            ///< per volume; [0], the outside, is not compared
+    std::vector<BlockVolume> volumes;            ///< per block
     TetrahedraShape shape;                       ///< of all tetrahedra; never a violation
 };
 

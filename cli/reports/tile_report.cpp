@@ -78,6 +78,13 @@ std::string rounding_text(const TiledReport& r, const RoundingReport* whole) {
                        r.deviation);
 }
 
+/// Lists the blocks from 1 on, as there is nothing to say of the outside.
+Json volumes_json(const std::vector<double>& measures, const std::vector<std::string>& names) {
+    return {{"all", measures[0]},
+            {"blocks", std::vector(measures.begin() + 1, measures.end())},
+            {"names", std::vector(names.begin() + 1, names.end())}};
+}
+
 std::string volumes_text(const std::vector<double>& measures,
                          const std::vector<std::string>& names) {
     constexpr std::size_t most = 50; // listed on the terminal
@@ -104,9 +111,7 @@ Json tile_json(const TiledReport& r, const RoundingReport* repaired, std::size_t
              {"most_in_a_tile", counts_of_work(r.largest)},
              {"all_tiles", counts_of_work(r.total)}};
     if (!r.digest.empty()) all["digest"] = r.digest;
-    if (r.volumes)
-        all["volumes"] = {
-            {"count", r.volumes->size() - 1}, {"measures", *r.volumes}, {"names", r.volume_names}};
+    if (r.volumes) all["volumes"] = volumes_json(*r.volumes, r.volume_names);
     return all;
 }
 

@@ -53,7 +53,7 @@ std::vector<Block> blocks_of(const std::string& model) {
     std::vector<Block> blocks;
     const auto json = Json::parse(model);
     for (const auto& block : json["blocks"])
-        blocks.push_back({block["name"], block["volume_written"]});
+        blocks.push_back({block["name"], block.value("volume_written", 0.0)});
     return blocks;
 }
 

@@ -43,12 +43,14 @@ def names_in(folder: Path):
 
 
 def volumes_of(arguments, mesh: Path, work: Path):
-    """What terrane volume finds in a mesh: all blocks together, then each."""
+    """What terrane volume finds in a mesh: all blocks together, and each."""
     folder = work / "volumes"
-    done = run([arguments.terrane, "volume", mesh, "-o", folder])
+    stats = work / "volumes.json"
+    done = run([arguments.terrane, "volume", mesh, "-o", folder, "--stats", stats])
     assert done.returncode == 0, (mesh, done.stderr)
-    blocks = json.loads((folder / "model.json").read_text())["blocks"]
-    return {"count": len(blocks) - 1, "measures": [b["volume"] for b in blocks], "names": [b["name"] for b in blocks]}
+    blocks = json.loads((folder / "model.json").read_text())["blocks"][1:]
+    return {"all": json.loads(stats.read_text())["volumes"]["all"], "blocks": [b["volume"] for b in blocks],
+            "names": [b["name"] for b in blocks]}
 
 
 def check_case(arguments, folder: Path, work: Path):

@@ -77,8 +77,9 @@ void add_blocks(const Mesh& mesh, const Volumes& volumes, Structure& structure) 
         auto& near = blocks[b].neighbours;
         std::sort(near.begin(), near.end());
         near.erase(std::unique(near.begin(), near.end()), near.end());
+        if (b == 0) continue; // the outside has no volume
         blocks[b].volume = volumes.measures[b];
-        if (b > 0) describe(shares[b], blocks[b]);
+        describe(shares[b], blocks[b]);
     }
 }
 
