@@ -27,6 +27,8 @@ std::size_t check_and_count_equal(const Filled& f) {
     const auto report = check_tetrahedra(f.tetrahedra, f.mesh, f.volumes);
     CHECK(text_of(report.violations) == "");
     REQUIRE(report.volumes.size() == f.volumes.measures.size());
+    CHECK(report.volumes[0].block == report.volumes[0].tetrahedra); // the outside
+    CHECK(report.volumes[0].equal);
     std::size_t equal = 0;
     for (std::size_t v = 1; v < report.volumes.size(); ++v) {
         CHECK(report.volumes[v].block == f.volumes.measures[v]);
@@ -43,7 +45,7 @@ const std::vector<Surface> faulted{box({0, 0, 0}, {8, 8, 8}, "box"), level(3, -1
 
 } // namespace
 
-TEST_CASE("tetrahedra: blocks are the blocks, with their numbers and exact volumes",
+TEST_CASE("tetrahedra: their blocks are those of the mesh, with numbers and exact volumes",
           "[tetrahedra]") {
     CHECK(check_and_count_equal(fill({cube(0, 4), cube(1, 2), box({2.5, 2, 2}, {3, 3, 3})})) == 3);
     CHECK(check_and_count_equal(fill({cube(0, 2), cube(1, 3)})) == 3);

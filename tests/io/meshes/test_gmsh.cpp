@@ -31,7 +31,7 @@ TEST_CASE("MSH: tetrahedra by block, then faces", "[io][gmsh]") {
                     "2 4 2 1\n3 1 2 3\n2 3 2 1\n4 1 2 4\n$EndElements\n") != text.npos);
 }
 
-TEST_CASE("MSH: blocks are called after the blocks, where those have names", "[io][gmsh]") {
+TEST_CASE("MSH: blocks have their names", "[io][gmsh]") {
     const std::vector<std::string> names{"ignored", "", "top/\"base\"|fault"};
     const std::string section = "3 10 \"outside\"\n3 12 \"block 2: top/'base'|fault\"\n$EndPhys";
     CHECK(to_msh(two_tetrahedra(), names).find(section) != std::string::npos);
