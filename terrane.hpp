@@ -20,8 +20,8 @@
 #include <terrane/algorithms/core/stage_times.hpp>
 #include <terrane/algorithms/intersection/contact_kind.hpp>
 #include <terrane/algorithms/layers/layers.hpp>
+#include <terrane/algorithms/mesh/block_point.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/mesh/region_point.hpp>
 #include <terrane/algorithms/mesh/shared_mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
@@ -61,7 +61,7 @@
 #include <terrane/algorithms/structure/column.hpp>
 #include <terrane/algorithms/structure/free_borders.hpp>
 #include <terrane/algorithms/structure/relations.hpp>
-#include <terrane/algorithms/structure/stated_regions.hpp>
+#include <terrane/algorithms/structure/stated_blocks.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/structure/structure_meshes.hpp>
 #include <terrane/algorithms/tetgen/fill_blocks.hpp>
@@ -73,8 +73,8 @@
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/algorithms/volume_of_interest/extension.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
+#include <terrane/algorithms/volumes/block_points.hpp>
 #include <terrane/algorithms/volumes/point_location.hpp>
-#include <terrane/algorithms/volumes/region_points.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/io/certificate.hpp>
 #include <terrane/io/column.hpp>

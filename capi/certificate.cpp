@@ -197,7 +197,7 @@ Status add_filled(const terrane_certified& given, CertifiedResult& result) {
         if (done.task.surface != s || done.given_triangles != result.surfaces[s].triangles.size())
             return unfit("are not those of `surfaces`, in their order", "holes");
         result.filled.push_back({&holes.surfaces.list[s], done.given_vertices, done.given_triangles,
-                                 done.invented, done.deviation});
+                                 done.interpolated, done.deviation});
     }
     return Done{};
 }

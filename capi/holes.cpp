@@ -192,5 +192,5 @@ const int32_t* terrane_holes_of_triangles(const terrane_holes* holes, size_t tas
                                           size_t* triangle_count) {
     if (!known(holes) || task >= holes->work.surfaces.size())
         return no_array<int32_t>(triangle_count);
-    return array_of<int32_t>(holes->work.surfaces[task].invented, triangle_count);
+    return array_of<int32_t>(holes->work.surfaces[task].interpolated, triangle_count);
 }

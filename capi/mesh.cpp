@@ -26,7 +26,7 @@ terrane_mesh::terrane_mesh(terrane::RoundedMesh made, Origin made_from) :
     report.max_move = r.max_move;
     report.surface_deviation = r.surface_deviation;
     report.max_allowed = r.max_allowed;
-    report.lost_length = r.lost_length;
+    report.vanished_length = r.vanished_length;
     report.deviation = r.deviation;
     report.moved_input_vertices = r.moved_input_vertices;
     report.merged_vertices = r.merged_vertices;

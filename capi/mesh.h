@@ -29,7 +29,7 @@ typedef struct terrane_rounding_report {
                                    ///< that it is part of, nor the reverse, except for what
                                    ///< vanished
     double max_allowed;            ///< the limit of surface_deviation
-    double lost_length;            ///< points of vanished slivers are at most so much farther from
+    double vanished_length;        ///< points of vanished slivers are at most so much farther from
                                    ///< the rest
     double deviation;              ///< of all points, vanished slivers included, both ways
     uint64_t moved_input_vertices; ///< number of input vertices that moved

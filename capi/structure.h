@@ -35,7 +35,7 @@ typedef struct terrane_model_interface {
 
 /// A block; [0] is the outside.
 typedef struct terrane_model_block {
-    double volume; ///< cubic unit: the exact volume of the mesh, rounded to a double
+    double volume; ///< cubic unit: the exact volume of the mesh, rounded to a double; outside: 0
     double area;   ///< of its boundary, squared unit
     double age;    ///< of the base of its unit, as in the column; NaN: none
 } terrane_model_block;

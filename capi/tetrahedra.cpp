@@ -114,7 +114,7 @@ using terrane::Status;
 terrane_tetrahedra::terrane_tetrahedra(terrane::FilledBlocks made) : filled(std::move(made)) {
     for (const terrane::TetrahedraViolation& v : filled.report.violations)
         violations.push_back(terrane::message(v));
-    for (const terrane::RegionVolume& v : filled.report.volumes)
+    for (const terrane::BlockVolume& v : filled.report.volumes)
         volumes.push_back({v.block, v.tetrahedra, v.difference, v.bound, v.equal ? 1 : 0, 0});
 }
 
@@ -161,8 +161,8 @@ const uint32_t* terrane_tetrahedra_cells(const terrane_tetrahedra* tetrahedra, s
                              : no_array<uint32_t>(count);
 }
 
-const uint32_t* terrane_tetrahedra_region_of(const terrane_tetrahedra* tetrahedra, size_t* count) {
-    return known(tetrahedra) ? array_of<uint32_t>(tetrahedra->filled.tetrahedra.region_of, count)
+const uint32_t* terrane_tetrahedra_block_of(const terrane_tetrahedra* tetrahedra, size_t* count) {
+    return known(tetrahedra) ? array_of<uint32_t>(tetrahedra->filled.tetrahedra.block_of, count)
                              : no_array<uint32_t>(count);
 }
 
@@ -199,19 +199,19 @@ const char* terrane_tetrahedra_surface_name(const terrane_tetrahedra* tetrahedra
                : nullptr;
 }
 
-size_t terrane_tetrahedra_region_count(const terrane_tetrahedra* tetrahedra) {
-    return known(tetrahedra) ? tetrahedra->filled.tetrahedra.region_count : 0;
+size_t terrane_tetrahedra_block_count(const terrane_tetrahedra* tetrahedra) {
+    return known(tetrahedra) ? tetrahedra->filled.tetrahedra.block_count : 0;
 }
 
-const char* terrane_tetrahedra_region_name(const terrane_tetrahedra* tetrahedra, size_t region) {
-    if (!known(tetrahedra) || region >= tetrahedra->filled.block_names.size()) return nullptr;
-    return tetrahedra->filled.block_names[region].c_str();
+const char* terrane_tetrahedra_block_name(const terrane_tetrahedra* tetrahedra, size_t block) {
+    if (!known(tetrahedra) || block >= tetrahedra->filled.block_names.size()) return nullptr;
+    return tetrahedra->filled.block_names[block].c_str();
 }
 
-const terrane_region_volume* terrane_tetrahedra_volumes(const terrane_tetrahedra* tetrahedra,
-                                                        size_t* region_count) {
-    return known(tetrahedra) ? array_of<terrane_region_volume>(tetrahedra->volumes, region_count)
-                             : no_array<terrane_region_volume>(region_count);
+const terrane_block_volume* terrane_tetrahedra_volumes(const terrane_tetrahedra* tetrahedra,
+                                                       size_t* block_count) {
+    return known(tetrahedra) ? array_of<terrane_block_volume>(tetrahedra->volumes, block_count)
+                             : no_array<terrane_block_volume>(block_count);
 }
 
 terrane_code terrane_tetrahedra_shape_report(const terrane_tetrahedra* tetrahedra,
@@ -234,7 +234,7 @@ terrane_code terrane_tetrahedra_write(const terrane_tetrahedra* tetrahedra, cons
         if (!given.violations.empty())
             return Error{ErrorCode::bad_option,
                          "the check found violations: " + given.violations[0], "tetrahedra"};
-        writing.region_names = given.filled.block_names;
+        writing.block_names = given.filled.block_names;
         return terrane::write_tetrahedra(given.filled.tetrahedra, file, writing);
     });
 }

@@ -84,14 +84,14 @@ typedef struct terrane_shape_report {
 } terrane_shape_report;
 
 /// The volume of a block and that of its tetrahedra, in cubic units.
-typedef struct terrane_region_volume {
-    double block;      ///< nearest to the exact volume; [0]: negative, as the box is not counted
+typedef struct terrane_block_volume {
+    double block;      ///< nearest to the exact volume; [0], the outside: that of its tetrahedra
     double tetrahedra; ///< nearest to the exact sum of their volumes
     double difference; ///< nearest to the exact difference
     double bound;      ///< on the difference; 0 where no triangle of the block is divided
     int32_t is_equal;  ///< 1: the two are exactly equal
     int32_t reserved;  ///< 0
-} terrane_region_volume;
+} terrane_block_volume;
 
 /// Gives options their defaults. Errors: BAD_ARGUMENT.
 TERRANE_API terrane_code terrane_tetrahedra_options_init(terrane_tetrahedra_options* options,
@@ -120,8 +120,8 @@ TERRANE_API const double* terrane_tetrahedra_vertices(const terrane_tetrahedra* 
 TERRANE_API const uint32_t* terrane_tetrahedra_cells(const terrane_tetrahedra* tetrahedra,
                                                      size_t* count);
 /// Returns, per tetrahedron, the number of its block; 0 is the outside.
-TERRANE_API const uint32_t* terrane_tetrahedra_region_of(const terrane_tetrahedra* tetrahedra,
-                                                         size_t* count);
+TERRANE_API const uint32_t* terrane_tetrahedra_block_of(const terrane_tetrahedra* tetrahedra,
+                                                        size_t* count);
 /// Returns the faces that lie on surfaces and on the box, 3 vertices each.
 TERRANE_API const uint32_t* terrane_tetrahedra_faces(const terrane_tetrahedra* tetrahedra,
                                                      size_t* face_count);
@@ -139,14 +139,14 @@ TERRANE_API size_t terrane_tetrahedra_surface_count(const terrane_tetrahedra* te
 /// Returns the name of a surface.
 TERRANE_API const char* terrane_tetrahedra_surface_name(const terrane_tetrahedra* tetrahedra,
                                                         size_t surface);
-/// Returns the number of regions, with the outside.
-TERRANE_API size_t terrane_tetrahedra_region_count(const terrane_tetrahedra* tetrahedra);
-/// Returns the name of the block of a region.
-TERRANE_API const char* terrane_tetrahedra_region_name(const terrane_tetrahedra* tetrahedra,
-                                                       size_t region);
-/// Returns, per region, its volume and that of its tetrahedra.
-TERRANE_API const terrane_region_volume*
-terrane_tetrahedra_volumes(const terrane_tetrahedra* tetrahedra, size_t* region_count);
+/// Returns the number of blocks, with the outside.
+TERRANE_API size_t terrane_tetrahedra_block_count(const terrane_tetrahedra* tetrahedra);
+/// Returns the name of a block.
+TERRANE_API const char* terrane_tetrahedra_block_name(const terrane_tetrahedra* tetrahedra,
+                                                      size_t block);
+/// Returns, per block, its volume and that of its tetrahedra.
+TERRANE_API const terrane_block_volume*
+terrane_tetrahedra_volumes(const terrane_tetrahedra* tetrahedra, size_t* block_count);
 /// Returns the program that made the tetrahedra, "TetGen" or "Gmsh".
 TERRANE_API const char* terrane_tetrahedra_mesher(const terrane_tetrahedra* tetrahedra);
 /// Copies the report about shapes; all is 0 where they were not improved. `struct_size` is

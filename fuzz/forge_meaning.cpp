@@ -270,7 +270,7 @@ std::optional<TetrahedralMesh> tetrahedra_of(const Subject& s, const Certificate
     const auto sound =
         std::ranges::all_of(mesh.tetrahedra, in_range) &&
         std::ranges::all_of(mesh.faces, in_range) &&
-        std::ranges::all_of(mesh.region_of, [&](auto b) { return b < mesh.region_count; }) &&
+        std::ranges::all_of(mesh.block_of, [&](auto b) { return b < mesh.block_count; }) &&
         std::ranges::all_of(mesh.twins, [&](const auto& twins) {
             return twins[0] < mesh.faces.size() && twins[1] < mesh.faces.size();
         });

@@ -217,7 +217,7 @@ Subject filled_subject(const Model3& surfaces, FillMethod method) {
     for (const HoledSurface& surface : work.surfaces) {
         filled.push_back(surface.filled);
         parts.push_back({&surface.filled, surface.given_vertices, surface.given_triangles,
-                         surface.invented, surface.deviation});
+                         surface.interpolated, surface.deviation});
     }
     const Mesh mesh = concatenate(filled);
     const std::vector<OutputRecord> outputs{

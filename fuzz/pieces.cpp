@@ -31,7 +31,7 @@ using fuzz::require;
 namespace {
 
 namespace fs = std::filesystem;
-using distribution::BlockPiece;
+using tiles::TilePiece;
 
 void write(const fs::path& path, std::string_view contents) {
     std::ofstream(path, std::ios::binary) << contents;
@@ -91,9 +91,9 @@ void check_files(std::string_view contents) {
 }
 
 /// Pieces that are mostly right, from a few bytes each.
-std::vector<BlockPiece> pieces_of(fuzz::Bytes& bytes) {
-    std::vector<BlockPiece> pieces(1 + bytes.below(3));
-    for (BlockPiece& piece : pieces) {
+std::vector<TilePiece> pieces_of(fuzz::Bytes& bytes) {
+    std::vector<TilePiece> pieces(1 + bytes.below(3));
+    for (TilePiece& piece : pieces) {
         Mesh& mesh = piece.mesh;
         const unsigned surfaces = bytes.below(8) == 7 ? bytes.below(4) : 2;
         for (unsigned s = 0; s < surfaces; ++s)
@@ -125,10 +125,10 @@ std::vector<BlockPiece> pieces_of(fuzz::Bytes& bytes) {
 }
 
 /// Returns the mesh that the pieces are, or none. Of regions and parents files keep the first.
-std::optional<Mesh> expected_of(const std::vector<BlockPiece>& pieces) {
+std::optional<Mesh> expected_of(const std::vector<TilePiece>& pieces) {
     std::map<std::uint32_t, Point3> vertices;
-    std::map<std::uint32_t, std::pair<const BlockPiece*, std::size_t>> triangles;
-    for (const BlockPiece& piece : pieces) {
+    std::map<std::uint32_t, std::pair<const TilePiece*, std::size_t>> triangles;
+    for (const TilePiece& piece : pieces) {
         const Mesh& m = piece.mesh;
         if (m.surfaces.empty() || m.surfaces != pieces[0].mesh.surfaces) return std::nullopt;
         for (std::size_t v = 0; v < m.vertices.size(); ++v) {
@@ -170,7 +170,7 @@ std::optional<Mesh> expected_of(const std::vector<BlockPiece>& pieces) {
 void check_pieces(fuzz::Bytes& bytes) {
     const auto pieces = pieces_of(bytes);
     std::vector<std::string> texts, names;
-    for (const BlockPiece& piece : pieces) {
+    for (const TilePiece& piece : pieces) {
         names.push_back(std::to_string(texts.size()) + ".vtp");
         texts.push_back(to_vtp_piece(piece));
     }

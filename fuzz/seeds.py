@@ -494,8 +494,8 @@ def shapefile(kind, corners):
             bytes(32) + record)
 
 
-def blocks():
-    """Soups, and triangles in few doubles, far from the origin (blocks.cpp)."""
+def tiles():
+    """Soups, and triangles in few doubles, far from the origin (tiles.cpp)."""
     yield from soups()
     for count, far, spacings, lattice in ((16, 0, 2, 4), (48, 1, 0, 7), (64, 2, 3, 3), (88, 0, 3, 4), (104, 3, 1, 5)):
         yield f"few-doubles-{count}", bytes([0x10, far, far, far, spacings, lattice - 2, count // 8 - 1, 1, count])
@@ -510,7 +510,7 @@ def main():
                "forge_layered": lambda: forge_kind(5), "forge_cut": lambda: forge_kind(4, 1),
                "forge_sealed": forge_sealed,
                "arrange": soups, "rounding": soups, "crowded": crowded, "regions": soups,
-                "blocks": blocks, "known": soups,
+                "tiles": tiles, "known": soups,
                 "volumes": soups, "tetrahedra": soups, "pieces": pieces,
                 "kept": kept}
     seeds = {t: dict(make()) for t, make in targets.items()}

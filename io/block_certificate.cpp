@@ -53,7 +53,7 @@ void write_tetrahedra(CertificateWriter& out, const TetrahedralMesh& tetrahedra)
     out.raw(",\n\"tetrahedra\":");
     out.arrays(tetrahedra.tetrahedra);
     out.raw(",\n\"blocks\":");
-    out.numbers(tetrahedra.region_of);
+    out.numbers(tetrahedra.block_of);
     out.raw(",\n\"faces\":");
     out.arrays(tetrahedra.faces);
     out.raw(",\n\"triangles\":");

@@ -189,11 +189,11 @@ Result<std::string> to_cut_certificate(const Certified& cut, const CutRecord& re
 
 /// A surface whose holes were filled.
 struct FilledRecord {
-    const Surface* filled = nullptr;          ///< what was given, then what is new
-    std::size_t given_vertices = 0;           ///< its first ones
-    std::size_t given_triangles = 0;          ///< its first ones
-    std::span<const std::int32_t> invented{}; ///< per triangle: the number of its hole, or 0
-    std::span<const double> deviation{};      ///< per vertex: its expected error; NaN: unknown
+    const Surface* filled = nullptr;              ///< what was given, then what is new
+    std::size_t given_vertices = 0;               ///< its first ones
+    std::size_t given_triangles = 0;              ///< its first ones
+    std::span<const std::int32_t> interpolated{}; ///< per triangle: the number of its hole, or 0
+    std::span<const double> deviation{};          ///< per vertex: its expected error; NaN: unknown
 };
 
 /// Returns the text of a certificate of the kind "filled". It has the keys "format" to "outputs" of

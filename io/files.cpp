@@ -181,11 +181,11 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
     case Format::vtk:
         return to_vtk(mesh);
     case Format::poly:
-        return to_poly(mesh, options.regions);
+        return to_poly(mesh, options.block_points);
     case Format::smesh:
-        return to_smesh(mesh, options.regions);
+        return to_smesh(mesh, options.block_points);
     case Format::vtp:
-        return to_vtp(mesh, options.compress, options.cells, options.region_names);
+        return to_vtp(mesh, options.compress, options.cells, options.block_names);
     case Format::vset:
         return to_vset(mesh);
     case Format::pline:
@@ -207,29 +207,29 @@ Result<SeveralFiles> one_file(Result<std::string> contents) {
 /// Returns the files of tetrahedra, of second order with `nodes`.
 Result<SeveralFiles> files_of(const TetrahedralMesh& mesh, Format format, const fs::path& path,
                               const WriteOptions& options, const EdgeNodes* nodes) {
-    const auto& regions = options.region_names;
+    const auto& names = options.block_names;
     const VtkFiles vtk{path.stem().string(), options.compress};
     switch (format) {
     case Format::vtu:
-        return one_file(to_vtu(mesh, options.compress, options.cells, regions, nodes));
+        return one_file(to_vtu(mesh, options.compress, options.cells, names, nodes));
     case Format::msh:
-        return one_file(to_msh(mesh, regions, nodes));
+        return one_file(to_msh(mesh, names, nodes));
     case Format::msh22:
-        return one_file(to_msh22(mesh, regions, nodes));
+        return one_file(to_msh22(mesh, names, nodes));
     case Format::inp:
-        return one_file(to_abaqus(mesh, regions, nodes));
+        return one_file(to_abaqus(mesh, names, nodes));
     case Format::medit:
         return one_file(to_medit(mesh));
     case Format::exodus:
-        return one_file(to_exodus(mesh, regions, nodes));
+        return one_file(to_exodus(mesh, names, nodes));
     case Format::pylith:
         return one_file(to_pylith(mesh));
     case Format::ogs:
-        return to_opengeosys(mesh, vtk, regions, nodes);
+        return to_opengeosys(mesh, vtk, names, nodes);
     case Format::geos:
-        return to_geos(mesh, vtk, regions);
+        return to_geos(mesh, vtk, names);
     case Format::ugi:
-        return to_pflotran(mesh, vtk.stem, regions);
+        return to_pflotran(mesh, vtk.stem, names);
     default:
         break;
     }
@@ -374,22 +374,22 @@ Result<GocadModel> read_model(const fs::path& path) {
     });
 }
 
-std::vector<StatedRegion> read_stated_regions(const fs::path& path, std::optional<Format> format) {
+std::vector<StatedBlock> read_stated_blocks(const fs::path& path, std::optional<Format> format) {
     const StandardArithmetic guard;
     const auto chosen = format ? format : format_of(path);
     if (path == "-" || chosen != Format::gocad) return {};
     const auto contents = read_file(path);
     if (!contents || contents->find("Model3d") == std::string::npos) return {};
     const auto model = read_gocad_model(*contents, path.string(), path.stem().string());
-    return model ? stated_regions_of(*model) : std::vector<StatedRegion>();
+    return model ? stated_blocks_of(*model) : std::vector<StatedBlock>();
 }
 
-void append_regions(std::vector<StatedRegion> regions, std::size_t before,
-                    std::vector<StatedRegion>& all) {
-    for (StatedRegion& region : regions) {
-        for (StatedBorder& border : region.borders)
+void append_stated_blocks(std::vector<StatedBlock> stated, std::size_t before,
+                          std::vector<StatedBlock>& all) {
+    for (StatedBlock& block : stated) {
+        for (StatedBorder& border : block.borders)
             border.surface = SurfaceId(border.surface + static_cast<std::uint32_t>(before));
-        all.push_back(std::move(region));
+        all.push_back(std::move(block));
     }
 }
 

@@ -13,7 +13,7 @@
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/structure/stated_regions.hpp>
+#include <terrane/algorithms/structure/stated_blocks.hpp>
 #include <terrane/io/gocad/gocad.hpp>
 #include <terrane/io/grids/grid.hpp>
 #include <terrane/io/meshes/cell_array.hpp>
@@ -100,15 +100,15 @@ Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::stri
 /// Reads a GOCAD model with its parts and regions. Errors: those of read_surfaces.
 Result<GocadModel> read_model(const std::filesystem::path& path);
 
-/// Reads the regions that a file states, by its surfaces in the order of read_surfaces(): those of
+/// Reads the blocks that a file states, by its surfaces in the order of read_surfaces(): those of
 /// the first model of a GOCAD file but the outside, "Universe". There are none in other formats, in
 /// standard input, and where read_model() fails. Cost: that of reading a file with a model again.
-std::vector<StatedRegion> read_stated_regions(const std::filesystem::path& path,
-                                              std::optional<Format> format = std::nullopt);
+std::vector<StatedBlock> read_stated_blocks(const std::filesystem::path& path,
+                                            std::optional<Format> format = std::nullopt);
 
-/// Appends regions of a file whose surfaces follow `before` others.
-void append_regions(std::vector<StatedRegion> regions, std::size_t before,
-                    std::vector<StatedRegion>& all);
+/// Appends stated blocks of a file whose surfaces follow `before` others.
+void append_stated_blocks(std::vector<StatedBlock> stated, std::size_t before,
+                          std::vector<StatedBlock>& all);
 
 /// Options of write_mesh() and write_tetrahedra().
 struct WriteOptions {
@@ -116,10 +116,10 @@ struct WriteOptions {
     bool ascii = false;                 ///< STL only: text instead of binary
     bool compress = true;               ///< VTP and VTU only: zlib
     std::span<const CellArray> cells{}; ///< VTP and VTU only: further arrays, one value per cell
-    std::span<const RegionPoint> regions{}; ///< .poly and .smesh only
-    /// Tetrahedra, but not .mesh: the name of each region; VTP: names of blocks, for the field
+    std::span<const BlockPoint> block_points{}; ///< .poly and .smesh only
+    /// Tetrahedra, but not .mesh: the name of each block; VTP: names of blocks, for the field
     /// block_name; empty: none
-    std::span<const std::string> region_names{};
+    std::span<const std::string> block_names{};
     /// Tetrahedra only: 2 puts a node in the middle of each edge (edge_nodes.hpp)
     unsigned order = 1;
 };

@@ -79,14 +79,15 @@ double limit_of(const FilledRecord& record) {
 }
 
 void write_expected_errors(CertificateWriter& out, std::span<const FilledRecord> filled) {
-    std::vector<std::uint32_t> invented;
+    std::vector<std::uint32_t> interpolated;
     std::vector<double> deviation;
     for (const FilledRecord& record : filled) {
-        invented.insert(invented.end(), record.invented.begin(), record.invented.end());
+        interpolated.insert(interpolated.end(), record.interpolated.begin(),
+                            record.interpolated.end());
         deviation.insert(deviation.end(), record.deviation.begin(), record.deviation.end());
     }
     out.raw(",\n\"invented\":");
-    out.numbers(invented);
+    out.numbers(interpolated);
     out.raw(",\n\"deviation\":");
     out.array(deviation, [&](double error) {
         if (std::isnan(error))

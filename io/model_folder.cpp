@@ -169,7 +169,7 @@ private:
         const auto block_names = names_of_blocks();
         WriteOptions options;
         options.cells = cells;
-        options.region_names = block_names;
+        options.block_names = block_names;
         return write_mesh(model_.mesh, folder_ / "result.vtp", options);
     }
 
@@ -188,7 +188,7 @@ private:
         options.format = format_named(form_.format);
         options.ascii = true; // binary STL would round the checked coordinates
         options.cells = cells;
-        options.region_names = block_names;
+        options.block_names = block_names;
         return write_mesh(part.mesh, folder_ / file, options);
     }
 

@@ -128,8 +128,8 @@ Result<ProjectInputs> read_inputs(const Project& project, const Run& run) {
             if (!surfaces) return surfaces.error();
             read.surfaces_of_entry.push_back(surfaces->size());
             if (entry.objects.empty()) // otherwise numbers are not those of the file
-                append_regions(read_stated_regions(entry.file), read.build.surfaces.size(),
-                               read.build.regions);
+                append_stated_blocks(read_stated_blocks(entry.file), read.build.surfaces.size(),
+                                     read.build.stated_blocks);
             for (Surface& s : *surfaces) {
                 read.vertices += s.vertices.size();
                 read.triangles += s.triangles.size();

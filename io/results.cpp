@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/volumes/region_points.hpp>
+#include <terrane/algorithms/volumes/block_points.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/certify.hpp>
 #include <terrane/io/files.hpp>
@@ -39,14 +39,14 @@ private:
         const Model& model = results_.model;
         WriteOptions options;
         options.ascii = true; // binary STL would round the checked coordinates
-        std::vector<RegionPoint> points;
+        std::vector<BlockPoint> points;
         for (const std::string& format : results_.project.outputs.surfaces) {
             options.format = format_named(format);
             if (points.empty() && (format == "poly" || format == "smesh")) {
-                auto found = region_points(model.mesh, model.volumes, run_);
+                auto found = block_points(model.mesh, model.volumes, run_);
                 if (!found) return found.error();
                 points = *std::move(found);
-                options.regions = points;
+                options.block_points = points;
             }
             written_.push_back(file_name("surfaces", format));
             if (auto done = write_mesh(model.mesh, folder_ / written_.back(), options); !done)
@@ -58,7 +58,7 @@ private:
     Status write_cells() {
         if (results_.filled == nullptr) return Done{};
         WriteOptions options;
-        options.region_names = results_.filled->block_names;
+        options.block_names = results_.filled->block_names;
         options.order = results_.project.tetrahedra.order;
         for (const std::string& format : results_.project.outputs.tetrahedra) {
             options.format = format_named(format);

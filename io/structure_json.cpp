@@ -46,8 +46,10 @@ Json blocks_json(const Structure& structure, const StructureExtras& extras) {
         Json json{{"name", block.name}};
         if (!block.unit.empty()) json["unit"] = block.unit;
         if (block.age) json["age"] = *block.age;
-        if (!extras.exact_volumes.empty()) json["volume"] = number(extras.exact_volumes[b]);
-        json["volume_written"] = number(block.volume);
+        if (b > 0) { // the outside has no volume
+            if (!extras.exact_volumes.empty()) json["volume"] = number(extras.exact_volumes[b]);
+            json["volume_written"] = number(block.volume);
+        }
         json["area"] = number(block.area);
         json["above"] = block.above;
         json["below"] = block.below;

@@ -21,7 +21,7 @@ GROUPS = [
     ("Results", "Arrangement RoundedMesh RoundingReport Mesh CheckReport Contact Regions Region Volumes Structure "
                 "Corner Line Patch InterfaceParts BlockParts VolumeOfInterest SurfaceCut OpenBorder Sealed "
                 "SealChange ClosedGap OpenGap SealAdvice SealTrial Improved BorderLoop Filled FilledHole FillReport "
-                "Layered LayerReport OutOfOrder Tetrahedra RegionVolume Violation Verdict VerifiedFile RuleViolation "
+                "Layered LayerReport OutOfOrder Tetrahedra BlockVolume Violation Verdict VerifiedFile RuleViolation "
                 "Built Ensemble BlockOutcome Juxtaposed Failure"),
     ("Small things", "IndexLists SurfaceInfo NO_INDEX HAS_REPORTS keep_freed_memory Error OutOfMemory ERROR_CODES"),
 ]

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-3.0-or-later
 #
-# Makes conforming meshes, regions and tetrahedra from real surfaces: sets up, builds the library
+# Makes conforming meshes, blocks and tetrahedra from real surfaces: sets up, builds the library
 # and the program, and runs it on models of tests/data. It writes into out/demo.
 # scripts/demo.sh PROGRAM OUT runs a program that is built already, and writes into OUT.
 set -euo pipefail
@@ -42,14 +42,14 @@ expect "$out/faults-topography.json" search.improper_contacts 3382
 run "$terrane" check "$out/faults-topography.obj"
 run "$terrane" tetrahedralize "${model[@]}" -o "$out/faults-topography.vtu" >/dev/null
 
-say "modelA1, three horizons in a box; the model states 5 regions, the outside included"
+say "modelA1, three horizons in a box; the model states 5 blocks, the outside included"
 model=(tests/data/ringmesh/modelA1.ml)
 run "$terrane" arrange "${model[@]}" -o "$out/modelA1.vtp" -o "$out/modelA1.obj" >/dev/null
 run "$terrane" check "$out/modelA1.obj"
 run "$terrane" tetrahedralize "${model[@]}" -o "$out/modelA1.vtu" --stats "$out/modelA1.json"
 expect "$out/modelA1.json" tetrahedra.regions 5
 
-say "modelA2, three horizons and two faults; the model states 13 regions, the outside included"
+say "modelA2, three horizons and two faults; the model states 13 blocks, the outside included"
 run "$terrane" tetrahedralize tests/data/ringmesh/modelA2.ml -o "$out/modelA2.vtu" \
     -o "$out/modelA2.msh" --stats "$out/modelA2.json"
 expect "$out/modelA2.json" tetrahedra.regions 13
@@ -67,7 +67,7 @@ cat <<END
 
 To look at it:
   browser   open ${page[1]:-(this build has no pages)}: blocks, tetrahedra, sections
-  ParaView  open $out/simulator/tetrahedra.vtu or $out/modelA2.vtu, Threshold on region from 1, Explode Data, colour by region
+  ParaView  open $out/simulator/tetrahedra.vtu or $out/modelA2.vtu, Threshold on block from 1, Explode Data, colour by block
             open $out/faults-topography.vtp, colour by surface, "Surface With Edges"
   gmsh      gmsh $out/modelA2.msh
   picture   xvfb-run -a scripts/picture.py   (needs python3-vtk9, python3-numpy, xvfb)

@@ -165,10 +165,10 @@ def draw(model, folder, target):
     window.SetSize(*SIZE)
     renderer = picture.panel(window, 0.0, 1.0)
     if model.shows == "blocks":
-        points, tetrahedra, region = picture.tetrahedra_of(str(folder / "model.vtu"))
+        points, tetrahedra, block_of = picture.tetrahedra_of(str(folder / "model.vtu"))
         points = (points - points.mean(axis=0)) / np.ptp(points, axis=0).max() * (1, 1, model.heights)
-        for r in range(1, region.max() + 1):
-            block = tetrahedra[region == r]
+        for r in range(1, block_of.max() + 1):
+            block = tetrahedra[block_of == r]
             away = points[np.unique(block)].mean(axis=0) * (0.35, 0.2, 0.7)
             renderer.AddActor(picture.actor(picture.poly_data(points + away, picture.border_faces(block), 3),
                                             picture.MUTED[(5 * r) % len(picture.MUTED)], edges=0.8))

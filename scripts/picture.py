@@ -44,14 +44,14 @@ def surfaces_of(path):
 
 
 def tetrahedra_of(path):
-    """Returns points, tetrahedra and the region of each tetrahedron."""
+    """Returns points, tetrahedra and the block of each tetrahedron."""
     data = read(vtk.vtkXMLUnstructuredGridReader(), path)
     points = vtk_to_numpy(data.GetPoints().GetData()).astype(float)
     is_tetrahedron = vtk_to_numpy(data.GetCellTypesArray()) == vtk.VTK_TETRA
     corners = vtk_to_numpy(data.GetCells().GetConnectivityArray())
     count = int(is_tetrahedron.sum())  # they come before the faces
-    region = vtk_to_numpy(data.GetCellData().GetArray("region"))
-    return points, corners[:4 * count].reshape(-1, 4), region[:count]
+    block_of = vtk_to_numpy(data.GetCellData().GetArray("block"))
+    return points, corners[:4 * count].reshape(-1, 4), block_of[:count]
 
 
 def poly_data(points, cells, kind):
@@ -170,11 +170,11 @@ def layer_colours(centres):
 
 
 def draw_tetrahedra(renderer, path):
-    points, tetrahedra, region = tetrahedra_of(path)
-    whole = points[tetrahedra[region > 0]].reshape(-1, 3)
+    points, tetrahedra, block_of = tetrahedra_of(path)
+    whole = points[tetrahedra[block_of > 0]].reshape(-1, 3)
     middle = (whole.min(axis=0) + whole.max(axis=0)) / 2
     points = (points - middle) / (whole.max(axis=0) - whole.min(axis=0)).max()
-    blocks = [tetrahedra[region == r] for r in range(1, region.max() + 1)]
+    blocks = [tetrahedra[block_of == r] for r in range(1, block_of.max() + 1)]
     centres = np.array([points[np.unique(b)].mean(axis=0) for b in blocks])
     colours = layer_colours(centres)
     for i, block in enumerate(blocks):

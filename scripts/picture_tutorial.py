@@ -27,10 +27,10 @@ def draw_surfaces(renderer, path):
 
 
 def draw_blocks(renderer, path):
-    points, tetrahedra, region = picture.tetrahedra_of(path)
+    points, tetrahedra, block_of = picture.tetrahedra_of(path)
     points = (points - points.mean(axis=0)) / 1000
-    for r in range(1, region.max() + 1):
-        block = tetrahedra[region == r]
+    for r in range(1, block_of.max() + 1):
+        block = tetrahedra[block_of == r]
         centre = points[np.unique(block)].mean(axis=0)
         colour = picture.LAYERS[(r - 1) % 3 if r <= 3 else 6 - r] * (1.0 if r <= 3 else 0.9)
         data = picture.poly_data(points + centre * (0.25, 0, 0.55), picture.border_faces(block), 3)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Compares a model that is arranged in blocks of space with the same one arranged as a whole.
+"""Compares a model that is arranged in tiles with the same one arranged as a whole.
 
     scripts/scale_digests.py [--terrane FILE] [--terrane-mpi FILE] [--processes 1,2,3,4,7] [--memory 4GiB] INPUT...
     scripts/scale_digests.py --write FOLDER [--million 20]
 
-The digest of the exact result must be the same for all numbers of processes and, with --memory, for blocks one after
+The digest of the exact result must be the same for all numbers of processes and, with --memory, for tiles one after
 the other on disk, and `terrane convert` must make the bytes of the whole of them. A row for each says so, with the peak
 of memory (of the largest process) and the seconds of processor time. The status is 1 if anything differs.
 With --write, FOLDER gets a model of so many million triangles: ten waves and four slanted walls, as binary PLY.
@@ -80,7 +80,7 @@ def main():
     parser.add_argument("--terrane-mpi", default=ROOT / "build/release/cli/terrane-mpi", type=Path)
     parser.add_argument("--mpirun", default="mpirun")
     parser.add_argument("--processes", default="1,2,3,4,7", help="numbers of processes; may be empty")
-    parser.add_argument("--memory", help="blocks on disk, in so much memory")
+    parser.add_argument("--memory", help="tiles on disk, in so much memory")
     parser.add_argument("--write", type=Path, metavar="FOLDER")
     parser.add_argument("--million", type=float, default=20)
     parser.add_argument("inputs", nargs="*")

@@ -30,12 +30,12 @@ def main():
     parser.add_argument("--processes", default="1,2,4,8")
     parser.add_argument("inputs", nargs="+")
     arguments = parser.parse_args()
-    print("| Blocks | Faces, most | Faces, all | Triangles, most | Pairs, all | Predicates, most | Messages, most "
+    print("| Tiles | Faces, most | Faces, all | Triangles, most | Pairs, all | Predicates, most | Messages, most "
           "| MB sent, most | MB sent, all | MB held, most |")
     print("|---" * 10 + "|")
     for processes in map(int, arguments.processes.split(",")):
         found = counters(arguments, processes)
-        most, whole = found["most_in_a_block"], found["all_blocks"]
+        most, whole = found["most_in_a_tile"], found["all_tiles"]
         numbers = [f"{n:,}".replace(",", " ") for n in (
             most["faces"], whole["faces"], most["triangles"], whole["candidates"], most["predicates"], most["messages"])]
         sizes = [f"{n / 1e6:.1f}" for n in (most["bytes"], whole["bytes"], most["memory"])]

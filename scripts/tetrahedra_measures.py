@@ -19,12 +19,12 @@ FACES = ((1, 3, 2), (0, 2, 3), (0, 3, 1), (0, 1, 2))  # opposite to corner 0, ..
 class Tetrahedra:
     points: numpy.ndarray
     corners: numpy.ndarray
-    regions: numpy.ndarray
+    blocks: numpy.ndarray
 
 
 def read_medit(path):
     words = (w for line in pathlib.Path(path).read_text().splitlines() if not line.startswith("#") for w in line.split())
-    points, corners, regions = None, None, None
+    points, corners, blocks = None, None, None
     for word in words:
         if word == "Vertices":
             count = int(next(words))
@@ -35,10 +35,10 @@ def read_medit(path):
         elif word == "Tetrahedra":
             count = int(next(words))
             rows = numpy.array([int(next(words)) for _ in range(5 * count)]).reshape(count, 5)
-            corners, regions = rows[:, :4] - 1, rows[:, 4]
+            corners, blocks = rows[:, :4] - 1, rows[:, 4]
         elif word == "End":
             break
-    return Tetrahedra(points, corners, regions)
+    return Tetrahedra(points, corners, blocks)
 
 
 def write_medit(mesh, path):
@@ -46,12 +46,12 @@ def write_medit(mesh, path):
     rows = ["MeshVersionFormatted 2", "Dimension 3", "Vertices", str(len(mesh.points))]
     rows += [f"{x!r} {y!r} {z!r} 0" for x, y, z in mesh.points.tolist()]
     rows += ["Tetrahedra", str(len(mesh.corners))]
-    rows += [" ".join(map(str, row)) for row in numpy.column_stack([mesh.corners + 1, mesh.regions]).tolist()]
+    rows += [" ".join(map(str, row)) for row in numpy.column_stack([mesh.corners + 1, mesh.blocks]).tolist()]
     pathlib.Path(path).write_text("\n".join([*rows, "End", ""]))
 
 
 def read_tetgen(stem):
-    """What TetGen wrote: STEM.node and STEM.ele, numbered from 0, with regions."""
+    """What TetGen wrote: STEM.node and STEM.ele, numbered from 0, with blocks."""
     rows = [line.split() for line in pathlib.Path(f"{stem}.node").read_text().splitlines() if not line.startswith("#")]
     points = numpy.array([[float(x) for x in row[1:4]] for row in rows[1:] if row])
     rows = [line.split() for line in pathlib.Path(f"{stem}.ele").read_text().splitlines() if not line.startswith("#")]
@@ -132,7 +132,7 @@ def judge(mesh, points, triangles, volume):
     return {"tetrahedra": len(mesh.corners), "least": float(least.min()), "greatest": float(angles.max()),
             "bad": int((least < BAD).sum()), "share": 100 * float((least < BAD).mean()),
             "mean_ratio": float(mean_ratios(mesh.points, mesh.corners).min()),
-            "inverted": int((volumes <= 0).sum()), "regions": len(set(mesh.regions.tolist())),
+            "inverted": int((volumes <= 0).sum()), "blocks": len(set(mesh.blocks.tolist())),
             "unfilled": float(abs(volumes.sum() / volume - 1)), "divided": divided_triangles(mesh, points, triangles)}
 
 

@@ -139,7 +139,7 @@ class Meshers:
         self.sides = sides_of(mesh, measures.nodes_at(mesh, points)[triangles])
         self.points, self.facets, self.triangles = points, [list(map(int, t)) for t in triangles], triangles
         if not self.model.in_box:
-            self.add_box(low, high, int(mesh.regions.min()))
+            self.add_box(low, high, int(mesh.blocks.min()))
         return self.surfaces, mesh, used
 
     def add_box(self, low, high, outside):
@@ -168,7 +168,7 @@ class Meshers:
         numpy.savez(self.folder / "gmsh.npz", points=self.points, facets=self.facets, sides=self.sides)
         used = run([sys.executable, __file__, "--gmsh", self.folder], self.folder, self.options.seconds)
         made = numpy.load(self.folder / "made.npz")
-        return self.surfaces, measures.Tetrahedra(made["points"], made["corners"], made["regions"]), used
+        return self.surfaces, measures.Tetrahedra(made["points"], made["corners"], made["blocks"]), used
 
     def cgal(self):
         if not self.options.remesh.exists():
@@ -181,17 +181,17 @@ class Meshers:
 
 
 def sides_of(mesh, triangles):
-    """The regions on both sides of each triangle; -1 where there is none."""
-    regions = {}
+    """The blocks on both sides of each triangle; -1 where there is none."""
+    blocks = {}
     for columns in measures.FACES:
-        for face, region in zip(numpy.sort(mesh.corners[:, list(columns)], axis=1).tolist(), mesh.regions.tolist()):
-            regions.setdefault(tuple(face), []).append(region)
-    found = [sorted(regions.get(tuple(face), []))[:2] for face in numpy.sort(triangles, axis=1).tolist()]
+        for face, block in zip(numpy.sort(mesh.corners[:, list(columns)], axis=1).tolist(), mesh.blocks.tolist()):
+            blocks.setdefault(tuple(face), []).append(block)
+    found = [sorted(blocks.get(tuple(face), []))[:2] for face in numpy.sort(triangles, axis=1).tolist()]
     return numpy.array([(list(reversed(f)) + [-1, -1])[:2] for f in found])
 
 
 def run_gmsh(folder):
-    """A process of its own: one volume per region, bounded by the triangles between it and others."""
+    """A process of its own: one volume per block, bounded by the triangles between it and others."""
     import gmsh
     given = numpy.load(folder / "gmsh.npz")
     points, facets, sides = given["points"], given["facets"], given["sides"]
@@ -212,28 +212,28 @@ def run_gmsh(folder):
         if pair[0] == pair[1]:
             within.setdefault(pair[0], []).append(number)
         else:
-            for region in pair:
-                around.setdefault(region, []).append(number)
+            for block in pair:
+                around.setdefault(block, []).append(number)
     around.pop(-1, None)
-    for volume, region in enumerate(sorted(around), 1):
-        gmsh.model.geo.addSurfaceLoop(around[region], volume)
+    for volume, block in enumerate(sorted(around), 1):
+        gmsh.model.geo.addSurfaceLoop(around[block], volume)
         gmsh.model.geo.addVolume([volume], volume)
     gmsh.model.geo.synchronize()
-    for volume, region in enumerate(sorted(around), 1):
-        if region in within:
-            gmsh.model.mesh.embed(2, within[region], 3, volume)
+    for volume, block in enumerate(sorted(around), 1):
+        if block in within:
+            gmsh.model.mesh.embed(2, within[block], 3, volume)
     gmsh.model.mesh.generate(3)
     tags, coordinates, _ = gmsh.model.mesh.getNodes()
     index = numpy.zeros(int(tags.max()) + 1, int)
     index[tags.astype(int)] = numpy.arange(len(tags))
-    corners, regions = [], []
+    corners, blocks = [], []
     for _, volume in gmsh.model.getEntities(3):
         _, nodes = gmsh.model.mesh.getElementsByType(4, volume)
         corners.append(index[nodes.astype(int)].reshape(-1, 4).astype(int)) # an empty list is one of floats
-        regions += [volume] * len(corners[-1])
-    if not regions:
+        blocks += [volume] * len(corners[-1])
+    if not blocks:
         sys.exit("Gmsh made no tetrahedra")
-    numpy.savez(folder / "made.npz", points=coordinates.reshape(-1, 3), corners=numpy.vstack(corners), regions=regions)
+    numpy.savez(folder / "made.npz", points=coordinates.reshape(-1, 3), corners=numpy.vstack(corners), blocks=blocks)
 
 
 # ---- Rows
@@ -268,7 +268,7 @@ def row(model, mesher, make, volume=None):
         volume = float((mesh.points.max(axis=0) - mesh.points.min(axis=0)).prod())
     figures = measures.judge(mesh, surfaces[0], surfaces[1], volume)
     figures["seconds"] = used
-    figures["blocks"] = len(numpy.unique(mesh.regions))
+    figures["blocks"] = len(numpy.unique(mesh.blocks))
     line = f"| {model} | {mesher} | {told(mesh, figures, surfaces, used)} |"
     if figures["inverted"] or figures["unfilled"] > 1e-9:
         line += f" {figures['inverted']} inverted, {figures['unfilled']:.1g} of the volume wrong"

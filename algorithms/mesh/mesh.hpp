@@ -44,7 +44,7 @@ struct TetrahedralMesh {
     std::vector<Point3> vertices;      ///< unit of the input
     std::vector<std::array<std::uint32_t, 4>>
         tetrahedra;                           ///< positively oriented: orient3d(0,1,2,3) > 0
-    std::vector<std::uint32_t> region_of;     ///< per tetrahedron: 0 is the outside (touches
+    std::vector<std::uint32_t> block_of;      ///< per tetrahedron: 0 is the outside (touches
                                               ///< the box), then the blocks (volumes.hpp)
     std::vector<Triangle> faces;              ///< faces of tetrahedra that lie on a surface
     std::vector<std::uint32_t> face_triangle; ///< per face: triangle of the mesh it is part of,
@@ -53,9 +53,9 @@ struct TetrahedralMesh {
     std::vector<std::array<std::uint32_t, 2>>
         twins; ///< pairs of faces, in front of and behind a cut (split_nodes.hpp): corner by
                ///< corner at the same place; none: nodes are not split
-    std::uint32_t region_count = 0; ///< with the outside
-    std::string mesher{};           ///< the program that made it: "TetGen" or "Gmsh"
-    std::string failure{};          ///< why another mesher, asked before, made none; or empty
+    std::uint32_t block_count = 0; ///< with the outside
+    std::string mesher{};          ///< the program that made it: "TetGen" or "Gmsh"
+    std::string failure{};         ///< why another mesher, asked before, made none; or empty
 };
 
 } // namespace terrane

@@ -145,15 +145,15 @@ Status validate_indices(const Mesh& mesh, const Run& run) {
 
 Status validate_indices(const TetrahedralMesh& mesh, const Run& run) {
     const std::size_t faces = mesh.faces.size();
-    if (mesh.region_of.size() != mesh.tetrahedra.size() || mesh.face_triangle.size() != faces)
-        return bad("there must be one region per tetrahedron, and one triangle per face");
+    if (mesh.block_of.size() != mesh.tetrahedra.size() || mesh.face_triangle.size() != faces)
+        return bad("there must be one block per tetrahedron, and one triangle per face");
     if (auto valid = validate(mesh.vertices, mesh.faces, run); !valid) return valid;
     if (auto valid = validate_cells(mesh.tetrahedra, "tetrahedron", mesh.vertices.size()); !valid)
         return valid;
     if (auto valid = validate_cells(mesh.twins, "pair of twins", faces); !valid) return valid;
-    for (std::size_t t = 0; t < mesh.region_of.size(); ++t)
-        if (mesh.region_of[t] >= mesh.region_count)
-            return bad("it is in no region", place_in("", "tetrahedron", t));
+    for (std::size_t t = 0; t < mesh.block_of.size(); ++t)
+        if (mesh.block_of[t] >= mesh.block_count)
+            return bad("it is in no block", place_in("", "tetrahedron", t));
     return validate_surfaces(mesh.surfaces_of, faces, mesh.surfaces.size());
 }
 

@@ -17,10 +17,10 @@ namespace {
 GivenNames names_given(const Arrangement& arrangement, const Volumes& exact,
                        const BlockNaming& naming) {
     GivenNames given{.column = naming.column};
-    if (naming.regions.empty()) return given;
-    for (const std::uint32_t r : match_regions(arrangement, exact, naming.regions)) {
-        given.regions.push_back(r == no_index ? "" : naming.regions[r].name);
-        given.layers.push_back(r == no_index ? "" : naming.regions[r].layer);
+    if (naming.stated.empty()) return given;
+    for (const std::uint32_t r : match_blocks(arrangement, exact, naming.stated)) {
+        given.stated.push_back(r == no_index ? "" : naming.stated[r].name);
+        given.layers.push_back(r == no_index ? "" : naming.stated[r].layer);
     }
     return given;
 }
@@ -31,7 +31,7 @@ Result<Model> finished(Model model, const GivenNames& given, const Run& run) {
     auto structure = build_structure(model.mesh, model.volumes, run);
     if (!structure) return structure.error();
     model.structure = std::move(structure).value();
-    if (!given.column.empty() || !given.regions.empty())
+    if (!given.column.empty() || !given.stated.empty())
         name_blocks(model.mesh, model.volumes, given, model.structure);
     timer.next("free borders");
     model.borders = find_free_borders(model.mesh, model.structure);

@@ -16,7 +16,7 @@
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>
 #include <terrane/algorithms/structure/free_borders.hpp>
-#include <terrane/algorithms/structure/stated_regions.hpp>
+#include <terrane/algorithms/structure/stated_blocks.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
@@ -41,8 +41,8 @@ struct Model {
 
 /// The names of blocks that people gave.
 struct BlockNaming {
-    StratigraphicColumn column{};        ///< empty: none
-    std::vector<StatedRegion> regions{}; ///< that files state, by the surfaces of the arrangement
+    StratigraphicColumn column{};      ///< empty: none
+    std::vector<StatedBlock> stated{}; ///< that files state, by the surfaces of the arrangement
 };
 
 /// Finds the volumes of the arrangement and of its rounded mesh, matches them, builds the structure
@@ -54,7 +54,7 @@ Result<Model> make_model(const Arrangement& exact, const ConformingMesh& rounded
 /// Makes the model of an improved mesh. Precondition: `exact` was rounded, and the result improved.
 /// Blocks keep the numbers of the exact ones; exact_volumes are those of the improved mesh, except
 /// for blocks that rounding lost. If report.sides_kept is false, blocks can't be matched: they have
-/// the numbers of find_volumes(mesh), and stated regions do not name them. Cost: that of find_volumes, once. Errors: those of
+/// the numbers of find_volumes(mesh), and stated blocks do not name them. Cost: that of find_volumes, once. Errors: those of
 /// find_volumes, interrupted.
 Result<Model> make_model(const Arrangement& exact, const ConformingMesh& rounded,
                          const Improved& improved, const Run& run = {},

@@ -398,7 +398,7 @@ Status check_lists(const TetrahedralMesh& mesh) {
         return std::all_of(corners.begin(), corners.end(),
                            [&](std::uint32_t v) { return v < count; });
     };
-    if (mesh.region_of.size() == mesh.tetrahedra.size() &&
+    if (mesh.block_of.size() == mesh.tetrahedra.size() &&
         std::all_of(mesh.tetrahedra.begin(), mesh.tetrahedra.end(), are_vertices) &&
         std::all_of(mesh.faces.begin(), mesh.faces.end(), are_vertices))
         return Done{};

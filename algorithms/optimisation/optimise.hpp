@@ -33,7 +33,7 @@ struct OptimiseOptions {
     double wanted_angle = 18; ///< degrees, in (0, 60): tetrahedra whose dihedral angles are all
                               ///< between it and 180 degrees less it are left alone
     unsigned max_passes = 6;  ///< most passes over all others for angles, and for shapes
-    bool outside = true;  ///< whether region 0 is improved, too; not needed if it is dropped later
+    bool outside = true;  ///< whether block 0 is improved, too; not needed if it is dropped later
     bool may_grow = true; ///< whether a new tetrahedron may be larger than all that it replaces:
                           ///< false where their volumes are bounded
     /// Most tetrahedra to measure, apart from those of the last 64 proposals; 0: 150 000 000 or, if
@@ -55,7 +55,7 @@ struct WorstShapes {
 
 /// The numbers of changes, and the worst shapes before and after.
 struct OptimiseReport {
-    WorstShapes before; ///< of the regions that are improved
+    WorstShapes before; ///< of the blocks that are improved
     WorstShapes after;  ///< likewise
     std::size_t passes = 0;
     std::size_t removed_edges = 0; ///< edges removed, with 3 and more tetrahedra around them
@@ -80,9 +80,9 @@ struct OptimiseReport {
 ///
 /// (1) Faces on surfaces and on the box stay, and so do their vertices, bit by bit, in their order.
 ///     Where bad tetrahedra are left then, of a quality below the sine of 10 degrees, vertices on
-///     surfaces move as options.freedom lets them; faces keep their corners. Tetrahedra of a region
+///     surfaces move as options.freedom lets them; faces keep their corners. Tetrahedra of a block
 ///     that is not improved need only keep a positive volume then.
-/// (2) Each tetrahedron has a positive volume, by exact predicates; regions fill what they did.
+/// (2) Each tetrahedron has a positive volume, by exact predicates; blocks fill what they did.
 /// (3) A change is made only if the least quality of the tetrahedra that it makes is larger than
 ///     that of those that it replaces. So the sorted vector of qualities grows with each change,
 ///     and the worst tetrahedron never gets worse. No sine of a dihedral angle becomes less than

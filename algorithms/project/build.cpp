@@ -273,7 +273,7 @@ private:
         if (built_.model) return Done{}; // since improve_in_rounds()
         const Arrangement& exact = built_.arranged.exact;
         BlockNaming naming{.column = project_.column};
-        if (!project_.layers) naming.regions = input_.regions;
+        if (!project_.layers) naming.stated = input_.stated_blocks;
         auto model = built_.improved
                          ? make_model(exact, rounded(), built_.improved->improved, run_, naming)
                          : make_model(exact, rounded(), run_, naming);

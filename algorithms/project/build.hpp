@@ -33,11 +33,12 @@ namespace terrane {
 
 /// The surfaces in the files of a project.
 struct BuildInput {
-    std::vector<Surface> surfaces{};     ///< with the names and roles that the project gives them
-    std::vector<Surface> boundary{};     ///< of the volume of interest; empty: there is none
-    std::vector<StatedRegion> regions{}; ///< that the files state, by the surfaces; without use
-                                         ///< where layers are put in order
-    KnownTriangles* known = nullptr;     ///< see ArrangeOptions::known
+    std::vector<Surface> surfaces{}; ///< with the names and roles that the project gives them
+    std::vector<Surface> boundary{}; ///< of the volume of interest; empty: there is none
+    std::vector<StatedBlock>
+        stated_blocks{};             ///< that the files state, by the surfaces; without use
+                                     ///< where layers are put in order
+    KnownTriangles* known = nullptr; ///< see ArrangeOptions::known
 };
 
 /// The stages in their order. A stage that the project does not ask for is left out.

@@ -93,7 +93,7 @@ struct ProjectTetrahedra {
     std::vector<ProjectSize> size_of{}; ///< by surface
     std::vector<ProjectSize> size_in{}; ///< by number or name of a block
     std::vector<std::string> split{};   ///< names of surfaces, or "fault" for all with that role
-    std::optional<bool> outside{};      ///< whether region 0 is meshed; none: only if there is no
+    std::optional<bool> outside{};      ///< whether block 0 is meshed; none: only if there is no
                                         ///< volume of interest
 };
 
@@ -136,7 +136,7 @@ struct ProjectOutputs {
         tetrahedra{};         ///< names for format_named; empty: no tetrahedra are made
     std::string blocks{};     ///< name for format_named; empty: none
     bool certificate = false; ///< whether to write one
-    bool gocad = false;       ///< whether to write the model with its regions for GOCAD
+    bool gocad = false;       ///< whether to write the model with its blocks for GOCAD
 };
 
 /// A project: what to read, what to do, what to write.

@@ -82,7 +82,7 @@ void take_over(const OneFilled& filled, std::size_t number, HoledSurface& to) {
         for (auto& v : corners)
             if (v >= old) v += shift;
         to.filled.triangles.push_back(corners);
-        to.invented.push_back(static_cast<std::int32_t>(number));
+        to.interpolated.push_back(static_cast<std::int32_t>(number));
     }
 }
 
@@ -122,7 +122,7 @@ Result<FillWork> find_holes(std::span<const Surface> surfaces, std::span<const F
             holed.given_vertices = s.vertices.size();
             holed.given_triangles = s.triangles.size();
             holed.deviation.resize(s.vertices.size());
-            holed.invented.resize(s.triangles.size());
+            holed.interpolated.resize(s.triangles.size());
             work.surfaces.push_back(std::move(holed));
         }
         return work;
@@ -184,7 +184,7 @@ Result<std::vector<NewContact>> contacts_of_new(const FillWork& work, const Run&
             for (const ImproperContact& c : report->contacts) {
                 const auto newer = std::max(c.triangles[0], c.triangles[1]);
                 if (newer >= s.given_triangles)
-                    found.push_back({task, s.invented[newer], c.kind, c.place});
+                    found.push_back({task, s.interpolated[newer], c.kind, c.place});
             }
         }
         return found;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // How an input is moved where the doubles of its arrangement are not conforming: what round_to_doubles()
-// and an arrangement in blocks of space have in common, so that both move it in the same way.
+// and an arrangement in tiles of space have in common, so that both move it in the same way.
 #pragma once
 
 #include <terrane/algorithms/rounding/detail/contact_clusters.hpp>

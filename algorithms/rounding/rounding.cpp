@@ -194,10 +194,10 @@ Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& optio
     const RoundingReport& report = rounded->report;
     if (!report.vanished.empty()) {
         if (rounded->mesh->triangles.empty()) return nothing_left();
-        state_lost_length(a, *rounded, run);
+        state_vanished_length(a, *rounded, run);
     }
     if (report.collapsed_triangles > 0 || !report.vanished.empty())
-        report_lost_regions(a, *rounded);
+        report_vanished_regions(a, *rounded);
     return rounded;
 }
 

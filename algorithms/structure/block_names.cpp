@@ -10,12 +10,13 @@
 
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
-#include <terrane/algorithms/structure/detail/block_contacts.hpp>
+#include <terrane/algorithms/structure/block_contacts.hpp>
 #include <terrane/algorithms/structure/detail/block_units.hpp>
 #include <terrane/algorithms/structure/detail/constants.hpp>
 
 namespace terrane {
 
+using namespace structure;
 using namespace structure::detail;
 
 namespace {
@@ -165,8 +166,8 @@ std::string at_block(const std::vector<std::string>& names, std::size_t block) {
 } // namespace
 
 std::vector<std::string>
-structure::detail::names_by_contacts(std::span<const SurfaceInfo> surfaces,
-                                     std::vector<std::vector<BlockContact>> contacts) {
+structure::names_by_contacts(std::span<const SurfaceInfo> surfaces,
+                             std::vector<std::vector<BlockContact>> contacts) {
     const std::size_t count = contacts.size();
     const BlockDescriptions descriptions(surfaces, std::move(contacts));
     std::vector<std::string> names{"outside"};
@@ -192,7 +193,7 @@ void name_blocks(const Mesh& mesh, const Volumes& volumes, const GivenNames& giv
         const auto units = column.units_of(descriptions.contacts(b), ends_inside);
         block.unit = units ? column.name_of(*units) : at_block(given.layers, b);
         block.age = units ? column.age_of(*units) : std::nullopt;
-        std::string name = units ? block.unit : at_block(given.regions, b);
+        std::string name = units ? block.unit : at_block(given.stated, b);
         names.push_back(name.empty() ? descriptions.name(b) : std::move(name));
     }
     tell_apart(descriptions, names);

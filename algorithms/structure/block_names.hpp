@@ -7,7 +7,7 @@
 //     older bases around it do not count. A block of several units, as one of their bases ends
 //     inside of it or the block is on both sides of one, is called "first to last". A block below
 //     the base of the lowest unit is "below UNIT".
-// (b) The region that a file states (stated_regions.hpp).
+// (b) The block that a file states (stated_blocks.hpp).
 // (c) "below top, above base": the surfaces above and below it, without the boundary of the model;
 //     "inside salt" and "around salt" for a surface that closes around the block, or in it; what is
 //     beside it if there is nothing else: "west of F1".
@@ -29,9 +29,9 @@ namespace terrane {
 
 /// Names that people gave to blocks and units.
 struct GivenNames {
-    StratigraphicColumn column{};       ///< by surfaces of the mesh; empty: none
-    std::vector<std::string> regions{}; ///< per block: the region it is; empty: none; or no list
-    std::vector<std::string> layers{};  ///< per block: the layer of that region, as above
+    StratigraphicColumn column{};      ///< by surfaces of the mesh; empty: none
+    std::vector<std::string> stated{}; ///< per block: the stated one it is; empty: none; or no list
+    std::vector<std::string> layers{}; ///< per block: the layer of that one, as above
 };
 
 /// Names the blocks of a structure, and sets their units and ages. Surfaces of the column that the

@@ -93,8 +93,9 @@ struct ModelBlock {
     std::vector<std::uint32_t> interfaces{};       ///< around it; without dangling ones
     std::vector<std::uint32_t> inner_interfaces{}; ///< that dangle in it
     std::vector<std::uint32_t> neighbours{};       ///< volumes across its interfaces, ascending
-    double volume = 0; ///< cubic unit: the exact volume of the mesh, rounded to a double
-    double area = 0;   ///< of the boundary
+    double volume =
+        0;           ///< cubic unit: the exact volume of the mesh, rounded to a double; outside: 0
+    double area = 0; ///< of the boundary
 };
 
 /// The boundary representation of a model.

@@ -98,13 +98,13 @@ Result<std::vector<std::uint32_t>> surfaces_to_split(const Model& model,
 
 // ---- Results ------------------------------------------------------------------------------------
 
-/// Gives the regions the numbers of the model's blocks.
+/// Gives the blocks of tetrahedra the numbers of the model's blocks.
 void renumber(const Model& model, FilledBlocks& filled) {
     const auto& shown = model.number_of;
     const std::size_t count = model.volumes.measures.size();
-    for (std::uint32_t& region : filled.tetrahedra.region_of) region = shown[region];
-    filled.tetrahedra.region_count = static_cast<std::uint32_t>(count);
-    std::vector<RegionVolume> volumes(count);
+    for (std::uint32_t& block : filled.tetrahedra.block_of) block = shown[block];
+    filled.tetrahedra.block_count = static_cast<std::uint32_t>(count);
+    std::vector<BlockVolume> volumes(count);
     for (std::size_t r = 0; r < filled.report.volumes.size(); ++r)
         volumes[shown[r]] = filled.report.volumes[r];
     for (std::size_t r = 0; r < count; ++r) // a block too thin for doubles has nothing to compare

@@ -36,14 +36,14 @@ struct TetrahedraRequest {
     std::vector<NamedSize> size_of{}; ///< by surface
     std::vector<NamedSize> size_in{}; ///< by block: its number or its name
     std::vector<GivenName> split{};   ///< surfaces, or "fault": all with that role
-    bool outside = true;              ///< whether region 0 gets tetrahedra, too
+    bool outside = true;              ///< whether block 0 gets tetrahedra, too
 };
 
 /// The tetrahedra of a model.
 struct FilledBlocks {
-    TetrahedralMesh tetrahedra;                ///< regions by the numbers of the blocks
+    TetrahedralMesh tetrahedra;                ///< blocks by the numbers of the blocks
     TetrahedraReport report;                   ///< likewise; with the outside, before splitting
-    std::vector<std::string> block_names;      ///< names of the blocks, by region
+    std::vector<std::string> block_names;      ///< names of the blocks, by block
     std::size_t added_nodes = 0;               ///< number of nodes that splitting added
     std::optional<OptimiseReport> optimised{}; ///< what was improved; none: options said so, or the
                                                ///< checks found violations before
@@ -56,7 +56,7 @@ struct FilledBlocks {
 Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& request,
                                  const Run& run = {});
 
-/// Makes the tetrahedra alone, which is what takes time: with the outside, regions by the numbers
+/// Makes the tetrahedra alone, which is what takes time: with the outside, blocks by the numbers
 /// of find_volumes(mesh), nothing improved or split. Errors: bad_option, those of tetrahedralize.
 Result<TetrahedralMesh> make_tetrahedra(const Model& model, const TetrahedraRequest& request,
                                         const Run& run = {});

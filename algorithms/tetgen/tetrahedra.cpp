@@ -259,8 +259,8 @@ Status set_sizes(const Mesh& mesh, const Volumes& volumes, const TetgenDomain& d
     }
     const auto points = points_of_bounded(mesh, volumes, domain.box, sizes.value(), run);
     if (!points) return points.error();
-    for (const auto& [place, region] : points.value())
-        input.regions.push_back({scale.down(place), scaled.volume_in(region)});
+    for (const auto& [place, block] : points.value())
+        input.blocks.push_back({scale.down(place), scaled.volume_in(block)});
     return Done{};
 }
 
@@ -375,12 +375,12 @@ private:
         return result;
     }
 
-    /// Sets what Gmsh wants to know of each facet: the regions on its sides.
+    /// Sets what Gmsh wants to know of each facet: the blocks on its sides.
     void set_sides(bool embed_all) {
         input_.sides.clear();
         for (const auto& [front, behind] : volumes_.of_sides)
             input_.sides.push_back(embed_all ? BlockSides{0, 0} : BlockSides{front, behind});
-        while (input_.sides.size() < input_.facets.size()) input_.sides.push_back({0, no_region});
+        while (input_.sides.size() < input_.facets.size()) input_.sides.push_back({0, no_block});
     }
 
     const Mesh& mesh_;

@@ -112,7 +112,7 @@ struct TetrahedraOptions {
 ///     last, counterclockwise seen from outside.
 /// (5) Regions are the parts into which the mesh divides the box, found by diffusion over the
 ///     tetrahedra (the paper, section 3: regions one dimension up). They have the numbers of
-///     find_volumes(mesh). It is checked at every face that regions and volumes correspond one to
+///     find_volumes(mesh). It is checked at every face that blocks and volumes correspond one to
 ///     one.
 /// (6) The same arguments give the same result, unless one of the ways of asking a mesher runs out
 ///     of time.

@@ -66,22 +66,25 @@ std::vector<double> bounds_of_differences(const Subject& subject,
     return bounds;
 }
 
-std::vector<RegionVolume> compare_volumes(const Subject& subject, const FaceResult& faces,
-                                          const std::vector<bool>& divided) {
+std::vector<BlockVolume> compare_volumes(const Subject& subject, const FaceResult& faces,
+                                         const std::vector<bool>& divided) {
     const auto of_blocks = six_volumes_of_blocks(subject);
     const auto bounds = bounds_of_differences(subject, divided);
-    std::vector<RegionVolume> compared;
-    for (std::size_t v = 0; v < of_blocks.size(); ++v) {
+    std::vector<BlockVolume> compared;
+    // The outside has no volume but that of its tetrahedra.
+    const double outside = nearest_quotient(faces.six_volumes[0], Exact(6));
+    compared.push_back({outside, outside, 0, 0, true});
+    for (std::size_t v = 1; v < of_blocks.size(); ++v) {
         const Exact difference = faces.six_volumes[v] - of_blocks[v];
-        const RegionVolume region{nearest_quotient(of_blocks[v], Exact(6)),
-                                  nearest_quotient(faces.six_volumes[v], Exact(6)),
-                                  nearest_quotient(difference, Exact(6)), bounds[v],
-                                  exact_sign(difference) == Sign::Zero};
-        if (v > 0 && !region.equal && std::fabs(region.difference) > region.bound)
+        const BlockVolume block{nearest_quotient(of_blocks[v], Exact(6)),
+                                nearest_quotient(faces.six_volumes[v], Exact(6)),
+                                nearest_quotient(difference, Exact(6)), bounds[v],
+                                exact_sign(difference) == Sign::Zero};
+        if (!block.equal && std::fabs(block.difference) > block.bound)
             subject.findings.add(TetrahedraDefect::wrong_volume,
                                  "block {} has volume {}, its tetrahedra {}; they may differ by {}",
-                                 v, region.block, region.tetrahedra, region.bound);
-        compared.push_back(region);
+                                 v, block.block, block.tetrahedra, block.bound);
+        compared.push_back(block);
     }
     return compared;
 }

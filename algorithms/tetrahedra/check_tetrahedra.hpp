@@ -55,8 +55,8 @@ struct TetrahedraViolation {
 std::string message(const TetrahedraViolation& violation);
 
 /// The volume of a block and that of its tetrahedra, in cubic units of the input.
-struct RegionVolume {
-    double block = 0; ///< nearest to the exact volume; [0]: negative, as the box is not counted
+struct BlockVolume {
+    double block = 0; ///< nearest to the exact volume; [0], the outside: that of its tetrahedra
     double tetrahedra = 0; ///< nearest to the exact sum of their volumes
     double difference = 0; ///< nearest to the exact difference, tetrahedra - block
     double bound = 0;      ///< on the difference: what nodes near the triangles of the block can
@@ -67,7 +67,7 @@ struct RegionVolume {
 /// The findings of check_tetrahedra().
 struct TetrahedraReport {
     std::vector<TetrahedraViolation> violations; ///< one per kind that occurs, in their order
-    std::vector<RegionVolume> volumes;           ///< per volume; [0], the outside, is not compared
+    std::vector<BlockVolume> volumes;            ///< per block
     TetrahedraShape shape;                       ///< of all tetrahedra; never a violation
 };
 
@@ -90,9 +90,9 @@ struct TetrahedraReport {
 TetrahedraReport check_tetrahedra(const TetrahedralMesh& tetrahedra, const Mesh& mesh,
                                   const Volumes& volumes);
 
-/// Gives the regions of the tetrahedra the numbers of the volumes of the mesh.
-/// Errors: internal, with the place, if a region touches triangles of two volumes, if two regions
-/// touch triangles of one volume, or if a region that touches no triangle is not the outside.
+/// Gives the blocks of the tetrahedra the numbers of the volumes of the mesh.
+/// Errors: internal, with the place, if a block touches triangles of two volumes, if two blocks
+/// touch triangles of one volume, or if a block that touches no triangle is not the outside.
 Status adopt_volume_numbers(const Volumes& volumes, TetrahedralMesh& tetrahedra);
 
 } // namespace terrane

@@ -7,7 +7,7 @@
 //     tetrahedra, all at that vertex, connects them across faces that are not split. So a single
 //     node remains where the surface ends inside the model (at a tip); where split surfaces cross
 //     or branch, each sector has its own node.
-// (2) Tetrahedra keep their order, volumes and regions. The first node at a vertex, that of the
+// (2) Tetrahedra keep their order, volumes and blocks. The first node at a vertex, that of the
 //     lowest tetrahedron, keeps its number; the others follow after all vertices, by vertex, then
 //     by lowest tetrahedron.
 // (3) A split face becomes two faces: the one in front keeps its position in the list, the one

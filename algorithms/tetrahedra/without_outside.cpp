@@ -33,12 +33,12 @@ std::vector<Triangle> faces_of(const std::vector<std::array<std::uint32_t, 4>>& 
 void drop_tetrahedra(TetrahedralMesh& m) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < m.tetrahedra.size(); ++i) {
-        if (m.region_of[i] == 0) continue;
+        if (m.block_of[i] == 0) continue;
         m.tetrahedra[kept] = m.tetrahedra[i];
-        m.region_of[kept++] = m.region_of[i];
+        m.block_of[kept++] = m.block_of[i];
     }
     m.tetrahedra.resize(kept);
-    m.region_of.resize(kept);
+    m.block_of.resize(kept);
 }
 
 /// Removes the faces on the box, and those without a tetrahedron.

@@ -5,9 +5,9 @@
 
 namespace terrane {
 
-/// Removes the tetrahedra of region 0, the outside, with the faces and vertices that no block has
-/// and the surface "box" that closed the domain. The rest keeps its order; regions keep their
-/// numbers, so that region 0 has no tetrahedra. Cost: linear.
+/// Removes the tetrahedra of block 0, the outside, with the faces and vertices that no block has
+/// and the surface "box" that closed the domain. The rest keeps its order; blocks keep their
+/// numbers, so that block 0 has no tetrahedra. Cost: linear.
 TetrahedralMesh without_outside(TetrahedralMesh mesh);
 
 } // namespace terrane

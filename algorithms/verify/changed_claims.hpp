@@ -37,10 +37,11 @@ struct FilledPart {
 
 /// The claims of a certificate about surfaces whose holes were filled.
 struct FilledClaim {
-    std::vector<Point3> vertices;        ///< of all surfaces in order; of each first the given ones
-    std::vector<Triangle> triangles;     ///< likewise; indices into vertices
-    std::vector<FilledPart> surfaces;    ///< order of the inputs
-    std::vector<std::uint32_t> invented; ///< per triangle: the number of its hole; 0: it was given
+    std::vector<Point3> vertices;     ///< of all surfaces in order; of each first the given ones
+    std::vector<Triangle> triangles;  ///< likewise; indices into vertices
+    std::vector<FilledPart> surfaces; ///< order of the inputs
+    std::vector<std::uint32_t>
+        interpolated; ///< per triangle: the number of its hole; 0: it was given
     std::vector<double>
         deviation; ///< per vertex: its expected error, unit of the input; NaN: unknown
 };

@@ -6,12 +6,12 @@
 #include <string>
 
 #include <terrane/algorithms/core/no_index.hpp>
-#include <terrane/algorithms/volumes/detail/exact_volumes.hpp>
-#include <terrane/algorithms/volumes/detail/radial_sort.hpp>
+#include <terrane/algorithms/volumes/exact_volumes.hpp>
+#include <terrane/algorithms/volumes/radial_sort.hpp>
 
 namespace terrane {
 
-using namespace volumes::detail;
+using namespace volumes;
 
 namespace {
 

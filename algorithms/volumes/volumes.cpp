@@ -17,14 +17,14 @@
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
-#include <terrane/algorithms/volumes/detail/exact_volumes.hpp>
-#include <terrane/algorithms/volumes/detail/mesh_sheets.hpp>
-#include <terrane/algorithms/volumes/detail/radial_sort.hpp>
-#include <terrane/algorithms/volumes/detail/shell_nesting.hpp>
+#include <terrane/algorithms/volumes/exact_volumes.hpp>
+#include <terrane/algorithms/volumes/mesh_sheets.hpp>
+#include <terrane/algorithms/volumes/radial_sort.hpp>
+#include <terrane/algorithms/volumes/shell_nesting.hpp>
 
 namespace terrane {
 
-using namespace volumes::detail;
+using namespace volumes;
 
 namespace {
 

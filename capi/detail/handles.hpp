@@ -249,7 +249,7 @@ struct terrane_tetrahedra : terrane::capi::detail::Handle<terrane::capi::detail:
 
     terrane::FilledBlocks filled;
     std::vector<std::string> violations{};
-    std::vector<terrane_region_volume> volumes{};
+    std::vector<terrane_block_volume> volumes{};
 };
 
 struct terrane_verdict : terrane::capi::detail::Handle<terrane::capi::detail::Kind::verdict> {

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include <terrane/cli/commands/command.hpp>
-#include <terrane/cli/stages/blockwise.hpp>
 #include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/outputs.hpp>
 #include <terrane/cli/stages/page_output.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
+#include <terrane/cli/stages/tilewise.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -17,7 +17,7 @@ struct ArrangeCommand {
     FileOptions files;
     ArrangeSettings settings;
     ProofOptions proof;
-    BlockwiseOptions blockwise;
+    TilewiseOptions tilewise;
     bool keep_unverified = false;
 };
 
@@ -60,9 +60,9 @@ Status write_proof(const ArrangeCommand& command, const Inputs& inputs, const Ar
 }
 
 Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session) {
-    if (command.blockwise.digest)
+    if (command.tilewise.digest)
         return usage("it needs --memory; a certificate has the digest, too", "--digest");
-    if (command.blockwise.volumes)
+    if (command.tilewise.volumes)
         return usage("it needs --memory; terrane volume finds them without", "--volumes");
     const FileOptions& files = command.files;
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
@@ -126,7 +126,7 @@ Command arrange_command(CLI::App& program) {
     app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
     add_msh(*app, options->files);
     add_proof(*app, options->proof);
-    add_blockwise(*app, options->blockwise);
+    add_tilewise(*app, options->tilewise);
     add_threads(*app, options->files);
     add_stats(*app, options->files);
     add_report(*app, options->files);
@@ -134,8 +134,8 @@ Command arrange_command(CLI::App& program) {
     return {app, [options] {
                 Session session(options->files.threads);
                 const auto status =
-                    options->blockwise.wanted()
-                        ? arrange_blockwise(options->files, options->blockwise, session)
+                    options->tilewise.wanted()
+                        ? arrange_tilewise(options->files, options->tilewise, session)
                         : arrange_files(*options, session);
                 return status ? status.value() : fail(status.error());
             }};

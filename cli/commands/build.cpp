@@ -325,8 +325,9 @@ private:
 
     Status write_invented(const fs::path& to) {
         if (!built_.preprocessed.filled) return Done{};
-        written_.insert(written_.end(), {"invented.csv", "filled.svg"});
-        if (auto done = write_file(to / "invented.csv", csv_of(*built_.preprocessed.filled)); !done)
+        written_.insert(written_.end(), {"interpolated.csv", "filled.svg"});
+        if (auto done = write_file(to / "interpolated.csv", csv_of(*built_.preprocessed.filled));
+            !done)
             return done;
         return write_file(to / "filled.svg", map_of(*built_.preprocessed.filled));
     }

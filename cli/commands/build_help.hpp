@@ -16,7 +16,7 @@ All results go to one new folder:
   tetrahedra.vtu, ...    likewise, outputs.tetrahedra
   model/                 blocks, interfaces and model.json, with outputs.blocks
   model.ml               the model for GOCAD and RINGMesh, with outputs.gocad
-  invented.csv           points that fill made up, with expected errors
+  interpolated.csv       points that fill made up, with expected errors
   filled.svg             surfaces before and after it
   certificate.json, ...  for `terrane verify`, with outputs.certificate; certificate_blocks.json of
                          model/ and certificate_tetrahedra.json of the tetrahedra

@@ -47,14 +47,14 @@ kriging needs a surface that is z = f(x, y) round the hole. rbf (the zero level 
 function through points round the hole) takes any surface, folds too; with --smoothing it need not
 meet these points. Both foresee their errors. The surface keeps all its vertices and triangles; new
 ones come after them and share the border's vertices. Where new triangles would cross others, nothing
-is written. VTP gets arrays invented (the number of the hole, 0 for what was given)
+is written. VTP gets arrays interpolated (the number of the hole, 0 for what was given)
 and deviation (the expected error, mean of the corners). A hole that can't be filled is named and
 left open, and the exit status is 1.
 
 Examples:
   terrane fill top.irap --list
   terrane fill --depth top.irap -o top.vtp --map top.svg
-  terrane fill horizons.ts -o filled.ts --holes 1,3 --points invented.csv
+  terrane fill horizons.ts -o filled.ts --holes 1,3 --points interpolated.csv
   terrane fill fold.obj -o filled.obj --method rbf --certificate filled.json)";
 
 /// Tells for each hole whether it is to be filled. Errors: bad_option.
@@ -85,16 +85,16 @@ Result<std::vector<bool>> chosen_holes(const FillCommand& command, const FillWor
 Status write_all(const FillCommand& command, const std::vector<Output>& outputs,
                  const Inputs& inputs, const FillWork& work, Session& session) {
     std::vector<Surface> surfaces;
-    std::vector<std::int32_t> invented;
+    std::vector<std::int32_t> interpolated;
     std::vector<double> deviation;
     for (const HoledSurface& s : work.surfaces) {
         surfaces.push_back(s.filled);
-        invented.insert(invented.end(), s.invented.begin(), s.invented.end());
+        interpolated.insert(interpolated.end(), s.interpolated.begin(), s.interpolated.end());
         for (const Triangle& t : s.filled.triangles)
             deviation.push_back((s.deviation[t[0]] + s.deviation[t[1]] + s.deviation[t[2]]) / 3);
     }
     const Mesh mesh = concatenate(surfaces);
-    const std::vector<CellArray> cells{{"invented", invented}, {"deviation", deviation}};
+    const std::vector<CellArray> cells{{"interpolated", interpolated}, {"deviation", deviation}};
     for (const Output& output : outputs) {
         WriteOptions options{.ascii = command.files.ascii};
         if (output.format == Format::vtp) options.cells = cells;
@@ -114,7 +114,7 @@ Status write_all(const FillCommand& command, const std::vector<Output>& outputs,
                            .surfaces = inputs.surfaces};
     for (const HoledSurface& s : work.surfaces)
         result.filled.push_back(
-            {&s.filled, s.given_vertices, s.given_triangles, s.invented, s.deviation});
+            {&s.filled, s.given_vertices, s.given_triangles, s.interpolated, s.deviation});
     return write_certificate(command.proof.certificate, result, summary_stream(command.files),
                              session);
 }
@@ -284,7 +284,7 @@ Command fill_command(CLI::App& program) {
     app->add_option("--map", options->map, "Draw it before and after, and the expected error")
         ->type_name("FILE.svg");
     app->add_option("--points", options->points,
-                    "Write invented points with deviation and variance")
+                    "Write interpolated points with deviation and variance")
         ->type_name("FILE.csv");
     app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
     add_msh(*app, options->files);

@@ -48,17 +48,17 @@ struct TetrahedralizeCommand {
 constexpr auto tetrahedralize_footer =
     R"(The surfaces are arranged and rounded first, as `terrane arrange` does; where the doubles are not
 a conforming mesh nothing is written, and the exit status is 1. A box round all closes the domain:
-what touches it is region 0, the outside, each further region is a volume that the surfaces enclose.
+what touches it is block 0, the outside, each further block is a volume that the surfaces enclose.
 With a volume of interest (--box, --rotated-box, --polygon, --within) all surfaces are cut by its
-boundary, and only what is inside gets tetrahedra: there is no region 0.
+boundary, and only what is inside gets tetrahedra: there is no block 0.
 
 The result is checked: tetrahedra have positive volume, each triangle is a union of their faces, each
-region is one block (found in two ways) and has its volume. Where that fails nothing is written, and
-the exit status is 1. The shapes are reported: dihedral angles, ratios of circumradius to shortest
+block is one that surfaces enclose (found in two ways) and has its volume. Where that fails nothing
+is written, and the exit status is 1. The shapes are reported: dihedral angles, ratios of circumradius to shortest
 edge.
 
-VTU has arrays region, surface and parent; MSH physical groups; Abaqus INP element sets, node sets
-and surfaces; MEDIT references: region and surface + 1; Exodus II element blocks, side sets and node
+VTU has arrays block, surface and parent; MSH physical groups; Abaqus INP element sets, node sets
+and surfaces; MEDIT references: block and surface + 1; Exodus II element blocks, side sets and node
 sets. PFLOTRAN (.ugi) and, by --output-format, OpenGeoSys (ogs), GEOS (geos) and PyLith (pylith) get
 files of their own. With --order 2 tetrahedra have 10 nodes; edges stay straight.
 
@@ -153,7 +153,7 @@ std::string said_of(const Output& output, std::size_t files) {
 Status write_all(const FilledBlocks& filled, const std::vector<Output>& outputs,
                  const FileOptions& files, Session& session) {
     WriteOptions options;
-    options.region_names = filled.block_names;
+    options.block_names = filled.block_names;
     options.order = files.order;
     for (const Output& output : outputs) {
         const auto written = write_output(filled.tetrahedra, output, options, session);
@@ -293,7 +293,7 @@ void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
 Command tetrahedralize_command(CLI::App& program) {
     auto command = std::make_shared<TetrahedralizeCommand>();
     auto* app = program.add_subcommand("tetrahedralize",
-                                       "Fill the regions between the surfaces with tetrahedra");
+                                       "Fill the blocks between the surfaces with tetrahedra");
     add_inputs(*app, command->files);
     add_output(
         *app, command->files,

@@ -17,17 +17,17 @@
 #include <mpi.h>
 
 #include <terrane/algorithms/core/process_memory.hpp>
-#include <terrane/algorithms/distribution/distributed_arrangement.hpp>
+#include <terrane/algorithms/tiles/tiled_arrangement.hpp>
 #include <terrane/cli/mpi/agreement.hpp>
 #include <terrane/cli/mpi/mpi_supersteps.hpp>
 #include <terrane/cli/options/command_table.hpp>
 #include <terrane/cli/options/manual.hpp>
 #include <terrane/cli/options/output_options.hpp>
-#include <terrane/cli/reports/distribution_report.hpp>
+#include <terrane/cli/reports/tile_report.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/session.hpp>
 #include <terrane/cli/session/terminal.hpp>
-#include <terrane/cli/stages/block_volumes.hpp>
+#include <terrane/cli/stages/tile_volumes.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/file_set.hpp>
 #include <terrane/io/files.hpp>
@@ -37,7 +37,7 @@
 namespace terrane::cli {
 namespace {
 
-using namespace distribution;
+using namespace tiles;
 
 struct MpiCommand {
     std::vector<std::string> inputs;
@@ -46,7 +46,7 @@ struct MpiCommand {
 };
 
 constexpr auto mpi_footer =
-    R"(Space is divided into as many blocks as there are processes. The result is that of terrane arrange, for any
+    R"(Space is divided into as many tiles as there are processes. The result is that of terrane arrange, for any
 number of them: terrane convert OUT.pvtp OUT.vtp writes the same bytes. All processes must see the same files.
 
 The command terrane-mpi manual prints the manual page.
@@ -57,8 +57,8 @@ Examples:
   mpirun -n 4 terrane-mpi arrange horizons.ts faults.ts -o model.pvtp)";
 
 /// Checks in the first process, before any work, that the output can be written.
-Status check_command(const MpiCommand& command, MpiSupersteps& blocks) {
-    return blocks.visit([&](Block& b) -> Status {
+Status check_command(const MpiCommand& command, MpiSupersteps& tiles) {
+    return tiles.visit([&](Tile& b) -> Status {
         if (b.index != 0) return Done{};
         if (std::filesystem::path(command.output).extension() != ".pvtp")
             return Error{ErrorCode::unknown_format, "the output must be a .pvtp file",
@@ -80,41 +80,40 @@ Status check_command(const MpiCommand& command, MpiSupersteps& blocks) {
     });
 }
 
-Result<ExitStatus> arrange_files(const MpiCommand& command, MpiSupersteps& blocks, const Run& run) {
-    if (auto sound = check_command(command, blocks); !sound) return sound.error();
+Result<ExitStatus> arrange_files(const MpiCommand& command, MpiSupersteps& tiles, const Run& run) {
+    if (auto sound = check_command(command, tiles); !sound) return sound.error();
     if (auto same = check_same_files(command.inputs); !same) return same.error();
     const auto read = [&](std::size_t file) { return read_surfaces(command.inputs[file]); };
-    const DistributedOptions options{command.inputs.size(), command.digest};
-    auto report = arrange_in_blocks(blocks, read, options, run);
+    const TiledOptions options{command.inputs.size(), command.digest};
+    auto report = arrange_in_tiles(tiles, read, options, run);
     if (!report) return report.error();
     RepairedWhole whole;
     if (!report->clean) {
-        auto repaired = repair_in_one_process(blocks, run);
+        auto repaired = repair_in_one_process(tiles, run);
         if (!repaired) return repaired.error();
         whole = std::move(*repaired);
         if (!whole.report.clean) {
-            if (blocks.is_first())
+            if (tiles.is_first())
                 print(stderr, complaint("nothing written: no conforming mesh of doubles was found; "
                                         "terrane arrange names the pairs in the way"));
             return ExitStatus::negative;
         }
     }
     if (command.volumes)
-        if (auto found = find_block_volumes(blocks, *report, whole.piece); !found)
+        if (auto found = find_tile_volumes(tiles, *report, whole.piece); !found)
             return found.error();
     const auto written =
-        write_pvtp(blocks, command.output, command.volumes, report->clean ? nullptr : &whole.piece);
+        write_pvtp(tiles, command.output, command.volumes, report->clean ? nullptr : &whole.piece);
     if (!written) return written.error();
-    if (!blocks.is_first()) return ExitStatus::done;
+    if (!tiles.is_first()) return ExitStatus::done;
     const RoundingReport* repaired = report->clean ? nullptr : &whole.report;
-    const std::size_t count = blocks.blocks();
-    say(stdout,
-        distribution_text(*report, repaired,
+    const std::size_t count = tiles.tiles();
+    say(stdout, tile_text(*report, repaired,
                           std::to_string(count) + (count == 1 ? " process" : " processes")) +
-            "wrote " + command.output + "\n");
+                    "wrote " + command.output + "\n");
     if (command.stats.empty()) return ExitStatus::done;
     const auto stats =
-        write_file(command.stats, distribution_json(*report, repaired, count).dump(2) + "\n");
+        write_file(command.stats, tile_json(*report, repaired, count).dump(2) + "\n");
     if (!stats) return stats.error();
     return ExitStatus::done;
 }
@@ -186,8 +185,8 @@ ExitStatus run_command(int argc, char** argv) {
     }
     set_output(output_settings(program));
     Session session(1);
-    MpiSupersteps blocks(session.run());
-    const auto status = arrange_files(command, blocks, session.run());
+    MpiSupersteps tiles(session.run());
+    const auto status = arrange_files(command, tiles, session.run());
     if (status) return rank == 0 ? finish(*status) : *status;
     return rank == 0 ? fail(status.error()) : status_of(status.error().code);
 }

@@ -14,7 +14,7 @@
 
 namespace terrane::cli {
 
-using namespace distribution;
+using namespace tiles;
 
 namespace {
 
@@ -39,23 +39,23 @@ MpiSupersteps::MpiSupersteps(const Run& run) : run_(run), inbox_(0) {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
     count_ = static_cast<std::size_t>(size);
-    block_.index = static_cast<std::uint32_t>(rank);
-    block_.count = static_cast<std::uint32_t>(size);
+    tile_.index = static_cast<std::uint32_t>(rank);
+    tile_.count = static_cast<std::uint32_t>(size);
     inbox_ = Inbox(count_);
 }
 
 Status MpiSupersteps::step(std::string_view, const Step& work) {
     Outbox out(count_);
     std::size_t before = 0;
-    const Status own = guarded("for a block of the arrangement", "arrange", [&]() -> Status {
+    const Status own = guarded("for a tile of the arrangement", "arrange", [&]() -> Status {
         if (run_.stop.stop_requested())
             return Error{ErrorCode::interrupted, "stopped on request", ""};
-        before = block_.size() + inbox_.size();
-        return work(block_, inbox_, out);
+        before = tile_.size() + inbox_.size();
+        return work(tile_, inbox_, out);
     });
     if (auto all = agreed(own); !all) return all;
-    block_.work.memory =
-        std::max<std::uint64_t>(block_.work.memory, std::max(before, block_.size() + out.size()));
+    tile_.work.memory =
+        std::max<std::uint64_t>(tile_.work.memory, std::max(before, tile_.size() + out.size()));
     return exchange(out);
 }
 
@@ -65,17 +65,17 @@ Status MpiSupersteps::exchange(Outbox& out) {
     for (std::size_t b = 0; b < count_; ++b) {
         std::uint64_t sum = 0;
         for (std::size_t c = 0; c < channels; ++c) sum += sending[b][c] = out.bytes(b, c).size();
-        if (sum == 0 || b == block_.index) continue;
-        ++block_.work.messages;
-        block_.work.bytes += sum;
+        if (sum == 0 || b == tile_.index) continue;
+        ++tile_.work.messages;
+        tile_.work.bytes += sum;
     }
     MPI_Alltoall(sending.data(), channels, MPI_UINT64_T, receiving.data(), channels, MPI_UINT64_T,
                  MPI_COMM_WORLD);
-    const Status room = guarded("for the messages of other blocks", "arrange", [&]() -> Status {
+    const Status room = guarded("for the messages of other tiles", "arrange", [&]() -> Status {
         inbox_ = Inbox(count_);
         for (std::size_t b = 0; b < count_; ++b)
             for (std::size_t c = 0; c < channels; ++c)
-                if (b == block_.index)
+                if (b == tile_.index)
                     inbox_.bytes(b, c) = std::move(out.bytes(b, c));
                 else
                     inbox_.bytes(b, c).resize(receiving[b][c]);
@@ -84,7 +84,7 @@ Status MpiSupersteps::exchange(Outbox& out) {
     if (auto all = agreed(room); !all) return all;
     std::vector<MPI_Request> requests;
     for (std::size_t b = 0; b < count_; ++b) {
-        if (b == block_.index) continue;
+        if (b == tile_.index) continue;
         for (int c = 0; c < as_int(channels); ++c) {
             in_parts(inbox_.bytes(b, static_cast<std::size_t>(c)), c,
                      [&](void* at, int size, int tag) {
@@ -105,7 +105,7 @@ Status MpiSupersteps::exchange(Outbox& out) {
 Result<Bytes> MpiSupersteps::relay(const Turn& turn) {
     constexpr int tag = 100;
     Bytes bytes;
-    const int rank = as_int(block_.index), last = as_int(count_) - 1;
+    const int rank = as_int(tile_.index), last = as_int(count_) - 1;
     if (rank > 0) {
         std::uint64_t size = 0;
         MPI_Recv(&size, 1, MPI_UINT64_T, rank - 1, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
@@ -113,7 +113,7 @@ Result<Bytes> MpiSupersteps::relay(const Turn& turn) {
         MPI_Recv(bytes.data(), as_int(size), MPI_BYTE, rank - 1, tag, MPI_COMM_WORLD,
                  MPI_STATUS_IGNORE);
     }
-    bytes = turn(block_, std::move(bytes));
+    bytes = turn(tile_, std::move(bytes));
     std::uint64_t size = bytes.size();
     if (rank < last) {
         MPI_Send(&size, 1, MPI_UINT64_T, rank + 1, tag, MPI_COMM_WORLD);
@@ -125,9 +125,9 @@ Result<Bytes> MpiSupersteps::relay(const Turn& turn) {
     return bytes;
 }
 
-Status MpiSupersteps::visit(const std::function<Status(Block&)>& visit) {
+Status MpiSupersteps::visit(const std::function<Status(Tile&)>& visit) {
     return agreed(
-        guarded("for a block of the arrangement", "arrange", [&] { return visit(block_); }));
+        guarded("for a tile of the arrangement", "arrange", [&] { return visit(tile_); }));
 }
 
 } // namespace terrane::cli

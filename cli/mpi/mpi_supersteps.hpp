@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Runs one block per process and exchanges messages by MPI.
+// Runs one tile per process and exchanges messages by MPI.
 #pragma once
 
 #include <terrane/algorithms/core/run.hpp>
-#include <terrane/algorithms/distribution/supersteps.hpp>
+#include <terrane/algorithms/tiles/supersteps.hpp>
 
 namespace terrane::cli {
 
-/// The block of this process, whose rank is the number of the block. MPI must be initialised. Only
+/// The tile of this process, whose rank is the number of the tile. MPI must be initialised. Only
 /// collective calls and messages between pairs of ranks are used.
-class MpiSupersteps final : public distribution::Supersteps {
+class MpiSupersteps final : public tiles::Supersteps {
 public:
     explicit MpiSupersteps(const Run& run);
 
-    [[nodiscard]] std::size_t blocks() const override { return count_; }
-    Status step(std::string_view name, const distribution::Step& work) override;
-    Result<distribution::Bytes> relay(const distribution::Turn& turn) override;
-    Status visit(const std::function<Status(distribution::Block&)>& visit) override;
+    [[nodiscard]] std::size_t tiles() const override { return count_; }
+    Status step(std::string_view name, const tiles::Step& work) override;
+    Result<tiles::Bytes> relay(const tiles::Turn& turn) override;
+    Status visit(const std::function<Status(tiles::Tile&)>& visit) override;
 
-    [[nodiscard]] bool is_first() const { return block_.index == 0; }
+    [[nodiscard]] bool is_first() const { return tile_.index == 0; }
 
 private:
-    Status exchange(distribution::Outbox& out);
+    Status exchange(tiles::Outbox& out);
 
     const Run& run_;
     std::size_t count_ = 1;
-    distribution::Block block_;
-    distribution::Inbox inbox_;
+    tiles::Tile tile_;
+    tiles::Inbox inbox_;
 };
 
 } // namespace terrane::cli

@@ -17,7 +17,7 @@ void add_column(CLI::App& command, std::string& file) {
 }
 
 Result<BlockNaming> naming_of(const std::string& column_file, const Inputs& inputs) {
-    BlockNaming naming{.regions = inputs.regions};
+    BlockNaming naming{.stated = inputs.stated_blocks};
     if (column_file.empty()) return naming;
     auto column = read_column(column_file);
     if (!column) return column.error();

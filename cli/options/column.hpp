@@ -14,7 +14,7 @@ namespace terrane::cli {
 
 void add_column(CLI::App& command, std::string& file);
 
-/// Reads the column, if a file is given, and takes the regions of the inputs. Errors: those of
+/// Reads the column, if a file is given, and takes the blocks that the inputs state. Errors: those of
 /// read_column; bad_option for a base that is no surface of the inputs.
 Result<BlockNaming> naming_of(const std::string& column_file, const Inputs& inputs);
 

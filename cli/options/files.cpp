@@ -267,8 +267,8 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
             return read.error();
         }
         all.surfaces_of_file.push_back(read.value().size());
-        append_regions(read_stated_regions(path, format_of_input(options, path)),
-                       all.surfaces.size(), all.regions);
+        append_stated_blocks(read_stated_blocks(path, format_of_input(options, path)),
+                             all.surfaces.size(), all.stated_blocks);
         for (Surface& s : read.value()) {
             all.vertices += s.vertices.size();
             all.triangles += s.triangles.size();

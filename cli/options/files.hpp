@@ -75,7 +75,7 @@ struct Inputs {
     std::vector<Surface> surfaces;
     std::vector<std::string> files;            ///< per surface: the file it was read from
     std::vector<std::size_t> surfaces_of_file; ///< per input: number of surfaces read from it
-    std::vector<StatedRegion> regions;         ///< that files state, by the surfaces
+    std::vector<StatedBlock> stated_blocks;    ///< that files state, by the surfaces
     std::string unit;                ///< of all coordinates, where files state one; else empty
     std::vector<std::string> labels; ///< per surface: its name, made unique, on one line
     std::size_t vertices = 0, triangles = 0;

@@ -58,7 +58,7 @@ void add_statistics(Json& json, const RoundedMesh& rounded) {
     json["rounding"] = {{"iterations", r.rounds},
                         {"surface_deviation", r.surface_deviation},
                         {"max_allowed", r.max_allowed},
-                        {"lost_length", r.lost_length},
+                        {"vanished_length", r.vanished_length},
                         {"max_move", r.max_move},
                         {"arranged_again", r.arranged_again},
                         {"deviation", r.deviation},
@@ -69,8 +69,8 @@ void add_statistics(Json& json, const RoundedMesh& rounded) {
                         {"moved_input_vertices", r.moved_input_vertices},
                         {"merged_vertices", r.merged_vertices},
                         {"collapsed_triangles", r.collapsed_triangles},
-                        {"surfaces_with_lost_regions", r.lost_regions.size()},
-                        {"vanished_input_triangles", r.vanished.size()}};
+                        {"surfaces_with_vanished_regions", r.vanished_regions.size()},
+                        {"vanished", r.vanished.size()}};
     if (r.pairs) json["rounding"]["pairs"] = json_of(*r.pairs);
     add_constants(json, "round", rounding_constants());
 }

@@ -80,13 +80,13 @@ std::string filled_text(const FillWork& work) {
         points += r.interpolated;
         area += r.area;
         if (shown++ >= most_holes) continue;
-        text += fmt::format("hole {}: {} and area {} invented, {}, from {}\n  {}\n", hole.number,
-                            counted(r.interpolated, "point"), figure(r.area, 6), error_text(r),
-                            counted(r.data, "point"), r.model);
+        text += fmt::format("hole {}: {} and area {} interpolated, {}, from {}\n  {}\n",
+                            hole.number, counted(r.interpolated, "point"), figure(r.area, 6),
+                            error_text(r), counted(r.data, "point"), r.model);
     }
     if (shown > most_holes) text += fmt::format("and {} more\n", shown - most_holes);
     text +=
-        fmt::format("filled {} of {}: {} and area {} invented\n", filled,
+        fmt::format("filled {} of {}: {} and area {} interpolated\n", filled,
                     counted(work.holes.size(), "hole"), counted(points, "point"), figure(area, 6));
     return text;
 }
@@ -126,7 +126,7 @@ void add_statistics(Json& json, const FillWork& work) {
                    {"throw", loop.fault_throw},
                    {"centre", {loop.centre.x, loop.centre.y, loop.centre.z}}};
         if (hole.report)
-            entry["filled"] = {{"points", hole.report->interpolated},
+            entry["filled"] = {{"interpolated", hole.report->interpolated},
                                {"area", hole.report->area},
                                {"data", hole.report->data},
                                {"expected_error", known(hole.report->expected_error)},

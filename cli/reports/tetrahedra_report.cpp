@@ -14,7 +14,7 @@
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t most_regions = 50; ///< listed on the terminal
+constexpr std::size_t most_blocks = 50; ///< listed on the terminal
 
 struct Comparison {
     std::size_t blocks = 0;
@@ -25,10 +25,10 @@ struct Comparison {
 Comparison compared(const TetrahedraReport& report) {
     Comparison result;
     for (std::size_t v = 1; v < report.volumes.size(); ++v) { // 0 is the outside
-        const RegionVolume& region = report.volumes[v];
+        const BlockVolume& block = report.volumes[v];
         ++result.blocks;
-        result.equal += region.equal ? 1 : 0;
-        result.most_difference = std::max(result.most_difference, std::fabs(region.difference));
+        result.equal += block.equal ? 1 : 0;
+        result.most_difference = std::max(result.most_difference, std::fabs(block.difference));
     }
     return result;
 }
@@ -131,10 +131,10 @@ std::size_t count_of(const TetrahedraReport& report) {
     return count;
 }
 
-/// Counts the tetrahedra of each region.
-std::vector<std::size_t> counts_of_regions(const TetrahedralMesh& mesh) {
-    std::vector<std::size_t> counts(mesh.region_count);
-    for (const std::uint32_t region : mesh.region_of) ++counts[region];
+/// Counts the tetrahedra of each block.
+std::vector<std::size_t> counts_of_blocks(const TetrahedralMesh& mesh) {
+    std::vector<std::size_t> counts(mesh.block_count);
+    for (const std::uint32_t block : mesh.block_of) ++counts[block];
     return counts;
 }
 
@@ -175,7 +175,8 @@ Json optimised_json(const OptimiseReport& report) {
 std::string report_text(const TetrahedraReport& report) {
     const auto verdict =
         report.violations.empty()
-            ? std::string("checked: each triangle is a union of faces, each region is one block\n")
+            ? std::string("checked: each triangle is a union of faces, each block is one that "
+                          "surfaces enclose\n")
             : fmt::format("not good: {}\n", counted(count_of(report), "violation"));
     return verdict + volumes_text(report) + dihedral_text(report.shape) +
            radius_edge_text(report.shape) + quality_text(report.shape) + bad_text(report.shape);
@@ -213,19 +214,19 @@ Json report_json(const TetrahedraReport& report) {
 std::string filled_text(const FilledBlocks& filled, const std::string& unit) {
     const Quantities quantities(unit);
     const TetrahedralMesh& mesh = filled.tetrahedra;
-    const auto counts = counts_of_regions(mesh);
+    const auto counts = counts_of_blocks(mesh);
     const std::size_t first = counts[0] == 0 ? 1 : 0;
     auto text = fmt::format(
         "{} tetrahedra, {}, {}{}\n", mesh.tetrahedra.size(), counted(mesh.faces.size(), "face"),
-        counted(counts.size() - first, "region"), first == 0 ? " with the outside" : "");
+        counted(counts.size() - first, "block"), first == 0 ? " with the outside" : "");
     if (filled.optimised && filled.optimised->passes > 0) text += optimised_text(*filled.optimised);
     if (!mesh.failure.empty()) text += fmt::format("made by {}: {}\n", mesh.mesher, mesh.failure);
-    for (std::size_t r = first; r < std::min(counts.size(), most_regions); ++r)
-        text += fmt::format("  region {:<3} {:>9} tetrahedra  volume {:<14} {}\n", r, counts[r],
+    for (std::size_t r = first; r < std::min(counts.size(), most_blocks); ++r)
+        text += fmt::format("  block {:<3} {:>9} tetrahedra  volume {:<14} {}\n", r, counts[r],
                             quantities.volume(filled.report.volumes[r].tetrahedra, 6),
                             filled.block_names[r]);
-    if (counts.size() > most_regions)
-        text += fmt::format("  and {} more\n", counts.size() - most_regions);
+    if (counts.size() > most_blocks)
+        text += fmt::format("  and {} more\n", counts.size() - most_blocks);
     if (!mesh.twins.empty())
         text += fmt::format("cut: {} more, {} of faces\n", counted(filled.added_nodes, "node"),
                             counted(mesh.twins.size(), "pair"));
@@ -233,19 +234,19 @@ std::string filled_text(const FilledBlocks& filled, const std::string& unit) {
 }
 
 void add_statistics(Json& json, const FilledBlocks& filled) {
-    add_constants(json, "structure", structure_constants()); // they decide the names of regions
+    add_constants(json, "structure", structure_constants()); // they decide the names of blocks
     add_constants(json, "tetrahedralize", tetrahedra_constants());
     const TetrahedralMesh& mesh = filled.tetrahedra;
-    json["output"]["volumes"] = mesh.region_count - 1;
+    json["output"]["volumes"] = mesh.block_count - 1;
     Json volumes = Json::array();
-    for (const RegionVolume& region : filled.report.volumes) volumes.push_back(region.tetrahedra);
+    for (const BlockVolume& block : filled.report.volumes) volumes.push_back(block.tetrahedra);
     json["tetrahedra"] = {{"mesher", mesh.mesher},
                           {"tetrahedra", mesh.tetrahedra.size()},
                           {"vertices", mesh.vertices.size()},
                           {"faces", mesh.faces.size()},
-                          {"regions", mesh.region_count},
-                          {"tetrahedra_of_region", counts_of_regions(mesh)},
-                          {"volume_of_region", volumes},
+                          {"blocks", mesh.block_count},
+                          {"tetrahedra_of_block", counts_of_blocks(mesh)},
+                          {"volume_of_block", volumes},
                           {"added_nodes", filled.added_nodes},
                           {"twin_faces", mesh.twins.size()}};
     if (filled.optimised) {

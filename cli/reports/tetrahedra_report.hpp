@@ -22,7 +22,7 @@ std::string violations_text(const TetrahedraReport& report);
 /// (docs/reference/statistics.md).
 Json report_json(const TetrahedraReport& report);
 
-/// Reports the counts, in all and per region, the checks and the shapes. `unit` is that of the
+/// Reports the counts, in all and per block, the checks and the shapes. `unit` is that of the
 /// coordinates; empty: unknown.
 std::string filled_text(const FilledBlocks& filled, const std::string& unit);
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/volumes/region_points.hpp>
+#include <terrane/algorithms/volumes/block_points.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/stages/pipeline.hpp>
@@ -16,20 +16,20 @@ namespace {
 
 /// Finds a point in each block if an output is in a format of TetGen. Warns of blocks that contain
 /// no point in doubles.
-Result<std::vector<RegionPoint>>
+Result<std::vector<BlockPoint>>
 points_in_blocks(const Mesh& mesh, const std::vector<Output>& outputs, Session& session) {
     const bool wanted = std::any_of(outputs.begin(), outputs.end(), [](const Output& output) {
         return output.format == Format::poly || output.format == Format::smesh;
     });
-    if (!wanted) return std::vector<RegionPoint>();
+    if (!wanted) return std::vector<BlockPoint>();
     session.begin("volumes", Phase::computing);
     const auto volumes = find_volumes(mesh, session.run());
     if (!volumes) return volumes.error();
-    auto points = region_points(mesh, volumes.value(), session.run());
+    auto points = block_points(mesh, volumes.value(), session.run());
     session.end_stage();
     if (!points) return points.error();
     if (const auto missing = volumes.value().block_count() - points.value().size(); missing > 0)
-        warn(fmt::format("{} too thin for a region point", counted(missing, "block")));
+        warn(fmt::format("{} too thin for a point inside", counted(missing, "block")));
     return points;
 }
 
@@ -56,13 +56,13 @@ Status write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
                      const std::vector<Output>& outputs, Session& session) {
     WriteOptions options;
     options.ascii = files.ascii;
-    std::vector<RegionPoint> regions;
+    std::vector<BlockPoint> inside;
     if (clean) { // otherwise blocks are not defined
         auto points = points_in_blocks(mesh, outputs, session);
         if (!points) return points.error();
-        regions = std::move(points).value();
+        inside = std::move(points).value();
     }
-    options.regions = regions;
+    options.block_points = inside;
     for (const Output& output : outputs) {
         const auto written = write_output(mesh, output, options, session);
         if (!written) return written.error();

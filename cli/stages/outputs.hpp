@@ -23,7 +23,7 @@ Result<bool> stl_is_conforming(const Mesh& mesh, const FileOptions& files,
                                const std::vector<Output>& outputs, Session& session);
 
 /// Writes the mesh to `outputs`, in their order. `clean`: the mesh is conforming; without that,
-/// files in TetGen's formats get no region points.
+/// files in TetGen's formats get no points inside blocks.
 Status write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
                      const std::vector<Output>& outputs, Session& session);
 

@@ -98,10 +98,10 @@ std::string rounding_text(const RoundingReport& r) {
         text += fmt::format("doubles: no surface is more than {:.3g} from where it was, nor any of "
                             "its parts; {:.3g} is allowed\n",
                             r.surface_deviation, r.max_allowed);
-    if (r.lost_length > 0)
+    if (r.vanished_length > 0)
         text += fmt::format("doubles: slivers that doubles can't hold vanished, which reached up "
                             "to {:.3g} beyond the rest\n",
-                            r.lost_length);
+                            r.vanished_length);
     if (r.moved_input_vertices > 0)
         text += fmt::format("doubles: {} had to give way\n",
                             r.moved_input_vertices == 1
@@ -110,11 +110,11 @@ std::string rounding_text(const RoundingReport& r) {
     if (!r.vanished.empty())
         text += fmt::format("doubles: {} vanished, thinner than the doubles\n",
                             counted(r.vanished.size(), "input triangle"));
-    if (!r.lost_regions.empty())
+    if (!r.vanished_regions.empty())
         text += fmt::format("doubles: {} fewer regions than in the exact result\n",
-                            r.lost_regions.size() == 1
+                            r.vanished_regions.size() == 1
                                 ? std::string("1 surface has")
-                                : fmt::format("{} surfaces have", r.lost_regions.size()));
+                                : fmt::format("{} surfaces have", r.vanished_regions.size()));
     text += r.clean ? good("verified:") + " the doubles are a conforming mesh, by exact check\n"
                     : fmt::format("{} {}{} of triangles still meet improperly, and no "
                                   "surface may move by more than {:.3g} to separate them\n",

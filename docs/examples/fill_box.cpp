@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
 
     const auto written = terrane::write_tetrahedra(*tetrahedra, argv[1]);
     if (!written) return fail(written.error());
-    std::printf("%zu tetrahedra in %u regions with the outside\n", tetrahedra->tetrahedra.size(),
-                tetrahedra->region_count);
+    std::printf("%zu tetrahedra in %u blocks with the outside\n", tetrahedra->tetrahedra.size(),
+                tetrahedra->block_count);
     return 0;
 }

@@ -198,11 +198,11 @@ Result<std::vector<Surface>> read_gocad(std::string_view contents, std::string_v
     });
 }
 
-std::vector<StatedRegion> stated_regions_of(const GocadModel& model) {
-    std::vector<StatedRegion> regions;
+std::vector<StatedBlock> stated_blocks_of(const GocadModel& model) {
+    std::vector<StatedBlock> blocks;
     for (const ModelRegion& region : model.regions) {
         if (same_ignoring_case(region.name, "Universe")) continue;
-        StatedRegion& stated = regions.emplace_back();
+        StatedBlock& stated = blocks.emplace_back();
         stated.name = region.name;
         for (const ModelLayer& layer : model.layers)
             if (std::ranges::count(layer.regions, region.id) > 0 && stated.layer.empty())
@@ -214,7 +214,7 @@ std::vector<StatedRegion> stated_regions_of(const GocadModel& model) {
             stated.borders.push_back({part.surface, part.first_triangle, part.triangle_count});
         }
     }
-    return regions;
+    return blocks;
 }
 
 Result<GocadModel> read_gocad_model(std::string_view contents, std::string_view source,

@@ -11,7 +11,7 @@
 #include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/structure/stated_regions.hpp>
+#include <terrane/algorithms/structure/stated_blocks.hpp>
 
 namespace terrane {
 
@@ -78,7 +78,7 @@ Result<GocadModel> read_gocad_model(std::string_view contents, std::string_view 
 
 /// Lists the regions of a model but the outside, with the parts that have the region on one side
 /// only. A region is of the first layer that names it.
-std::vector<StatedRegion> stated_regions_of(const GocadModel& model);
+std::vector<StatedBlock> stated_blocks_of(const GocadModel& model);
 
 /// Writes one TSurf per surface, with z up (ZPOSITIVE Elevation) and the vertices that the surface
 /// uses, in the order of the mesh. A triangle of several surfaces is written in each of them. Names

@@ -112,12 +112,12 @@ std::string surface_lines(const TetrahedralMesh& mesh, const EdgeNodes* nodes) {
     return out;
 }
 
-/// Returns the names of the element sets of `count` regions.
-std::vector<std::string> set_names(std::size_t count, std::span<const std::string> region_names) {
+/// Returns the names of the element sets of `count` blocks.
+std::vector<std::string> set_names(std::size_t count, std::span<const std::string> block_names) {
     std::vector<SurfaceInfo> infos; // the names as label_names takes them
     for (std::size_t r = 0; r < count; ++r) {
-        const bool named = r < region_names.size() && !region_names[r].empty();
-        infos.push_back({named ? region_names[r] : region_name(r), Role::unknown});
+        const bool named = r < block_names.size() && !block_names[r].empty();
+        infos.push_back({named ? block_names[r] : block_name(r), Role::unknown});
     }
     return label_names(infos);
 }
@@ -141,20 +141,19 @@ std::string to_abaqus(const Mesh& mesh) {
     return out;
 }
 
-std::string to_abaqus(const TetrahedralMesh& mesh, std::span<const std::string> region_names,
+std::string to_abaqus(const TetrahedralMesh& mesh, std::span<const std::string> block_names,
                       const EdgeNodes* nodes) {
     std::map<std::uint32_t, std::vector<std::size_t>> of_region;
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-        of_region[mesh.region_of[t]].push_back(t);
+        of_region[mesh.block_of[t]].push_back(t);
     const auto names =
-        set_names(of_region.empty() ? 0 : of_region.rbegin()->first + 1, region_names);
+        set_names(of_region.empty() ? 0 : of_region.rbegin()->first + 1, block_names);
     auto out = node_lines(nodes ? nodes->vertices : mesh.vertices);
     const auto cells = nodes ? tetrahedra_of_10(mesh, *nodes, order_of_abaqus)
                              : std::vector<std::array<std::uint32_t, 10>>();
-    for (const auto& [region, tetrahedra] : of_region) {
-        out +=
-            fmt::format("** {}\n*ELEMENT, TYPE={}, ELSET={}\n", region_name(region, region_names),
-                        nodes ? "C3D10" : "C3D4", names[region]);
+    for (const auto& [block, tetrahedra] : of_region) {
+        out += fmt::format("** {}\n*ELEMENT, TYPE={}, ELSET={}\n", block_name(block, block_names),
+                           nodes ? "C3D10" : "C3D4", names[block]);
         for (const std::size_t t : tetrahedra)
             if (nodes)
                 append_element(out, t, cells[t]);

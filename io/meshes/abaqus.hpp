@@ -16,14 +16,14 @@ namespace terrane {
 /// several surfaces is in all their sets. Numbers read back as the same doubles.
 std::string to_abaqus(const Mesh& mesh);
 
-/// Writes the tetrahedra: element t + 1 is tetrahedron t (C3D4). Each region is an element set
-/// named after region_names[r], or OUTSIDE, REGION_1, ... if that is empty; comments state the
-/// region of each set. Each surface is a node set and two surfaces of element faces, NAME_FRONT
+/// Writes the tetrahedra: element t + 1 is tetrahedron t (C3D4). Each block is an element set
+/// named after block_names[r], or OUTSIDE, BLOCK_1, ... if that is empty; comments state the
+/// block of each set. Each surface is a node set and two surfaces of element faces, NAME_FRONT
 /// (of the elements in front of it) and NAME_BACK (of those behind it); a side without elements is
 /// left out. If nodes are split, the unsorted node sets NAME_PAIRS_FRONT and NAME_PAIRS_BACK list
 /// the nodes on both sides of the cut pair by pair. With `nodes` elements are of second order
 /// (C3D10), and sets of nodes have those on edges.
-std::string to_abaqus(const TetrahedralMesh& mesh, std::span<const std::string> region_names = {},
+std::string to_abaqus(const TetrahedralMesh& mesh, std::span<const std::string> block_names = {},
                       const EdgeNodes* nodes = nullptr);
 
 } // namespace terrane

@@ -82,9 +82,9 @@ std::vector<NodeSet> find_node_sets(const TetrahedralMesh& mesh, const EdgeNodes
 class ExodusWriter {
 public:
     ExodusWriter(const TetrahedralMesh& mesh, const EdgeNodes* nodes,
-                 std::span<const std::string> region_names) :
+                 std::span<const std::string> block_names) :
         mesh_(mesh),
-        nodes_(nodes), parts_(named_parts(mesh, region_names)),
+        nodes_(nodes), parts_(named_parts(mesh, block_names)),
         node_sets_(find_node_sets(mesh, nodes, parts_)) {}
 
     Result<std::string> operator()() {
@@ -217,9 +217,9 @@ private:
 
 } // namespace
 
-Result<std::string> to_exodus(const TetrahedralMesh& mesh,
-                              std::span<const std::string> region_names, const EdgeNodes* nodes) {
-    return ExodusWriter(mesh, nodes, region_names)();
+Result<std::string> to_exodus(const TetrahedralMesh& mesh, std::span<const std::string> block_names,
+                              const EdgeNodes* nodes) {
+    return ExodusWriter(mesh, nodes, block_names)();
 }
 
 } // namespace terrane

@@ -15,8 +15,8 @@ namespace terrane {
 
 /// Writes the tetrahedra block by block, of the type TETRA, or TETRA10 with `nodes`: node v + 1 is
 /// vertex v. All parts have names of one word (names.hpp), with n surfaces:
-///   element blocks  one per region with the number of the region, and the outside with the one
-///                   after all others; called after region_names[r], or outside, region_1, ...
+///   element blocks  one per block with the number of the block, and the outside with the one
+///                   after all others; called after block_names[r], or outside, block_1, ...
 ///   side sets       NAME with the number s + 1 for surface s with tetrahedra on one side; else
 ///                   NAME_front with n + 2 s + 1 and NAME_back with n + 2 s + 2
 ///   node sets       NAME with s + 1: all nodes of surface s. If nodes are split: NAME_front and
@@ -28,7 +28,7 @@ namespace terrane {
 /// Exodus return them.
 /// Errors: unsupported (an array of 4 GiB or more: more than 268435455 tetrahedra in a block).
 Result<std::string> to_exodus(const TetrahedralMesh& mesh,
-                              std::span<const std::string> region_names = {},
+                              std::span<const std::string> block_names = {},
                               const EdgeNodes* nodes = nullptr);
 
 } // namespace terrane

@@ -50,7 +50,7 @@ std::vector<PointSet> point_sets(const TetrahedralMesh& mesh, const NamedParts& 
 /// Lists what the numbers of the array `attribute` stand for.
 std::string list_of_attributes(const NamedParts& parts, const std::vector<SurfaceGroup>& groups) {
     std::string list = "attribute of tetrahedra:\n";
-    for (const auto& block : parts.blocks) list += fmt::format("{} {}\n", block.region, block.name);
+    for (const auto& block : parts.blocks) list += fmt::format("{} {}\n", block.block, block.name);
     list += "attribute of triangles:\n";
     for (const auto& group : groups) {
         list += fmt::format("{}", group.tag);
@@ -64,7 +64,7 @@ std::string list_of_attributes(const NamedParts& parts, const std::vector<Surfac
 std::string main_file(const TetrahedralMesh& mesh, const NamedParts& parts, bool compress) {
     const auto groups = surface_groups(mesh.surfaces_of, mesh.surfaces.size(), cut_sides(mesh));
     const auto count = mesh.tetrahedra.size() + mesh.faces.size();
-    std::vector<std::int32_t> attribute(mesh.region_of.begin(), mesh.region_of.end());
+    std::vector<std::int32_t> attribute(mesh.block_of.begin(), mesh.block_of.end());
     for (const auto tag : group_tags(groups, mesh.faces.size()))
         attribute.push_back(static_cast<std::int32_t>(tag));
     VtkWriter out(compress);
@@ -187,8 +187,8 @@ std::string fracture_file(const TetrahedralMesh& mesh, const Fracture& fracture,
 } // namespace
 
 SeveralFiles to_geos(const TetrahedralMesh& mesh, const VtkFiles& files,
-                     std::span<const std::string> region_names) {
-    auto parts = named_parts(mesh, region_names);
+                     std::span<const std::string> block_names) {
+    auto parts = named_parts(mesh, block_names);
     Places places(mesh);
     SeveralFiles all{{"", ""}};
     std::string list;

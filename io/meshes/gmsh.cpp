@@ -36,15 +36,15 @@ std::vector<MshEntity> surface_entities(std::vector<SurfaceGroup> groups, std::s
     return entities;
 }
 
-std::vector<MshEntity> volume_entities(const std::vector<std::uint32_t>& region_of,
+std::vector<MshEntity> volume_entities(const std::vector<std::uint32_t>& block_of,
                                        std::size_t surface_count) {
     std::map<std::uint32_t, MshEntity> entity_of;
-    for (std::size_t i = 0; i < region_of.size(); ++i) entity_of[region_of[i]].cells.push_back(i);
+    for (std::size_t i = 0; i < block_of.size(); ++i) entity_of[block_of[i]].cells.push_back(i);
     std::vector<MshEntity> entities;
-    for (auto& [region, entity] : entity_of) {
+    for (auto& [block, entity] : entity_of) {
         entity.dimension = 3;
-        entity.tag = region + 1;
-        entity.physical = {region_tag(region, surface_count)};
+        entity.tag = block + 1;
+        entity.physical = {block_tag(block, surface_count)};
         entities.push_back(std::move(entity));
     }
     return entities;
@@ -75,12 +75,12 @@ std::vector<MshLink> periodic_links(const std::vector<SurfaceGroup>& groups,
 
 std::vector<MshName> names_of(const std::vector<SurfaceInfo>& surfaces,
                               std::span<const SideName> sides, std::span<const MshEntity> volumes,
-                              std::span<const std::string> region_names) {
+                              std::span<const std::string> block_names) {
     std::vector<MshName> names;
     for (auto& name : quotable_names(surfaces)) names.push_back({2, names.size() + 1, name});
     for (const auto& side : sides) names.push_back({2, side.tag, side.name});
     for (const auto& volume : volumes)
-        names.push_back({3, volume.physical.front(), region_name(volume.tag - 1, region_names)});
+        names.push_back({3, volume.physical.front(), block_name(volume.tag - 1, block_names)});
     return names;
 }
 
@@ -94,14 +94,14 @@ struct MshCells {
 };
 
 template <class Tetrahedron, class Face>
-std::string msh_of(const TetrahedralMesh& mesh, std::span<const std::string> region_names,
+std::string msh_of(const TetrahedralMesh& mesh, std::span<const std::string> block_names,
                    const EdgeNodes* nodes, const MshCells<Tetrahedron, Face>& cells) {
-    const auto volumes = volume_entities(mesh.region_of, mesh.surfaces.size());
+    const auto volumes = volume_entities(mesh.block_of, mesh.surfaces.size());
     const auto groups = surface_groups(mesh.surfaces_of, mesh.surfaces.size(), cut_sides(mesh));
     const auto surfaces =
         surface_entities(groups, mesh.surfaces.size(), mesh.tetrahedra.size() + 1);
     MshWriter out(nodes ? nodes->vertices : mesh.vertices);
-    out.names(names_of(mesh.surfaces, side_names(groups, mesh.surfaces), volumes, region_names));
+    out.names(names_of(mesh.surfaces, side_names(groups, mesh.surfaces), volumes, block_names));
     out.text(fmt::format("$Entities\n0 0 {} {}", surfaces.size(), volumes.size()));
     out.entities<Face>(surfaces, cells.faces);
     out.entities<Tetrahedron>(volumes, cells.tetrahedra);
@@ -134,15 +134,15 @@ std::string to_msh(const Mesh& mesh) {
     return out.take();
 }
 
-std::string to_msh(const TetrahedralMesh& mesh, std::span<const std::string> region_names,
+std::string to_msh(const TetrahedralMesh& mesh, std::span<const std::string> block_names,
                    const EdgeNodes* nodes) {
     if (!nodes)
         return msh_of(
-            mesh, region_names, nodes,
+            mesh, block_names, nodes,
             MshCells<std::array<std::uint32_t, 4>, Triangle>{mesh.tetrahedra, mesh.faces});
     const auto tetrahedra = tetrahedra_of_10(mesh, *nodes, order_of_gmsh);
     const auto faces = triangles_of_6(mesh, *nodes);
-    return msh_of(mesh, region_names, nodes,
+    return msh_of(mesh, block_names, nodes,
                   MshCells<std::array<std::uint32_t, 10>, std::array<std::uint32_t, 6>>{
                       tetrahedra, faces, msh_tetrahedron_of_10, msh_triangle_of_6});
 }

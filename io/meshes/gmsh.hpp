@@ -18,13 +18,13 @@ namespace terrane {
 std::string to_msh(const Mesh& mesh);
 
 /// Writes the tetrahedra, then their faces on surfaces, which have entities and physical surfaces
-/// as the triangles above. Region r is volume entity r + 1 and, with n surfaces, physical volume 3
-/// n + r + 1, which is no number of a physical surface, with the name "outside" or "region 1", ...,
-/// or "region 1: NAME" if region_names[1] is NAME. If nodes are split, the faces of surface s in
+/// as the triangles above. Block r is volume entity r + 1 and, with n surfaces, physical volume 3
+/// n + r + 1, which is no number of a physical surface, with the name "outside" or "block 1", ...,
+/// or "block 1: NAME" if block_names[1] is NAME. If nodes are split, the faces of surface s in
 /// front of the cut are in the physical surface "NAME front" and those behind it in "NAME back",
 /// instead of in s + 1; $Periodic lists the pairs of nodes at the same point. With `nodes` the
 /// elements are of second order (types 11 and 9).
-std::string to_msh(const TetrahedralMesh& mesh, std::span<const std::string> region_names = {},
+std::string to_msh(const TetrahedralMesh& mesh, std::span<const std::string> block_names = {},
                    const EdgeNodes* nodes = nullptr);
 
 } // namespace terrane

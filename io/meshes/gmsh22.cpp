@@ -20,17 +20,16 @@ using namespace detail;
 namespace {
 
 std::string physical_names(const std::vector<SurfaceInfo>& surfaces,
-                           std::span<const SideName> sides, const std::set<std::uint32_t>& regions,
-                           std::span<const std::string> region_names) {
-    auto text =
-        fmt::format("$PhysicalNames\n{}\n", surfaces.size() + sides.size() + regions.size());
+                           std::span<const SideName> sides, const std::set<std::uint32_t>& blocks,
+                           std::span<const std::string> block_names) {
+    auto text = fmt::format("$PhysicalNames\n{}\n", surfaces.size() + sides.size() + blocks.size());
     const auto names = quotable_names(surfaces);
     for (std::size_t s = 0; s < names.size(); ++s)
         text += fmt::format("2 {} \"{}\"\n", s + 1, names[s]);
     for (const auto& side : sides) text += fmt::format("2 {} \"{}\"\n", side.tag, side.name);
-    for (const auto region : regions)
-        text += fmt::format("3 {} \"{}\"\n", region_tag(region, surfaces.size()),
-                            region_name(region, region_names));
+    for (const auto block : blocks)
+        text += fmt::format("3 {} \"{}\"\n", block_tag(block, surfaces.size()),
+                            block_name(block, block_names));
     return text + "$EndPhysicalNames\n";
 }
 
@@ -79,7 +78,7 @@ public:
     void add_tetrahedra(std::string_view type, const std::vector<Tetrahedron>& tetrahedra,
                         const TetrahedralMesh& mesh) {
         for (std::size_t t = 0; t < tetrahedra.size(); ++t)
-            add(type, region_tag(mesh.region_of[t], mesh.surfaces.size()), tetrahedra[t]);
+            add(type, block_tag(mesh.block_of[t], mesh.surfaces.size()), tetrahedra[t]);
     }
 
     [[nodiscard]] std::string section() const {
@@ -119,7 +118,7 @@ std::string to_msh22(const Mesh& mesh) {
            nodes(mesh.vertices) + elements.section();
 }
 
-std::string to_msh22(const TetrahedralMesh& mesh, std::span<const std::string> region_names,
+std::string to_msh22(const TetrahedralMesh& mesh, std::span<const std::string> block_names,
                      const EdgeNodes* edge_nodes) {
     Elements elements;
     const auto sides = cut_sides(mesh);
@@ -132,10 +131,10 @@ std::string to_msh22(const TetrahedralMesh& mesh, std::span<const std::string> r
         elements.add_tetrahedra(" 4 2", mesh.tetrahedra, mesh);
         elements.add_faces(" 2 2", mesh.faces, mesh.surfaces_of, count, sides);
     }
-    const std::set<std::uint32_t> regions(mesh.region_of.begin(), mesh.region_of.end());
+    const std::set<std::uint32_t> blocks(mesh.block_of.begin(), mesh.block_of.end());
     const auto groups = surface_groups(mesh.surfaces_of, count, sides);
     return std::string(format_section) +
-           physical_names(mesh.surfaces, side_names(groups, mesh.surfaces), regions, region_names) +
+           physical_names(mesh.surfaces, side_names(groups, mesh.surfaces), blocks, block_names) +
            nodes(edge_nodes ? edge_nodes->vertices : mesh.vertices) + elements.section() +
            periodic(mesh, edge_nodes);
 }

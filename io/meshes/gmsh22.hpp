@@ -16,11 +16,11 @@ namespace terrane {
 /// written once for each of them, one after the other. Numbers read back as the same doubles.
 std::string to_msh22(const Mesh& mesh);
 
-/// Writes the tetrahedra, then their faces on surfaces, numbered as the triangles above. Region r
-/// is physical volume and entity 3 n + r + 1, with n surfaces, with the name "outside" or "region
-/// 1", ..., or "region 1: NAME" if region_names[1] is NAME. Split nodes are written as in MSH 4.1
+/// Writes the tetrahedra, then their faces on surfaces, numbered as the triangles above. Block r
+/// is physical volume and entity 3 n + r + 1, with n surfaces, with the name "outside" or "block
+/// 1", ..., or "block 1: NAME" if block_names[1] is NAME. Split nodes are written as in MSH 4.1
 /// (gmsh.hpp), and so are elements of second order.
-std::string to_msh22(const TetrahedralMesh& mesh, std::span<const std::string> region_names = {},
+std::string to_msh22(const TetrahedralMesh& mesh, std::span<const std::string> block_names = {},
                      const EdgeNodes* edge_nodes = nullptr);
 
 } // namespace terrane

@@ -73,7 +73,7 @@ std::string to_medit(const TetrahedralMesh& mesh) {
     const auto groups = surface_groups(mesh.surfaces_of, mesh.surfaces.size(), cut_sides(mesh));
     auto out = start(mesh.surfaces, groups, mesh.vertices);
     append_cells(out, "Triangles", mesh.faces, group_tags(groups, mesh.faces.size()));
-    append_cells(out, "Tetrahedra", mesh.tetrahedra, mesh.region_of);
+    append_cells(out, "Tetrahedra", mesh.tetrahedra, mesh.block_of);
     return out + pair_comments(mesh) + "\nEnd\n";
 }
 

@@ -16,7 +16,7 @@ namespace terrane {
 std::string to_medit(const Mesh& mesh);
 
 /// Writes vertices, the faces on surfaces like the triangles above, and the tetrahedra, whose
-/// reference is their region, 0 for the outside. If nodes are split, each side of a surface has a
+/// reference is their block, 0 for the outside. If nodes are split, each side of a surface has a
 /// reference of its own, and comments at the end list the pairs of vertices at the same point:
 /// `# 12 345`, front and back.
 std::string to_medit(const TetrahedralMesh& mesh);

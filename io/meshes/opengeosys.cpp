@@ -21,14 +21,13 @@ std::string bulk_file(const TetrahedralMesh& mesh, const EdgeNodes* nodes, const
     VtkWriter out(compress);
     out.begin_file("UnstructuredGrid");
     std::string list = "MaterialIDs:\n";
-    for (const auto& block : parts.blocks) list += fmt::format("{} {}\n", block.region, block.name);
+    for (const auto& block : parts.blocks) list += fmt::format("{} {}\n", block.block, block.name);
     out.comment(list);
     const auto& vertices = nodes ? nodes->vertices : mesh.vertices;
     const auto count = mesh.tetrahedra.size();
     out.begin_piece(vertices.size(), count);
     out.text("<CellData Scalars=\"MaterialIDs\">");
-    out.array("MaterialIDs",
-              std::vector<std::int32_t>(mesh.region_of.begin(), mesh.region_of.end()));
+    out.array("MaterialIDs", std::vector<std::int32_t>(mesh.block_of.begin(), mesh.block_of.end()));
     out.text("</CellData>");
     out.points(vertices);
     std::vector<std::int64_t> corners, offsets;
@@ -75,8 +74,8 @@ std::string side_file(const TetrahedralMesh& mesh, const EdgeNodes* nodes, const
 } // namespace
 
 SeveralFiles to_opengeosys(const TetrahedralMesh& mesh, const VtkFiles& files,
-                           std::span<const std::string> region_names, const EdgeNodes* nodes) {
-    const auto parts = named_parts(mesh, region_names);
+                           std::span<const std::string> block_names, const EdgeNodes* nodes) {
+    const auto parts = named_parts(mesh, block_names);
     SeveralFiles all{{"", bulk_file(mesh, nodes, parts, files.compress)}};
     for (const SideSet& set : parts.side_sets)
         all.push_back({fmt::format("{}_{}.vtu", files.stem, set.name),

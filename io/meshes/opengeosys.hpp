@@ -20,13 +20,13 @@ struct VtkFiles {
 };
 
 /// Writes the tetrahedra alone, of second order with `nodes`, with the cell array MaterialIDs (Int32),
-/// the region. A comment lists the names of the regions. Each side of a surface is a file
+/// the block. A comment lists the names of the blocks. Each side of a surface is a file
 /// STEM_NAME.vtu: NAME is one word (names.hpp), with the ending _front or _back where the surface has
 /// tetrahedra on both sides. It has triangles wound counterclockwise seen from outside of their
 /// tetrahedra, the point array bulk_node_ids and the cell array bulk_element_ids (UInt64): node and
 /// tetrahedron in the first file.
 SeveralFiles to_opengeosys(const TetrahedralMesh& mesh, const VtkFiles& files,
-                           std::span<const std::string> region_names = {},
+                           std::span<const std::string> block_names = {},
                            const EdgeNodes* nodes = nullptr);
 
 } // namespace terrane

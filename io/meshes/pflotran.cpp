@@ -38,8 +38,8 @@ std::string grid_text(const TetrahedralMesh& mesh) {
 } // namespace
 
 SeveralFiles to_pflotran(const TetrahedralMesh& mesh, std::string_view stem,
-                         std::span<const std::string> region_names) {
-    const auto parts = named_parts(mesh, region_names);
+                         std::span<const std::string> block_names) {
+    const auto parts = named_parts(mesh, block_names);
     SeveralFiles all{{"", grid_text(mesh)}};
     for (const auto& block : parts.blocks) {
         std::string cells;

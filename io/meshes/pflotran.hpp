@@ -18,6 +18,6 @@ namespace terrane {
 /// or outside, region_1, ...; and that of the surface, with _front and _back where it has cells on
 /// both sides. Numbers read back as the same doubles.
 SeveralFiles to_pflotran(const TetrahedralMesh& mesh, std::string_view stem,
-                         std::span<const std::string> region_names = {});
+                         std::span<const std::string> block_names = {});
 
 } // namespace terrane

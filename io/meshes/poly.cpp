@@ -33,23 +33,23 @@ void append_polygon(std::string& out, const Triangle& corners) {
     }
 }
 
-std::string region_lines(std::span<const RegionPoint> regions) {
-    auto out = fmt::format("{}\n", regions.size());
-    for (std::size_t r = 0; r < regions.size(); ++r) {
+std::string region_lines(std::span<const BlockPoint> points) {
+    auto out = fmt::format("{}\n", points.size());
+    for (std::size_t r = 0; r < points.size(); ++r) {
         append_number(out, std::uint64_t(r + 1));
         out += ' ';
-        append_point(out, regions[r].place);
+        append_point(out, points[r].place);
         out += ' ';
-        append_number(out, std::uint64_t(regions[r].region));
+        append_number(out, std::uint64_t(points[r].block));
         out += '\n';
     }
     return out;
 }
 
-std::string written(const Mesh& mesh, std::span<const RegionPoint> regions, bool short_form) {
+std::string written(const Mesh& mesh, std::span<const BlockPoint> points, bool short_form) {
     const auto groups = surface_groups(mesh.surfaces_of, mesh.surfaces.size());
     const auto markers = group_tags(groups, mesh.triangles.size());
-    auto out = "# markers of facets\n" + tag_comments(groups, mesh.surfaces) + "# points\n" +
+    auto out = "# markers of facets\n" + tag_comments(groups, mesh.surfaces) + "# regions\n" +
                points(mesh.vertices);
     out += fmt::format("# facets\n{} 1\n", mesh.triangles.size()); // 1: with markers
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -58,19 +58,19 @@ std::string written(const Mesh& mesh, std::span<const RegionPoint> regions, bool
         if (short_form) out += fmt::format(" {}", markers[t]);
         out += '\n';
     }
-    return out + "# holes\n0\n# regions\n" + region_lines(regions);
+    return out + "# holes\n0\n# regions\n" + region_lines(points);
 }
 
 } // namespace
 
-std::string to_poly(const Mesh& mesh, std::span<const RegionPoint> regions) {
+std::string to_poly(const Mesh& mesh, std::span<const BlockPoint> points) {
     const StandardArithmetic guard;
-    return written(mesh, regions, false);
+    return written(mesh, points, false);
 }
 
-std::string to_smesh(const Mesh& mesh, std::span<const RegionPoint> regions) {
+std::string to_smesh(const Mesh& mesh, std::span<const BlockPoint> points) {
     const StandardArithmetic guard;
-    return written(mesh, regions, true);
+    return written(mesh, points, true);
 }
 
 } // namespace terrane

@@ -11,7 +11,7 @@
 #include <pugixml.hpp>
 
 #include <terrane/algorithms/core/guarded.hpp>
-#include <terrane/algorithms/distribution/pieces.hpp>
+#include <terrane/algorithms/tiles/pieces.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/meshes/detail/vtk_data.hpp>
 #include <terrane/io/meshes/detail/vtk_writer.hpp>
@@ -46,7 +46,7 @@ class PieceReader {
 public:
     explicit PieceReader(std::string_view contents) : contents_(contents) {}
 
-    Result<distribution::BlockPiece> operator()() {
+    Result<tiles::TilePiece> operator()() {
         const auto parsed = document_.load_buffer(contents_.data(), contents_.size());
         if (parsed.status == pugi::status_out_of_memory) throw std::bad_alloc();
         const pugi::xml_node root = document_.child("VTKFile"), data = root.child("PolyData"),
@@ -186,7 +186,7 @@ private:
     pugi::xml_document document_;
     VtkEncoding encoding_;
     std::size_t used_ = 0;
-    distribution::BlockPiece out_;
+    tiles::TilePiece out_;
     std::optional<std::string> flaw_;
 };
 
@@ -241,7 +241,7 @@ Result<std::vector<fs::path>> paths_of_pieces(const fs::path& path) {
 Result<Mesh> join_pieces(const fs::path& path) {
     const auto files = paths_of_pieces(path);
     if (!files) return files.error();
-    std::vector<distribution::BlockPiece> pieces;
+    std::vector<tiles::TilePiece> pieces;
     std::size_t vertices = 0, triangles = 0;
     for (const fs::path& file : *files) {
         const auto contents = read_file(file);
@@ -257,7 +257,7 @@ Result<Mesh> join_pieces(const fs::path& path) {
     for (const auto& piece : pieces) held += piece.mesh.vertices.size();
     if (vertices > held)
         return Error{ErrorCode::bad_index, "the numbers of vertices have gaps", path.string()};
-    distribution::PieceJoiner joiner(vertices, triangles);
+    tiles::PieceJoiner joiner(vertices, triangles);
     for (std::size_t k = 0; k < pieces.size(); ++k) {
         if (auto added = joiner.add(pieces[k]); !added)
             return Error{added.error().code, added.error().sentence, (*files)[k].string()};
@@ -270,7 +270,7 @@ Result<Mesh> join_pieces(const fs::path& path) {
 
 } // namespace
 
-std::string to_vtp_piece(const distribution::BlockPiece& piece, bool has_volumes) {
+std::string to_vtp_piece(const tiles::TilePiece& piece, bool has_volumes) {
     const Mesh& mesh = piece.mesh;
     VtkWriter out(true);
     out.begin_file("PolyData");

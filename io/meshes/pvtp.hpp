@@ -11,14 +11,14 @@
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
-#include <terrane/algorithms/distribution/distributed_arrangement.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/tiles/tiled_arrangement.hpp>
 
 namespace terrane {
 
 /// Writes a piece: the file of to_vtp(), and the numbers of its points and cells; with the volumes beside
 /// each triangle, if there are any.
-std::string to_vtp_piece(const distribution::BlockPiece& piece, bool has_volumes = false);
+std::string to_vtp_piece(const tiles::TilePiece& piece, bool has_volumes = false);
 
 /// Writes the file that names the pieces, by their paths from its folder.
 std::string to_pvtp(std::span<const std::string> pieces, bool has_volumes = false);

@@ -14,7 +14,7 @@
 namespace terrane {
 
 namespace fs = std::filesystem;
-using namespace distribution;
+using namespace tiles;
 
 namespace {
 
@@ -36,33 +36,33 @@ Status check_pvtp(const fs::path& path) {
     return check_new_folder(folder_of_pieces(path));
 }
 
-Status write_pvtp(Supersteps& blocks, const fs::path& path, bool has_volumes,
-                  const BlockPiece* whole) {
-    // In the process of the last block, whose turn is the last in a process: nothing can fail after it.
+Status write_pvtp(Supersteps& tiles, const fs::path& path, bool has_volumes,
+                  const TilePiece* whole) {
+    // In the process of the last tile, whose turn is the last in a process: nothing can fail after it.
     std::optional<NewFolder> folder;
-    const auto is_last = [&](const Block& b) { return b.index + 1 == blocks.blocks(); };
-    auto done = blocks.step("write", [&](Block& b, Inbox&, Outbox& out) -> Status {
+    const auto is_last = [&](const Tile& b) { return b.index + 1 == tiles.tiles(); };
+    auto done = tiles.step("write", [&](Tile& b, Inbox&, Outbox& out) -> Status {
         if (!is_last(b)) return Done{};
         auto made = NewFolder::create(folder_of_pieces(path));
         if (!made) return made.error();
         folder = std::move(*made);
         const std::string name = folder->temporary().string();
-        for (std::size_t to = 0; to < out.blocks(); ++to) out.put_text(to, 0, name);
+        for (std::size_t to = 0; to < out.tiles(); ++to) out.put_text(to, 0, name);
         return Done{};
     });
     if (!done) return done;
-    done = blocks.step("write", [&](Block& b, Inbox& in, Outbox&) -> Status {
+    done = tiles.step("write", [&](Tile& b, Inbox& in, Outbox&) -> Status {
         const auto name = in.all<char>(0);
         const fs::path file =
             fs::path(std::string(name.begin(), name.end())) / name_of_piece(path, b.index);
         if (!whole) return write_file(file, to_vtp_piece(piece_of(b), has_volumes));
-        BlockPiece empty;
+        TilePiece empty;
         empty.mesh.surfaces = piece_of(b).mesh.surfaces;
         return write_file(file, to_vtp_piece(b.index == 0 ? *whole : empty, has_volumes));
     });
     if (!done) return done;
-    return blocks.step("write", [&](Block& b, Inbox&, Outbox&) -> Status {
-        return is_last(b) ? publish(*folder, path, blocks.blocks(), has_volumes) : Status(Done{});
+    return tiles.step("write", [&](Tile& b, Inbox&, Outbox&) -> Status {
+        return is_last(b) ? publish(*folder, path, tiles.tiles(), has_volumes) : Status(Done{});
     });
 }
 

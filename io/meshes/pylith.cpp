@@ -85,17 +85,17 @@ Result<std::string> to_pylith(const TetrahedralMesh& mesh) {
                      "PyLith splits nodes itself: make this file without split surfaces", ""};
     const auto parts = named_parts(mesh, {});
     auto volumes = materials(parts);
-    std::size_t regions = mesh.region_count;
-    for (const auto& block : parts.blocks) regions = std::max(regions, block.number);
-    const auto edges = fault_edges(mesh, regions + mesh.surfaces.size() + 1);
-    auto surfaces = faces_by_surfaces(mesh, regions + 1);
+    std::size_t blocks = mesh.block_count;
+    for (const auto& block : parts.blocks) blocks = std::max(blocks, block.number);
+    const auto edges = fault_edges(mesh, blocks + mesh.surfaces.size() + 1);
+    auto surfaces = faces_by_surfaces(mesh, blocks + 1);
     auto next = edges.cells.size() + 1;
     for (auto& entity : surfaces) entity.first_element = next;
     next += mesh.faces.size();
     for (auto& entity : volumes) entity.first_element = next;
     const auto count = next + mesh.tetrahedra.size() - 1;
     MshWriter out(mesh.vertices);
-    out.names(label_list(parts, edges, regions + 1, regions + mesh.surfaces.size() + 1));
+    out.names(label_list(parts, edges, blocks + 1, blocks + mesh.surfaces.size() + 1));
     out.text(fmt::format("$Entities\n0 {} {} {}", edges.entities.size(), surfaces.size(),
                          volumes.size()));
     out.entities<Edge>(edges.entities, edges.cells);

@@ -12,8 +12,8 @@
 namespace terrane {
 
 /// Writes the tetrahedra, their faces on surfaces, and the edges at which faults end inside the domain
-/// (lines). With b regions and n surfaces the physical groups are
-///   material-id:R   of dimension 3 and with the number R: region R; the outside is b. PETSc makes the
+/// (lines). With b blocks and n surfaces the physical groups are
+///   material-id:R   of dimension 3 and with the number R: block R; the outside is b. PETSc makes the
 ///                   label material-id with the value R of it
 ///   NAME            of dimension 2 with the number b + s + 1: surface s
 ///   NAME_edges      of dimension 1 with the number b + n + s + 1: where the fault s ends inside

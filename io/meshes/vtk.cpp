@@ -57,9 +57,9 @@ void write_triangle_data(VtkWriter& out, const Mesh& mesh) {
 void write_tetrahedron_data(VtkWriter& out, const TetrahedralMesh& mesh) {
     const auto count = mesh.tetrahedra.size();
     const auto faces = mesh.faces.size();
-    auto region = std::vector<std::int32_t>(mesh.region_of.begin(), mesh.region_of.end());
-    region.resize(count + faces, -1);
-    out.array("region", region);
+    auto block = std::vector<std::int32_t>(mesh.block_of.begin(), mesh.block_of.end());
+    block.resize(count + faces, -1);
+    out.array("block", block);
     std::vector<std::int32_t> surface(count, -1), surface_count(count, 0), parent(count, -1);
     append_first(surface, mesh.surfaces_of);
     append_counts(surface_count, mesh.surfaces_of);
@@ -110,15 +110,15 @@ Result<std::string> to_vtp(const Mesh& mesh, bool compress, std::span<const Cell
 
 Result<std::string> to_vtu(const TetrahedralMesh& mesh, bool compress,
                            std::span<const CellArray> cells,
-                           std::span<const std::string> region_names, const EdgeNodes* nodes) {
+                           std::span<const std::string> block_names, const EdgeNodes* nodes) {
     const auto count = mesh.tetrahedra.size() + mesh.faces.size();
     if (auto trouble = check_lengths(cells, count)) return *trouble;
     VtkWriter out(compress);
     out.begin_file("UnstructuredGrid");
-    out.field(mesh.surfaces, mesh.surfaces_of, "region_name", region_names);
+    out.field(mesh.surfaces, mesh.surfaces_of, "block_name", block_names);
     const auto& vertices = nodes ? nodes->vertices : mesh.vertices;
     out.begin_piece(vertices.size(), count);
-    out.text("<CellData Scalars=\"region\">");
+    out.text("<CellData Scalars=\"block\">");
     write_tetrahedron_data(out, mesh);
     out.further(cells);
     out.text("</CellData>");

@@ -29,7 +29,7 @@ Result<std::string> to_vtp(const Mesh& mesh, bool compress = true,
                            std::span<const std::string> block_names = {});
 
 /// Writes the tetrahedra, then their faces on surfaces as triangles. The cell arrays (Int32) are
-///   region   of the tetrahedron; -1 for a face
+///   block    of the tetrahedron; -1 for a face
 ///   surface  index of the first surface of the face; -1 for a tetrahedron
 ///   surface_count  number of its surfaces; 0 for a tetrahedron
 ///   parent   triangle of the mesh that contains the face; -1 for none and for a tetrahedron
@@ -38,13 +38,13 @@ Result<std::string> to_vtp(const Mesh& mesh, bool compress = true,
 ///   cut_side 1 in front of the cut, 2 behind it, 0 for any other cell
 /// followed by `cells`. The field arrays are those of to_vtp; their lists count faces only. Names
 /// and roles are arrays of character codes (UInt8), each string ended by a 0: meshio refuses grids
-/// with arrays of strings. If there are `region_names`, one per region, they are the field array
-/// region_name, of codes as well. With `nodes` the cells are of second order: quadratic tetrahedra
+/// with arrays of strings. If there are `block_names`, one per block, they are the field array
+/// block_name, of codes as well. With `nodes` the cells are of second order: quadratic tetrahedra
 /// and triangles. Errors: bad_option if an array of `cells` does not have one value per tetrahedron
 /// and face.
 Result<std::string> to_vtu(const TetrahedralMesh& mesh, bool compress = true,
                            std::span<const CellArray> cells = {},
-                           std::span<const std::string> region_names = {},
+                           std::span<const std::string> block_names = {},
                            const EdgeNodes* nodes = nullptr);
 
 } // namespace terrane

@@ -258,21 +258,21 @@ void add_worst_tetrahedra(Findings& findings, const TetrahedralMesh& mesh,
     };
     std::vector<double> least(mesh.tetrahedra.size(), 180);
     for (std::size_t t = 0; t < least.size(); ++t) {
-        if (mesh.region_of[t] == 0) continue;
+        if (mesh.block_of[t] == 0) continue;
         const auto angles = dihedral_angles(corners_at(t));
         least[t] = *std::min_element(angles.begin(), angles.end());
     }
     for (const std::uint32_t t : least_of(least)) {
         const auto c = corners_at(t);
-        const std::uint32_t region = mesh.region_of[t];
-        if (region == 0) continue;
+        const std::uint32_t block = mesh.block_of[t];
+        if (block == 0) continue;
         const Point3 centre{(c[0].x + c[1].x + c[2].x + c[3].x) / 4,
                             (c[0].y + c[1].y + c[2].y + c[3].y) / 4,
                             (c[0].z + c[1].z + c[2].z + c[3].z) / 4};
         findings.push_back(
             {"worst tetrahedron",
-             fmt::format("least dihedral angle, in block {}{}", region,
-                         region < block_names.size() ? ", " + block_names[region] : ""),
+             fmt::format("least dihedral angle, in block {}{}", block,
+                         block < block_names.size() ? ", " + block_names[block] : ""),
              -least[t], "angle", centre,
              4 * std::max(longest_edge({c[0], c[1], c[2]}), distance_between(c[0], c[3]))});
     }

@@ -119,7 +119,7 @@ Scene scene_of(const Model& model) {
 void add_tetrahedra(Scene& scene, const TetrahedralMesh& mesh, std::size_t most) {
     std::vector<std::uint32_t> chosen;
     for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t)
-        if (mesh.region_of[t] != 0) chosen.push_back(t);
+        if (mesh.block_of[t] != 0) chosen.push_back(t);
     if (chosen.size() > most) {
         scene.left_out = chosen.size();
         return;
@@ -136,7 +136,7 @@ void add_tetrahedra(Scene& scene, const TetrahedralMesh& mesh, std::size_t most)
             v = number_of[v];
         }
         scene.tetrahedra.push_back(corners);
-        scene.region_of.push_back(mesh.region_of[t]);
+        scene.block_of.push_back(mesh.block_of[t]);
     }
 }
 

@@ -25,7 +25,7 @@ struct ScenePart {
     std::size_t first = 0; ///< triangle of the scene
     std::size_t count = 0; ///< number of triangles
     double area = 0;       ///< squared unit
-    bool filled = false;   ///< the triangles were invented to fill holes
+    bool filled = false;   ///< the triangles were interpolated to fill holes
 };
 
 /// A line, or all lines of one kind.
@@ -46,9 +46,9 @@ struct Scene {
     std::vector<Edge> segments{}; ///< by line
     std::vector<Point3> nodes{};  ///< of the tetrahedra
     std::vector<std::array<std::uint32_t, 4>> tetrahedra{};
-    std::vector<std::uint32_t> region_of{}; ///< per tetrahedron: its block
-    std::size_t given = 0;                  ///< triangles before decimation
-    std::size_t left_out = 0;               ///< tetrahedra that are not drawn as there are too many
+    std::vector<std::uint32_t> block_of{}; ///< per tetrahedron: its block
+    std::size_t given = 0;                 ///< triangles before decimation
+    std::size_t left_out = 0;              ///< tetrahedra that are not drawn as there are too many
     double cell = 0; ///< edge of the cells of decimation; 0: every triangle is drawn
 };
 
@@ -59,7 +59,7 @@ Scene scene_of(const Mesh& mesh);
 /// Makes the scene of a model: one part for each interface, lines as in its structure.
 Scene scene_of(const Model& model);
 
-/// Adds the tetrahedra of blocks, without those of region 0; of more than `most` none.
+/// Adds the tetrahedra of blocks, without those of block 0; of more than `most` none.
 void add_tetrahedra(Scene& scene, const TetrahedralMesh& mesh, std::size_t most);
 
 /// Joins the vertices in each cell of a grid, the finest of those tried that leaves at most `most`

@@ -192,7 +192,7 @@ Json packed(Scene scene, Arrays& arrays) {
                       {"segments", cells_packed(scene.segments, arrays)},
                       {"nodes", points_packed(scene.nodes, box, step, arrays)},
                       {"tetrahedra", cells_packed(scene.tetrahedra, arrays)},
-                      {"regions", arrays.add(scene.region_of)}};
+                      {"blocks", arrays.add(scene.block_of)}};
     return json;
 }
 

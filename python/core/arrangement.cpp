@@ -150,16 +150,16 @@ void bind_boundaries(py::module_& module) {
 
 py::dict to_dict(const RoundingReport& r) {
     py::list lost;
-    for (const LostRegions& l : r.lost_regions)
+    for (const VanishedRegions& l : r.vanished_regions)
         lost.append(py::make_tuple(std::uint32_t(l.surface), l.exact, l.rounded));
     return py::dict(
         "clean"_a = r.clean, "rounds"_a = r.rounds, "naive_contacts"_a = r.naive_contacts,
         "contacts"_a = to_list(r.contacts), "surface_deviation"_a = r.surface_deviation,
-        "max_allowed"_a = r.max_allowed, "lost_length"_a = r.lost_length, "max_move"_a = r.max_move,
-        "arranged_again"_a = r.arranged_again, "deviation"_a = r.deviation,
-        "moved_input_vertices"_a = r.moved_input_vertices, "merged_vertices"_a = r.merged_vertices,
-        "collapsed_triangles"_a = r.collapsed_triangles, "lost_regions"_a = lost,
-        "vanished"_a = owned(r.vanished));
+        "max_allowed"_a = r.max_allowed, "vanished_length"_a = r.vanished_length,
+        "max_move"_a = r.max_move, "arranged_again"_a = r.arranged_again,
+        "deviation"_a = r.deviation, "moved_input_vertices"_a = r.moved_input_vertices,
+        "merged_vertices"_a = r.merged_vertices, "collapsed_triangles"_a = r.collapsed_triangles,
+        "vanished_regions"_a = lost, "vanished"_a = owned(r.vanished));
 }
 
 void bind_arrangement(py::module_& module) {

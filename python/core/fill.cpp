@@ -96,7 +96,7 @@ py::tuple fill(const py::sequence& surfaces, const py::dict& options,
                                     to_text(h.refused)));
     const HoledSurface& s = work->surfaces.at(0); // kept as it is for reports
     return py::make_tuple(from_surface(s.filled), s.given_vertices, s.given_triangles,
-                          owned(s.deviation), owned(s.invented), holes, work);
+                          owned(s.deviation), owned(s.interpolated), holes, work);
 }
 
 } // namespace

@@ -80,7 +80,7 @@ std::vector<std::string> write(const TetrahedraPointer& t, const py::object& pat
     }
     const auto files = run_stage(how, [t, to, options](const Run&) {
         WriteOptions all = options;
-        all.region_names = t->block_names;
+        all.block_names = t->block_names;
         return write_tetrahedra_files(t->tetrahedra, to, all);
     });
     std::vector<std::string> names;
@@ -95,19 +95,19 @@ TetrahedraPointer made_of(const py::tuple& state) {
     t.surfaces = to_infos(state[0].cast<py::sequence>());
     t.vertices = copied<Point3>(state[1].cast<py::array>());
     t.tetrahedra = copied<std::array<std::uint32_t, 4>>(state[2].cast<py::array>());
-    t.region_of = copied<std::uint32_t>(state[3].cast<py::array>());
+    t.block_of = copied<std::uint32_t>(state[3].cast<py::array>());
     t.faces = copied<Triangle>(state[4].cast<py::array>());
     t.face_triangle = copied<std::uint32_t>(state[5].cast<py::array>());
     t.surfaces_of = copied_lists(state[6].cast<py::tuple>());
     t.twins = copied<std::array<std::uint32_t, 2>>(state[7].cast<py::array>());
-    t.region_count = state[8].cast<std::uint32_t>();
+    t.block_count = state[8].cast<std::uint32_t>();
     t.mesher = from_text(state[9]);
     for (const py::handle name : state[10].cast<py::sequence>())
         made->block_names.push_back(from_text(name));
     made->added_nodes = state[11].cast<std::size_t>();
     if (auto valid = validate_indices(t); !valid) throw Failure{valid.error()};
-    if (t.region_count > made->block_names.size())
-        throw Failure{{ErrorCode::bad_index, "there must be a name for each region", ""}};
+    if (t.block_count > made->block_names.size())
+        throw Failure{{ErrorCode::bad_index, "there must be a name for each block", ""}};
     return made;
 }
 
@@ -118,9 +118,9 @@ py::list violations(const FilledBlocks& f) {
     return all;
 }
 
-py::list region_volumes(const FilledBlocks& f) {
+py::list block_volumes(const FilledBlocks& f) {
     py::list all;
-    for (const RegionVolume& v : f.report.volumes)
+    for (const BlockVolume& v : f.report.volumes)
         all.append(py::make_tuple(v.block, v.tetrahedra, v.difference, v.bound, v.equal));
     return all;
 }
@@ -159,12 +159,12 @@ void bind_tetrahedra(py::module_& module) {
     bound.def(py::init(&made_of), "state"_a)
         .def_property_readonly("surfaces",
                                [](const F& f) { return to_list(f.tetrahedra.surfaces); })
-        .def_property_readonly("region_count", [](const F& f) { return f.tetrahedra.region_count; })
+        .def_property_readonly("block_count", [](const F& f) { return f.tetrahedra.block_count; })
         .def_property_readonly("mesher", [](const F& f) { return to_text(f.tetrahedra.mesher); })
         .def_property_readonly("block_names", [](const F& f) { return to_texts(f.block_names); })
         .def_property_readonly("added_nodes", [](const F& f) { return f.added_nodes; })
         .def_property_readonly("violations", &violations)
-        .def_property_readonly("region_volumes", &region_volumes)
+        .def_property_readonly("block_volumes", &block_volumes)
         .def_property_readonly("is_checked", [](const F& f) { return !f.report.volumes.empty(); })
         .def_property_readonly("optimised", &optimised)
         .def("shape", &shape);
@@ -173,7 +173,7 @@ void bind_tetrahedra(py::module_& module) {
     add_array<F>(
         bound, "tetrahedra", [](const F& f) -> auto& { return f.tetrahedra.tetrahedra; });
     add_array<F>(
-        bound, "region_of", [](const F& f) -> auto& { return f.tetrahedra.region_of; });
+        bound, "block_of", [](const F& f) -> auto& { return f.tetrahedra.block_of; });
     add_array<F>(
         bound, "faces", [](const F& f) -> auto& { return f.tetrahedra.faces; });
     add_array<F>(

@@ -6,8 +6,8 @@
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/structure/build_structure.hpp>
 #include <terrane/algorithms/structure/structure_meshes.hpp>
+#include <terrane/algorithms/volumes/block_points.hpp>
 #include <terrane/algorithms/volumes/point_location.hpp>
-#include <terrane/algorithms/volumes/region_points.hpp>
 
 #include "handles.hpp"
 #include "structure.hpp"
@@ -96,10 +96,10 @@ VolumesPointer volumes_of(const py::array& of_sides, const py::array& measures) 
 py::list points_in(const MeshPointer& mesh, const VolumesPointer& volumes, const HowToRun& how) {
     require_fitting(*volumes, mesh->mesh->triangles.size());
     const auto points = run_stage(
-        how, [mesh, volumes](const Run& run) { return region_points(mesh->mesh, *volumes, run); });
+        how, [mesh, volumes](const Run& run) { return block_points(mesh->mesh, *volumes, run); });
     py::list all;
-    for (const RegionPoint& p : points)
-        all.append(py::make_tuple(to_tuple(p.place), std::uint32_t(p.region)));
+    for (const BlockPoint& p : points)
+        all.append(py::make_tuple(to_tuple(p.place), std::uint32_t(p.block)));
     return all;
 }
 
@@ -147,7 +147,7 @@ void bind_volumes(py::module_& module) {
     module.def("exact_volumes_of_arrangement", &exact_measures<Arrangement>, "arrangement"_a,
                "volumes"_a, "how"_a);
     module.def("locate", &locate, "mesh"_a, "volumes"_a, "points"_a, "how"_a);
-    module.def("region_points", &points_in, "mesh"_a, "volumes"_a, "how"_a);
+    module.def("block_points", &points_in, "mesh"_a, "volumes"_a, "how"_a);
     module.def(
         "structure",
         [](const MeshPointer& mesh, const VolumesPointer& volumes, const HowToRun& how) {

@@ -38,7 +38,7 @@ from ._rounding import RoundingReport
 from ._sealing import (ClosedGap, OpenGap, SealAdvice, SealChange, Sealed, SealTrial, seal,
                        suggest_seal)
 from ._surface import ROLES, Frame, Surface, as_surface, as_surfaces
-from ._tetrahedra import RegionVolume, Tetrahedra, Violation, tetrahedralize
+from ._tetrahedra import BlockVolume, Tetrahedra, Violation, tetrahedralize
 from ._verification import RuleViolation, Verdict, VerifiedFile, verify
 from ._volume_of_interest import (OpenBorder, SurfaceCut, VolumeOfInterest, box, closed, extend, polygon,
                                   rotated_box, volume_of_interest)
@@ -56,7 +56,7 @@ __all__ = [
     "Contact", "Corner", "ERROR_CODES", "Ensemble", "Error", "Failure", "FillReport", "Filled", "FilledHole", "Frame",
     "HAS_REPORTS", "Improved", "IndexLists", "Interface", "InterfaceParts", "Juxtaposed", "Juxtaposition", "LayerReport", "Layered",
     "Leak", "Line", "Mesh", "Model", "NO_INDEX", "OpenBorder", "OpenGap", "OutOfMemory", "OutOfOrder",
-    "Patch", "ROLES", "Region", "RegionVolume", "Regions", "Relation", "RoundedMesh", "RoundingReport",
+    "Patch", "ROLES", "Region", "BlockVolume", "Regions", "Relation", "RoundedMesh", "RoundingReport",
     "RuleViolation", "SealAdvice", "SealChange", "SealTrial", "Sealed", "Structure", "Surface",
     "SurfaceCut", "SurfaceInfo", "Tetrahedra", "Verdict", "VerifiedFile", "Violation",
     "VolumeOfInterest", "Volumes", "arrange", "as_surface", "as_surfaces", "box", "build", "check",

@@ -87,7 +87,7 @@ class Volumes(Result):
         """
         mesh = self._mesh()
         return [(place, number) for place, number in
-                _core.region_points(mesh._core, self._core, how(threads, None))]
+                _core.block_points(mesh._core, self._core, how(threads, None))]
 
     def locate(self, points: Any, *, threads: Optional[int] = None, progress: Any = None) -> UInt32Array:
         """Return the volume that contains each point, exactly; the volumes are those of a mesh.

@@ -23,7 +23,7 @@ class RoundingReport(NamedTuple):
     surface_deviation : float
         No point of the mesh is farther from the triangles of the input that it is part of, and no point of these is
         farther from their parts, except for what vanished; at most `max_allowed`.
-    lost_length : float
+    vanished_length : float
         Points of slivers that became narrower than doubles, and vanished, are at most so much farther from the rest.
     max_move : float
         No vertex is farther from its exact point.
@@ -49,14 +49,14 @@ class RoundingReport(NamedTuple):
     contacts: List[Contact]
     surface_deviation: float
     max_allowed: float
-    lost_length: float
+    vanished_length: float
     max_move: float
     arranged_again: bool
     deviation: float
     moved_input_vertices: int
     merged_vertices: int
     collapsed_triangles: int
-    lost_regions: List[Tuple[int, int, int]]
+    vanished_regions: List[Tuple[int, int, int]]
     vanished: UInt32Array
 
 

@@ -37,7 +37,7 @@ class Violation(NamedTuple):
     first: str
 
 
-class RegionVolume(NamedTuple):
+class BlockVolume(NamedTuple):
     """The volume of a block and of its tetrahedra, cubic unit; `equal`: exactly.
 
     Examples
@@ -68,7 +68,7 @@ class Tetrahedra(Result):
         Unit of the input.
     tetrahedra : ndarray, shape (m, 4), uint32
         Positively oriented.
-    region_of : ndarray, shape (m,), uint32
+    block_of : ndarray, shape (m,), uint32
         Per tetrahedron the number of its block; 0 is the outside.
     faces : ndarray, shape (k, 3), uint32
         Faces of tetrahedra that lie on a surface.
@@ -88,7 +88,7 @@ class Tetrahedra(Result):
     ...     [0, 2, 3]], "flat", "horizon")
     >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
     >>> cells = m.tetrahedra(edge_length=2)
-    >>> int(cells.region_of.max()), len(cells.tetrahedra) > 0
+    >>> int(cells.block_of.max()), len(cells.tetrahedra) > 0
     (2, True)
     """
 
@@ -114,9 +114,9 @@ class Tetrahedra(Result):
         return self._core.tetrahedra
 
     @property
-    def region_of(self) -> UInt32Array:
+    def block_of(self) -> UInt32Array:
         """Per tetrahedron the number of its block."""
-        return self._core.region_of
+        return self._core.block_of
 
     @property
     def faces(self) -> UInt32Array:
@@ -170,10 +170,10 @@ class Tetrahedra(Result):
         return [Violation(*v) for v in self._core.violations]
 
     @property
-    def volumes(self) -> List[RegionVolume]:
+    def volumes(self) -> List[BlockVolume]:
         """Volumes of blocks and of their tetrahedra, by number; raises as `violations`."""
         self._need_check("volumes")
-        return [RegionVolume(*v) for v in self._core.region_volumes]
+        return [BlockVolume(*v) for v in self._core.block_volumes]
 
     @property
     def optimised(self) -> Optional[Dict[str, Any]]:
@@ -219,7 +219,7 @@ class Tetrahedra(Result):
         if isinstance(block, str) and block not in names:
             raise Error("bad_option", f"{block!r} is no block: {', '.join(map(repr, names))}", "block")
         number = names.index(block) if isinstance(block, str) else as_count(block, "block")
-        return np.asarray(self.tetrahedra[self.region_of == number])
+        return np.asarray(self.tetrahedra[self.block_of == number])
 
     def save(self, path: Path, format: Optional[str] = None, *, compress: bool = True, order: int = 1) -> List[str]:
         """Write the tetrahedra, as ``terrane tetrahedralize`` does, and return the files that were written.
@@ -262,7 +262,7 @@ class Tetrahedra(Result):
         self._model._report(path, "Tetrahedra.report", self._core, threads)
 
     def to_pyvista(self) -> Any:
-        """Return a ``pyvista.UnstructuredGrid`` with the array ``region``. Needs PyVista.
+        """Return a ``pyvista.UnstructuredGrid`` with the array ``block``. Needs PyVista.
 
         Examples
         --------
@@ -286,7 +286,7 @@ class Tetrahedra(Result):
         kinds = {"tetra": self.tetrahedra, "triangle": self.faces}
         none = np.full(len(self.faces), -1, dtype=np.int32)
         return meshio_mesh(self.vertices, kinds, {
-            "region": [self.region_of.astype(np.int32), none],
+            "block": [self.block_of.astype(np.int32), none],
             "surface": [np.full(len(self.tetrahedra), -1, dtype=np.int32),
                         self.surfaces_of.first.astype(np.int32)]})
 
@@ -299,19 +299,19 @@ class Tetrahedra(Result):
         >>> cells = terrane.tetrahedralize(terrane.model(terrane.box((0, 0, 0), (1, 1, 1))))
         >>> shown = cells.plot()
         """
-        return self.to_pyvista().plot(**{"scalars": "region", "show_edges": True, **options})
+        return self.to_pyvista().plot(**{"scalars": "block", "show_edges": True, **options})
 
     def _state(self) -> Tuple[Any, ...]:
         c = self._core
-        return (list(c.surfaces), c.vertices, c.tetrahedra, c.region_of, c.faces, c.face_triangle,
-                tuple(c.surfaces_of), c.twins, c.region_count, c.mesher, list(c.block_names), c.added_nodes)
+        return (list(c.surfaces), c.vertices, c.tetrahedra, c.block_of, c.faces, c.face_triangle,
+                tuple(c.surfaces_of), c.twins, c.block_count, c.mesher, list(c.block_names), c.added_nodes)
 
     @classmethod
     def _from_state(cls, *state: Any) -> "Tetrahedra":
         return cls(_core.Tetrahedra(tuple(state)))
 
     def _line(self) -> str:
-        return (f"{counted(len(self.tetrahedra), 'tetrahedron')} in {counted(len(set(self.region_of.tolist())), 'region')}, "
+        return (f"{counted(len(self.tetrahedra), 'tetrahedron')} in {counted(len(set(self.block_of.tolist())), 'block')}, "
                 f"{counted(len(self.vertices), 'vertex')}, {counted(len(self.faces), 'face')}")
 
     def _numbers(self) -> Dict[str, Any]:
@@ -352,7 +352,7 @@ def tetrahedralize(model: Parts, *, edge_length: Optional[float] = None,
     optimise : bool, optional
         Improve the shapes that the mesher made; `optimised` of the result says what that did.
     outside : bool, optional
-        Fill the space between the model and a box around it as well, as region 0.
+        Fill the space between the model and a box around it as well, as block 0.
     around, margin : optional
         That box as two corners; or the bounding box, larger by this share of its longest edge.
     mesher : {"auto", "tetgen", "gmsh"}, optional

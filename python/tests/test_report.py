@@ -131,7 +131,7 @@ def test_tetrahedra_have_the_page_of_the_program():
     assert status == 0, said
     (mine, arrays), (wanted, others) = content_of("python.html"), content_of("program.html")
     assert arrays == others
-    assert mine["arrays"]["tetrahedra"]["count"] == 4 * int((cells.region_of > 0).sum())
+    assert mine["arrays"]["tetrahedra"]["count"] == 4 * int((cells.block_of > 0).sum())
     worst = [f for f in mine["findings"]["list"] if f["kind"] == "worst tetrahedron"]
     assert worst == [f for f in wanted["findings"]["list"] if f["kind"] == "worst tetrahedron"] != []
     with pytest.raises(terrane.Error, match="model"):

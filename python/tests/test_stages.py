@@ -309,14 +309,14 @@ def test_tetrahedra(model):
     volumes = np.linalg.det(v[:, 1:] - v[:, :1]) / 6
     assert (volumes > 0).all()
     for block in model.blocks.values():
-        assert volumes[cells.region_of == block.number].sum() == pytest.approx(block.volume)
-        assert len(cells.of_block(block.name)) == (cells.region_of == block.number).sum()
+        assert volumes[cells.block_of == block.number].sum() == pytest.approx(block.volume)
+        assert len(cells.of_block(block.name)) == (cells.block_of == block.number).sum()
     assert cells.block_names[1:] == list(model.blocks)
     assert set(np.unique(cells.face_triangle)) == set(range(len(model.mesh.triangles)))
     assert cells.shape()["dihedral"][0] > 0 and len(cells.volumes) == 7
     thick = volumes > 1e-9  # the middle of a sliver, rounded, may be outside of it
     assert thick.sum() > 500
-    assert np.array_equal(model.block_of(v.mean(axis=1)[thick]), cells.region_of[thick])
+    assert np.array_equal(model.block_of(v.mean(axis=1)[thick]), cells.block_of[thick])
 
 
 @pytest.mark.tetgen
@@ -363,7 +363,7 @@ def test_a_check_of_tetrahedra_is_not_pickled(model):
 @pytest.mark.tetgen
 def test_outside_and_around(model):
     cells = model.tetrahedra(outside=True, around=((-5, -5, -5), (10, 10, 10)))
-    assert (cells.region_of == 0).any() and cells.vertices.max() == 10
+    assert (cells.block_of == 0).any() and cells.vertices.max() == 10
 
 
 @pytest.mark.tetgen

@@ -189,7 +189,7 @@ def instances():
     found.update({"Corner": s.corners[0], "Line": s.lines[0], "Patch": s.patches[0], "InterfaceParts": s.interfaces[0],
                   "BlockParts": s.blocks[0], "SealTrial": found["SealAdvice"].trials[0]})
     if HAS_TETGEN:
-        found["RegionVolume"] = made["Tetrahedra"].volumes[1]
+        found["BlockVolume"] = made["Tetrahedra"].volumes[1]
     # Plain named tuples of which these inputs give none.
     point = (0.5, 1.0, 2.0)
     for cls, values in ((terrane.SealChange, ("extended", 0, 1.0, 2.0, point, 3)), (terrane.ClosedGap, (0, 1, 1.0, 2.0, point)),
@@ -218,7 +218,7 @@ PUBLIC = sorted(name for name in terrane.__all__ if inspect.isclass(getattr(terr
 
 @pytest.mark.parametrize("name", [n for n in PUBLIC if n not in OF_ENSEMBLES])
 def test_copies_equal_their_originals(values, name):
-    if name in ("Tetrahedra", "RegionVolume") and not HAS_TETGEN:
+    if name in ("Tetrahedra", "BlockVolume") and not HAS_TETGEN:
         pytest.skip("no terrane-tetgen")
     if name == "Built":
         project()  # a pickle of a project has names of files

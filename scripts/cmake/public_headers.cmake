@@ -15,7 +15,7 @@ set(terrane_headers
     algorithms/core/run.hpp
     algorithms/core/stage_times.hpp
     algorithms/mesh/mesh.hpp
-    algorithms/mesh/region_point.hpp
+    algorithms/mesh/block_point.hpp
     algorithms/mesh/shared_mesh.hpp
     algorithms/mesh/surface.hpp
     algorithms/plausibility/plausibility.hpp
@@ -32,13 +32,13 @@ set(terrane_headers
     algorithms/rounding/rounded_mesh.hpp
     algorithms/rounding/rounding.hpp
     algorithms/volumes/point_location.hpp
-    algorithms/volumes/region_points.hpp
+    algorithms/volumes/block_points.hpp
     algorithms/volumes/volumes.hpp
     algorithms/structure/block_names.hpp
     algorithms/structure/column.hpp
     algorithms/structure/free_borders.hpp
     algorithms/structure/relations.hpp
-    algorithms/structure/stated_regions.hpp
+    algorithms/structure/stated_blocks.hpp
     algorithms/structure/structure.hpp
     algorithms/structure/structure_meshes.hpp
     algorithms/layers/layers.hpp

@@ -29,7 +29,7 @@ FREE = {"user": "it is passed on", "hardness": "the order counts alone", "name":
         "helper": "it is looked for where tetrahedra are made", "gmsh_helper": "likewise"}
 MAY_BE_NULL = {"run", "error", "count", "length", "options", "search", "format", "unit", "variogram", "progress", "timing", "folder",
                "part_format", "helper", "gmsh_helper", "vertex_count", "triangle_count", "surface_count", "face_count",
-               "region_count", "column", "improved", "rules", "size_of", "size_in", "split", "inputs", "edge_length_of", "merged",
+               "block_count", "column", "improved", "rules", "size_of", "size_in", "split", "inputs", "edge_length_of", "merged",
                "surfaces_or_null", "holes", "layered", "layers", "growth", "volume_files", "model_folder", "tetrahedra", "model"}
 #: Limits, which a number may exceed so far that nothing reaches them.
 LIMITS = {"limit", "max_area", "max_move", "max_rounds", "max_deviation", "max_change", "max_volume", "max_volume_change", "time_limit",
@@ -85,7 +85,7 @@ GOOD = {
     "text": lambda lib: None, "threads": lambda lib: 2, "progress": lambda lib: None, "timing": lambda lib: None,
     "user": lambda lib: None,
 }
-INDEX = {"surface", "hole", "task", "block", "region", "violation", "vertex", "which", "kind", "reason", "axis", "role", "volume", "code"}
+INDEX = {"surface", "hole", "task", "block", "violation", "vertex", "which", "kind", "reason", "axis", "role", "volume", "code"}
 
 
 class Call:

@@ -84,7 +84,7 @@ static void test_getters(void* h) {
     CHECK(terrane_tetrahedra_violation_count(h) == 0 && terrane_tetrahedra_violation(h, 0) == NULL);
     NOTHING(terrane_tetrahedra_vertices(h, &n));
     NOTHING(terrane_tetrahedra_cells(h, &n));
-    NOTHING(terrane_tetrahedra_region_of(h, &n));
+    NOTHING(terrane_tetrahedra_block_of(h, &n));
     NOTHING(terrane_tetrahedra_faces(h, &n));
     NOTHING(terrane_tetrahedra_face_triangle(h, &n));
     NO_LISTS(terrane_tetrahedra_face_surfaces(h, &lists));
@@ -92,7 +92,7 @@ static void test_getters(void* h) {
     NOTHING(terrane_tetrahedra_volumes(h, &n));
     CHECK(terrane_tetrahedra_surface_count(h) == 0 &&
           terrane_tetrahedra_surface_name(h, 0) == NULL);
-    CHECK(terrane_tetrahedra_region_count(h) == 0 && terrane_tetrahedra_region_name(h, 0) == NULL);
+    CHECK(terrane_tetrahedra_block_count(h) == 0 && terrane_tetrahedra_block_name(h, 0) == NULL);
     CHECK(terrane_tetrahedra_mesher(h) == NULL);
     CHECK(terrane_verdict_is_valid(h) == 0 && terrane_verdict_count(h) == 0);
     CHECK(terrane_verdict_rule(h, 0) == NULL && terrane_verdict_sentence(h, 0) == NULL);

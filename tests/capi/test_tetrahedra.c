@@ -40,18 +40,18 @@ static void test_cells(const terrane_tetrahedra* t) {
     size_t vertices = 0, cells = 0, faces = 0, n = 0;
     const double* const p = terrane_tetrahedra_vertices(t, &vertices);
     const uint32_t* const c = terrane_tetrahedra_cells(t, &cells);
-    const uint32_t* const region = terrane_tetrahedra_region_of(t, &n);
-    CHECK(cells > 20 && n == cells && terrane_tetrahedra_region_count(t) == 7);
+    const uint32_t* const block = terrane_tetrahedra_block_of(t, &n);
+    CHECK(cells > 20 && n == cells && terrane_tetrahedra_block_count(t) == 7);
     double measured[7] = {0};
     for (size_t i = 0; i < cells; ++i) {
         for (int k = 0; k < 4; ++k) CHECK(c[4 * i + (size_t)k] < vertices);
         CHECK(volume_of(p, c + 4 * i) * volume_of(p, c) > 0);
-        CHECK(region[i] < 7);
-        measured[region[i] % 7] += fabs(volume_of(p, c + 4 * i));
+        CHECK(block[i] < 7);
+        measured[block[i] % 7] += fabs(volume_of(p, c + 4 * i));
     }
-    const terrane_region_volume* const volumes = terrane_tetrahedra_volumes(t, &n);
+    const terrane_block_volume* const volumes = terrane_tetrahedra_volumes(t, &n);
     CHECK(n == 7);
-    for (size_t r = 1; r < 7; ++r)
+    for (size_t r = 0; r < 7; ++r)
         CHECK(fabs(volumes[r].block - measured[r]) < 1e-9 &&
               volumes[r].is_equal == (volumes[r].difference == 0));
     const uint32_t* const f = terrane_tetrahedra_faces(t, &faces);
@@ -61,8 +61,8 @@ static void test_cells(const terrane_tetrahedra* t) {
     CHECK(terrane_tetrahedra_face_surfaces(t, &lists) == TERRANE_OK && lists.count == faces);
     CHECK(same_text(terrane_tetrahedra_surface_name(t, 0), "top"));
     CHECK(terrane_tetrahedra_surface_name(t, terrane_tetrahedra_surface_count(t)) == NULL);
-    CHECK(same_text(terrane_tetrahedra_region_name(t, 0), "outside"));
-    CHECK(terrane_tetrahedra_region_name(t, 7) == NULL);
+    CHECK(same_text(terrane_tetrahedra_block_name(t, 0), "outside"));
+    CHECK(terrane_tetrahedra_block_name(t, 7) == NULL);
     CHECK(same_text(terrane_tetrahedra_mesher(t), "TetGen"));
     CHECK(terrane_tetrahedra_violation_count(t) == 0 && terrane_tetrahedra_violation(t, 0) == NULL);
 }

@@ -206,7 +206,7 @@ TEST_CASE("cli: volume lists the leaks that separate blocks before the others", 
 }
 
 #ifdef TERRANE_HAS_TETGEN
-TEST_CASE("cli: build names blocks and regions by the column of the project", "[cli][names]") {
+TEST_CASE("cli: build names blocks and tetrahedra by the column of the project", "[cli][names]") {
     const Folder folder;
     folder.input("layers.obj", two_layers);
     auto project = Json::parse(R"({"format": "terrane-project 1", "folder": "run",
@@ -222,7 +222,7 @@ TEST_CASE("cli: build names blocks and regions by the column of the project", "[
     REQUIRE(r.status == 0);
     CHECK(contains(r.out, "  Basement, east of F1\n"));
     CHECK(contains(folder.read("run/tetrahedra.msh"), ": Reservoir, west of F1\""));
-    CHECK(contains(folder.read("run/tetrahedra.vtu"), "type=\"UInt8\" Name=\"region_name\""));
+    CHECK(contains(folder.read("run/tetrahedra.vtu"), "type=\"UInt8\" Name=\"block_name\""));
     CHECK(contains(folder.read("run/model/model.vtm"), "name=\"Reservoir, west of F1\""));
     project["column"][1]["surface"] = "bottom";
     const auto wrong =

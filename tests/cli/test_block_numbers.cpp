@@ -53,25 +53,25 @@ std::vector<Block> blocks_of(const std::string& model) {
     std::vector<Block> blocks;
     const auto json = Json::parse(model);
     for (const auto& block : json["blocks"])
-        blocks.push_back({block["name"], block["volume_written"]});
+        blocks.push_back({block["name"], block.value("volume_written", 0.0)});
     return blocks;
 }
 
 #ifdef TERRANE_HAS_TETGEN
-/// Returns the names of regions in an MSH file, by number, with their volumes from the statistics.
-std::vector<Block> regions_of(const std::string& msh, const Json& statistics) {
-    std::vector<Block> regions;
-    const auto& volumes = statistics["tetrahedra"]["volume_of_region"];
+/// Returns the names of blocks in an MSH file, by number, with their volumes from the statistics.
+std::vector<Block> blocks_in(const std::string& msh, const Json& statistics) {
+    std::vector<Block> blocks;
+    const auto& volumes = statistics["tetrahedra"]["volume_of_block"];
     for (std::size_t r = 0; r < volumes.size(); ++r) {
-        const auto start = "\"region " + std::to_string(r) + ": ";
+        const auto start = "\"block " + std::to_string(r) + ": ";
         const auto at = msh.find(start);
         const auto name_at = at + start.size();
-        regions.push_back({at == std::string::npos
-                               ? std::string()
-                               : msh.substr(name_at, msh.find('"', name_at) - name_at),
-                           volumes[r]});
+        blocks.push_back({at == std::string::npos
+                              ? std::string()
+                              : msh.substr(name_at, msh.find('"', name_at) - name_at),
+                          volumes[r]});
     }
-    return regions;
+    return blocks;
 }
 #endif
 
@@ -122,9 +122,9 @@ TEST_CASE("cli: blocks keep their numbers where rounding loses one of them", "[c
         folder.run("tetrahedralize " + in + " -o t.msh --box 0,0,0,8,8,8 --stats t.json");
     INFO(r.err);
     REQUIRE(r.status == 0);
-    const auto by_command = regions_of(folder.read("t.msh"), Json::parse(folder.read("t.json")));
-    const auto by_build = regions_of(folder.read("filled/tetrahedra.msh"), filled);
-    const auto by_both = regions_of(folder.read("filled_improved/tetrahedra.msh"), filled_again);
+    const auto by_command = blocks_in(folder.read("t.msh"), Json::parse(folder.read("t.json")));
+    const auto by_build = blocks_in(folder.read("filled/tetrahedra.msh"), filled);
+    const auto by_both = blocks_in(folder.read("filled_improved/tetrahedra.msh"), filled_again);
     REQUIRE(by_command.size() == 8);
     REQUIRE(by_build.size() == 8);
     REQUIRE(by_both.size() == 8);
@@ -141,12 +141,12 @@ TEST_CASE("cli: blocks keep their numbers where rounding loses one of them", "[c
     CHECK(refused.status == 2);
     CHECK(contains(refused.err, "tetrahedra.size_in.5: block 5 is too thin for doubles"));
     json["tetrahedra"] = Json::parse(R"({"size_in": {"6": 1}})");
-    const auto fine = build(json, "fine")["tetrahedra"]["tetrahedra_of_region"];
+    const auto fine = build(json, "fine")["tetrahedra"]["tetrahedra_of_block"];
     // A size is a bound on volumes, that of a regular tetrahedron, which is exceeded by a fifth at
     // most (docs/how-to/tetrahedra.md). So block 6 has this number of tetrahedra at least, which it
     // has not without the size.
     const double least = blocks[6].volume / (1.2 / (6 * std::sqrt(2.0)));
     CHECK(double(fine[6]) >= least);
-    CHECK(double(filled["tetrahedra"]["tetrahedra_of_region"][6]) < least);
+    CHECK(double(filled["tetrahedra"]["tetrahedra_of_block"][6]) < least);
 #endif
 }

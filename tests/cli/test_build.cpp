@@ -276,26 +276,26 @@ TEST_CASE("cli: build: tetrahedra with sizes and cuts, by name", "[cli][once]") 
         return Json::parse(c.folder.read(to + "/statistics.json"))["tetrahedra"];
     };
     const auto plain = counts("plain");
-    CHECK(plain["tetrahedra_of_region"][0] == 0); // there is a volume of interest
+    CHECK(plain["tetrahedra_of_block"][0] == 0); // there is a volume of interest
     CHECK(plain["check"]["violations"].empty());
     CHECK(plain["twin_faces"] == 0);
     json["tetrahedra"] = Json::parse(R"({"size_in": {"2": 0.7}, "split": ["fault"]})");
     const auto fine = counts("fine");
-    CHECK(double(fine["tetrahedra_of_region"][2]) > 4 * double(plain["tetrahedra_of_region"][2]));
+    CHECK(double(fine["tetrahedra_of_block"][2]) > 4 * double(plain["tetrahedra_of_block"][2]));
     CHECK(fine["twin_faces"] > 0);
     CHECK(fine["added_nodes"] > 0);
     const auto msh = c.folder.read("fine/tetrahedra.msh");
     CHECK(contains(msh, "\"F1 front\""));
     CHECK(contains(msh, "$Periodic"));
-    CHECK(contains(msh, "\"region 2: below top, above base"));
+    CHECK(contains(msh, "\"block 2: below top, above base"));
     CHECK(contains(c.folder.read("fine/tetrahedra.inp"), "NSET=F1_PAIRS_BACK, UNSORTED"));
     // The same block is named by its name instead of its number, and the outside is filled.
-    const auto name_at = msh.find("\"region 2: ") + 11;
+    const auto name_at = msh.find("\"block 2: ") + 11;
     const auto name = msh.substr(name_at, msh.find('"', name_at) - name_at);
     json["tetrahedra"] = Json{{"size_in", Json{{name, 0.7}}}, {"split", Json::array({"F1"})}};
-    CHECK(counts("named")["tetrahedra_of_region"] == fine["tetrahedra_of_region"]);
+    CHECK(counts("named")["tetrahedra_of_block"] == fine["tetrahedra_of_block"]);
     json["tetrahedra"] = Json::parse(R"({"outside": true, "size_of": {"F1": 1}})");
-    CHECK(counts("outside")["tetrahedra_of_region"][0] > 0);
+    CHECK(counts("outside")["tetrahedra_of_block"][0] > 0);
 
     const auto refused = [&](const std::string& tetrahedra, const std::string& reason) {
         json["tetrahedra"] = Json::parse(tetrahedra);
@@ -342,10 +342,10 @@ TEST_CASE("cli: the example project", "[cli][once]") {
     CHECK(double(statistics["volumes"]["all"]) == Approx(volume));
     CHECK(statistics["tetrahedra"]["check"]["violations"].empty());
     double sum = 0;
-    const auto& parts = statistics["tetrahedra"]["volume_of_region"];
+    const auto& parts = statistics["tetrahedra"]["volume_of_block"];
     for (std::size_t i = 1; i < parts.size(); ++i) sum += double(parts[i]);
     CHECK(sum == Approx(volume));
-    CHECK(statistics["tetrahedra"]["tetrahedra_of_region"][0] == 0);
+    CHECK(statistics["tetrahedra"]["tetrahedra_of_block"][0] == 0);
     CHECK(statistics["tetrahedra"]["twin_faces"] > 0);
 }
 

@@ -116,12 +116,12 @@ TEST_CASE("cli: build fills holes, so that what they let through becomes two blo
         for (const Json& hole : statistics["holes"]) {
             CHECK(hole["surface"] == "top");
             CHECK(hole["filled"]["area"].get<double>() > 0);
-            points += hole["filled"]["points"].get<std::size_t>();
+            points += hole["filled"]["interpolated"].get<std::size_t>();
         }
         CHECK(statistics["seconds"].contains("fill"));
         CHECK(statistics["constants"].contains(method));
         CHECK_FALSE(statistics["constants"].contains(method == "rbf" ? "kriging" : "rbf"));
-        const auto csv = c.folder.read(method + "/invented.csv");
+        const auto csv = c.folder.read(method + "/interpolated.csv");
         CHECK(std::size_t(std::count(csv.begin(), csv.end(), '\n')) == points + 1);
         CHECK(c.folder.read(method + "/filled.svg").starts_with("<svg"));
         CHECK(contains(c.folder.read(method + "/log.txt"), "filled 2 of 2 holes: "));

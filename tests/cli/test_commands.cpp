@@ -294,7 +294,9 @@ TEST_CASE("cli: tetrahedralize reports checks and shapes", "[cli][once]") {
                               "-o a.mesh --stats s.json");
     INFO(r.err);
     REQUIRE(r.status == 0);
-    CHECK(contains(r.out, "checked: each triangle is a union of faces, each region is one block"));
+    CHECK(contains(
+        r.out,
+        "checked: each triangle is a union of faces, each block is one that surfaces enclose"));
     CHECK(contains(r.out, "of 4 blocks exactly their tetrahedra"));
     CHECK(contains(r.out, "\ndihedral angles "));
     CHECK(contains(r.out, "\nratio of circumradius to shortest edge "));
@@ -314,26 +316,26 @@ TEST_CASE("cli: tetrahedralize reports checks and shapes", "[cli][once]") {
     CHECK(check["dihedral"]["min"] < 60);
     CHECK(check["dihedral"]["max"] > 71);
     CHECK(contains(folder.read("a.msh"), "$MeshFormat\n2.2 0 8\n"));
-    CHECK(contains(folder.read("a.msh"), "\n3 32 \"region 1: ")); // after 3 numbers for each of 10
-    CHECK(contains(folder.read("a.inp"), "\n** region 4: "));
+    CHECK(contains(folder.read("a.msh"), "\n3 32 \"block 1: ")); // after 3 numbers for each of 10
+    CHECK(contains(folder.read("a.inp"), "\n** block 4: "));
     CHECK(contains(folder.read("a.mesh"), "\nTetrahedra\n" + std::to_string(tetrahedra) + "\n"));
 }
 
-TEST_CASE("cli: tetrahedralize finds the regions that the models state", "[cli][once]") {
+TEST_CASE("cli: tetrahedralize finds the blocks that the models state", "[cli][once]") {
     const Folder folder;
-    const auto regions = [&](const std::string& model) {
+    const auto blocks = [&](const std::string& model) {
         const auto r = folder.run("tetrahedralize $D/ringmesh/" + model +
                                   ".ml -o out.vtu -o "
                                   "out.msh --stats s.json");
         CHECK(r.status == 0);
         CHECK(contains(r.out, " outside\n"));
         const auto json = Json::parse(folder.read("s.json"));
-        CHECK(json["output"]["volumes"] == json["tetrahedra"]["regions"].get<int>() - 1);
-        return json["tetrahedra"]["regions"].get<int>();
+        CHECK(json["output"]["volumes"] == json["tetrahedra"]["blocks"].get<int>() - 1);
+        return json["tetrahedra"]["blocks"].get<int>();
     };
-    CHECK(regions("modelA1") == 5);
+    CHECK(blocks("modelA1") == 5);
 #ifndef TERRANE_SANITIZED // another model on the same way
-    CHECK(regions("modelA2") == 13);
+    CHECK(blocks("modelA2") == 13);
 #endif
 }
 

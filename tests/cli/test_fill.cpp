@@ -124,15 +124,16 @@ TEST_CASE("cli: fill by kriging and by RBF, with a map, points and a report", "[
         REQUIRE(r.status == 0);
         CHECK(contains(r.out, "filled 2 of 2 holes: "));
         CHECK(largest_error(folder.read("out.obj")) < 0.1);
-        CHECK(contains(folder.read("out.vtp"), "Name=\"invented\""));
+        CHECK(contains(folder.read("out.vtp"), "Name=\"interpolated\""));
         CHECK(contains(folder.read("out.vtp"), "Name=\"deviation\""));
         CHECK(folder.read("m.svg").starts_with("<svg"));
         CHECK(folder.read("p.csv").starts_with("x,y,z,deviation,variance,surface\n"));
         const auto holes = Json::parse(folder.read("s.json"))["holes"];
-        std::size_t invented = 0;
-        for (const auto& hole : holes) invented += hole["filled"]["points"].get<std::size_t>();
+        std::size_t interpolated = 0;
+        for (const auto& hole : holes)
+            interpolated += hole["filled"]["interpolated"].get<std::size_t>();
         const auto csv = folder.read("p.csv");
-        CHECK(std::size_t(std::count(csv.begin(), csv.end(), '\n')) == invented + 1);
+        CHECK(std::size_t(std::count(csv.begin(), csv.end(), '\n')) == interpolated + 1);
         CHECK(folder.run("check out.obj").status == 0);
         const auto after = folder.run("fill out.obj --list");
         CHECK(contains(after.out, "1 outer border, 0 holes"));

@@ -17,7 +17,8 @@ namespace {
 std::map<std::string, double> written_volumes(const std::string& model) {
     std::map<std::string, double> volumes;
     const auto json = Json::parse(model);
-    for (const auto& block : json["blocks"]) volumes[block["name"]] = block["volume_written"];
+    for (const auto& block : json["blocks"])
+        volumes[block["name"]] = block.value("volume_written", 0.0);
     return volumes;
 }
 

@@ -179,11 +179,11 @@ TEST_CASE("cli: tetrahedra only inside the volume of interest", "[cli]") {
                               " -o a.msh --msh 2.2 -o a.vtu --box 0,0,0,8,8,8 --stats s.json");
     INFO(r.err);
     REQUIRE(r.status == 0);
-    CHECK(contains(r.out, ", 5 regions\n"));
-    CHECK_FALSE(contains(r.out, "  region 0 "));
+    CHECK(contains(r.out, ", 5 blocks\n"));
+    CHECK_FALSE(contains(r.out, "  block 0 "));
     const auto json = Json::parse(folder.read("s.json"))["tetrahedra"];
     CHECK(json["check"]["violations"].empty());
-    // The tetrahedra of the file, element type 4, fill the box exactly: no region is the outside.
+    // The tetrahedra of the file, element type 4, fill the box exactly: no block is the outside.
     std::string line;
     std::size_t tetrahedra = 0;
     std::istringstream file(folder.read("a.msh"));

@@ -10,7 +10,7 @@
 #include <terrane/terrane.hpp>
 
 #include <terrane/algorithms/sealing/border_extension.hpp>
-#include <terrane/algorithms/volumes/detail/complex.hpp>
+#include <terrane/algorithms/volumes/complex.hpp>
 
 namespace terrane {
 namespace {
@@ -100,9 +100,9 @@ static_assert(!has_surface<SealChange, TriangleId> && !has_surface<FillTask, Tri
               !has_surface<BorderEdge, InputTriangleId>);
 
 template <class Triangle, class Vertex>
-concept has_side = requires(UpwardWitness upward, const volumes::detail::TriangleComplex& sheets,
+concept has_side = requires(UpwardWitness upward, const volumes::TriangleComplex& sheets,
                             Triangle t, Vertex v) {
-    volumes::detail::side_of(upward, sheets, t, v);
+    volumes::side_of(upward, sheets, t, v);
 };
 static_assert(has_side<TriangleId, VertexId> && !has_side<VertexId, TriangleId>);
 

@@ -199,7 +199,7 @@ def write_json_files(program, folder):
         "--stats", "sealed_statistics.json")
     run("volume", *model, *box, "--suggest-seal", "--stats", "suggest.json")
     run("volume", *model, *box, "-o", "merged", "--seal", "auto", "--min-volume", "4e8", "--stats", "merged.json")
-    run("arrange", *model, "-o", "blocks.vtp", "--memory", "1GiB", "--digest", "--volumes", "--stats", "in_blocks.json")
+    run("arrange", *model, "-o", "tiles.vtp", "--memory", "1GiB", "--digest", "--volumes", "--stats", "in_tiles.json")
     run("improve", *model, *box, "-o", "n.vtp", "--edge-length", "100", "--resolution", "20", "--stats", "resolution.json")
     run("fill", "fold.ts", "-o", "f.vtp", "--stats", "fill.json")
     run("fill", "fold.ts", "-o", "r.vtp", "--method", "rbf", "--stats", "rbf.json")
@@ -228,7 +228,7 @@ def write_json_files(program, folder):
         changed.write("\n")
     run("verify", "certificate.json", "--json", out="refuted.json")
     statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "fill.json", "rbf.json",
-                  "in_blocks.json", "resolution.json", "open.json", "arrange.json", "stl.json"]
+                  "in_tiles.json", "resolution.json", "open.json", "arrange.json", "stl.json"]
     if has_tetgen(program):
         run("tetrahedralize", *model, *box, "-o", "t.vtu", "--stats", "tetrahedra.json")
         (folder / "refined.json").write_text(json.dumps({

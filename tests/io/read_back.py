@@ -118,8 +118,8 @@ def check_meshio_vtu(path, meant):
     cells = [list(map(int, corners)) for block in mesh.cells for corners in block.data]
     check(cells == meant["cells"] + meant["faces"], f"{path}: meshio's cells")
     check(texts(mesh.field_data["surface_name"].ravel()) == meant["names"], f"{path}: meshio's names")
-    regions = [int(r) for block in mesh.cell_data["region"] for r in block.ravel()]
-    check(regions == meant["region_of"] + [-1] * len(meant["faces"]), f"{path}: meshio's regions")
+    blocks = [int(r) for block in mesh.cell_data["block"] for r in block.ravel()]
+    check(blocks == meant["block_of"] + [-1] * len(meant["faces"]), f"{path}: meshio's blocks")
 
 
 def check_cell_data(path, data, meant):
@@ -129,7 +129,7 @@ def check_cell_data(path, data, meant):
         "surface_count": [0] * tetrahedra + [len(entry) for entry in meant["surfaces_of"]],
     }
     if tetrahedra:
-        wanted["region"] = meant["region_of"] + [-1] * len(meant["faces"])
+        wanted["block"] = meant["block_of"] + [-1] * len(meant["faces"])
     if meant.get("twins"):
         twin, sides = [-1] * (tetrahedra + len(meant["faces"])), sides_of(meant)
         for front, back in meant["twins"]:
@@ -230,8 +230,8 @@ def check_gmsh(path, meant):
             tag = group(surface, side, count)
             wanted[2, tag, tuple(corners)] += 1
             wanted_names[tag] = in_quotes(meant["names"])[surface] + ENDINGS[side]
-    for corners, region in zip(meant["cells"], meant.get("region_of", [])):
-        wanted[4, 3 * count + region + 1, tuple(corners)] += 1
+    for corners, block in zip(meant["cells"], meant.get("block_of", [])):
+        wanted[4, 3 * count + block + 1, tuple(corners)] += 1
     for front, back in meant.get("twins", []):
         wanted_pairs |= {(b, a) for a, b in zip(triangles[front], triangles[back]) if a != b}
     elements, pairs = labelled(nodes, elements, pairs)
@@ -243,8 +243,8 @@ def check_gmsh(path, meant):
     check(pairs == wanted_pairs, f"{path}: pairs {pairs}, not {wanted_pairs}")
     found = {tag: name for (dimension, tag), name in names.items() if dimension == 2}
     check(found == wanted_names, f"{path}: names {names}")
-    regions = {r: "outside" if r == 0 else f"region {r}" for r in meant.get("region_of", [])}
-    check({tag - 1 - 3 * count: name for (dimension, tag), name in names.items() if dimension == 3} == regions,
+    blocks = {r: "outside" if r == 0 else f"block {r}" for r in meant.get("block_of", [])}
+    check({tag - 1 - 3 * count: name for (dimension, tag), name in names.items() if dimension == 3} == blocks,
           f"{path}: names {names}")
 
 
@@ -275,8 +275,8 @@ def check_medit(path, meant):
     wanted_references = references(meant["surfaces_of"], sides_of(meant), len(meant["names"]))
     for corners, reference in zip(triangles, wanted_references):
         wanted[2, reference, tuple(point[v] for v in corners)] += 1
-    for corners, region in zip(meant["cells"], meant.get("region_of", [])):
-        wanted[4, region, tuple(point[v] for v in corners)] += 1
+    for corners, block in zip(meant["cells"], meant.get("block_of", [])):
+        wanted[4, block, tuple(point[v] for v in corners)] += 1
     found = Counter()
     for (kind, tag, corners), count in elements.items():
         found[kind, tag, tuple(nodes[v] for v in corners)] += count
@@ -326,7 +326,7 @@ def check_abaqus(path, meant):
     labels = different([label(name) for name in meant["names"]], "_")
     if "faces" in meant:
         check_sides(path, meant, blocks, elements, labels)
-        owners = [{f"REGION_{r}" if r else "OUTSIDE"} for r in meant["region_of"]]
+        owners = [{f"BLOCK_{r}" if r else "OUTSIDE"} for r in meant["block_of"]]
     else:
         owners = [{labels[s] for s in entry} for entry in meant["surfaces_of"]]
     found = [set() for _ in owners]

@@ -123,11 +123,11 @@ def check_geos(expected, folder):
     check(sorted(grids) == ["F2", "F_1", "main"], f"{what}: blocks {sorted(grids)}")
     main, names = grids["main"], readers.comment_list(os.path.join(folder, "geos_main.vtu"))
     check(np.array_equal(main.points, expected.points), f"{what}: coordinates")
-    region, count = main.cell_data("attribute"), len(main.cells[4])
+    block, count = main.cell_data("attribute"), len(main.cells[4])
     check(main.cell_type("attribute") == "int32", f"{what}: attribute is {main.cell_type('attribute')}")
     of_blocks = names["attribute of tetrahedra"]
-    same_blocks(what, expected, {of_blocks[r]: main.cells[4][region[:count] == r] for r in set(region[:count])})
-    check(set(region[count:]) == set(names["attribute of triangles"]), f"{what}: attributes of triangles")
+    same_blocks(what, expected, {of_blocks[r]: main.cells[4][block[:count] == r] for r in set(block[:count])})
+    check(set(block[count:]) == set(names["attribute of triangles"]), f"{what}: attributes of triangles")
     for name, nodes in expected.point_sets().items():
         check(main.point_type(name) == "int64", f"{what}: array {name} is {main.point_type(name)}")
         check(set(np.flatnonzero(main.point_data(name) == 1)) == nodes, f"{what}: points of {name}")
@@ -155,9 +155,9 @@ def check_pylith(expected, path):
     names = {name for name, (_, dimension) in mesh.groups.items() if dimension == 3}
     check(names == {f"material-id:{r}" for r in range(1, 5)}, f"{what}: materials {names}")
     check(all(mesh.groups[name][0] == int(name.split(":")[1]) for name in names), f"{what}: numbers of materials")
-    for region in range(1, 5):
-        corners = {frozenset(map(tuple, mesh.points[c].tolist())) for c in mesh.cells_of("tetra", f"material-id:{region}")}
-        check(corners == expected.places_of_region(region), f"{what}: tetrahedra of {region}")
+    for block in range(1, 5):
+        corners = {frozenset(map(tuple, mesh.points[c].tolist())) for c in mesh.cells_of("tetra", f"material-id:{block}")}
+        check(corners == expected.places_of_block(block), f"{what}: tetrahedra of {block}")
     for name in expected.surfaces:
         check(mesh.places_of("triangle", name) == expected.places_of_surface(name), f"{what}: faces of {name}")
     lines = {name for name, (_, dimension) in mesh.groups.items() if dimension == 1}

@@ -78,10 +78,10 @@ class Expected:
             self.surfaces_of = [field["surfaces"][a:b].tolist() for a, b in zip(ends, ends[1:])]
         else:
             self.surfaces_of = [[s] for s in data["surface"][count:]]
-        self.region = data["region"][:count]
-        names = [t.decode() for t in bytes(field["region_name"]).split(b"\0")[:-1]]
-        self.blocks = {word(names[r]): {tuple(c) for c in self.tetrahedra[self.region == r].tolist()}
-                       for r in set(self.region.tolist())}
+        self.block = data["block"][:count]
+        names = [t.decode() for t in bytes(field["block_name"]).split(b"\0")[:-1]]
+        self.blocks = {word(names[r]): {tuple(c) for c in self.tetrahedra[self.block == r].tolist()}
+                       for r in set(self.block.tolist())}
         self._of_node = {}
         for t, corners in enumerate(cells[:count]):
             for v in corners:
@@ -153,8 +153,8 @@ class Expected:
         s = self.surfaces.index(name)
         return {self._places(self.faces[f]) for f, _ in self.twins if s in self.surfaces_of[f]}
 
-    def places_of_region(self, region):
-        return {self._places(c) for c in self.tetrahedra[self.region == region]}
+    def places_of_block(self, block):
+        return {self._places(c) for c in self.tetrahedra[self.block == block]}
 
     def middles_are_split(self, points, cells):
         """Tetrahedra on the two sides of a pair of faces that are not one share no node in the middle of an edge, but on

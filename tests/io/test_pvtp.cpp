@@ -17,11 +17,11 @@
 namespace {
 
 using namespace terrane;
-using distribution::BlockPiece;
+using tiles::TilePiece;
 
 /// A piece with one triangle, whose corners have the numbers first, first + 1 and first + 2.
-BlockPiece triangle_from(std::uint32_t first, std::uint32_t number) {
-    BlockPiece piece;
+TilePiece triangle_from(std::uint32_t first, std::uint32_t number) {
+    TilePiece piece;
     piece.mesh.surfaces = {{"top", Role::horizon}, {"fault", Role::fault}};
     for (std::uint32_t v = first; v < first + 3; ++v) {
         piece.vertex_ids.push_back(v);
@@ -56,7 +56,7 @@ public:
     }
 
     test_support::TemporaryFolder folder;
-    std::vector<BlockPiece> pieces;
+    std::vector<TilePiece> pieces;
 };
 
 } // namespace

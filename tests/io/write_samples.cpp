@@ -68,7 +68,7 @@ json to_json(const TetrahedralMesh& mesh) {
     auto result = common_json(mesh);
     result["cells"] = mesh.tetrahedra;
     result["faces"] = mesh.faces;
-    result["region_of"] = mesh.region_of;
+    result["block_of"] = mesh.block_of;
     result["twins"] = mesh.twins;
     return result;
 }

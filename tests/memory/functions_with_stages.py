@@ -26,7 +26,7 @@ WITHIN = {
     "cell_centres": "parse_surfaces, grdecl",
     "check_edge_length": "fill_by_kriging",
     "check_new_folder": "check_pvtp",
-    "count_work": "arrange_in_blocks",
+    "count_work": "arrange_in_tiles",
     "create": "write_model_folder",
     "cut_sections": "to_cut_certificate",
     "delaunay": "connect_points",
@@ -44,9 +44,9 @@ WITHIN = {
     "read_model3d": "read_model",
     "read_tsurf": "read_model",
     "read_shape_outline": "read_outline",
-    "relay": "arrange_in_blocks",
-    "step": "arrange_in_blocks",
-    "visit": "arrange_in_blocks",
+    "relay": "arrange_in_tiles",
+    "step": "arrange_in_tiles",
+    "visit": "arrange_in_tiles",
     "simplify_for": "simplify_to",
     "surface_of_grid": "parse_surfaces, asc",
     "surfaces_of": "parse_surfaces, asc",
@@ -67,7 +67,7 @@ WITHIN = {
     "write_model_files": "write_model_folder",
     "write_tetrahedra_files": "write_tetrahedra",
 }
-# Parts of readers of grids, of blocks of space, of PieceJoiner and of flat holes; they return errors to those.
+# Parts of readers of grids, of tiles, of PieceJoiner and of flat holes; they return errors to those.
 PARTS = {"add", "check_steps", "count", "deliver", "filled", "finish", "integer", "load", "make_room", "number", "of", "save",
          "step_of", "take_messages", "triangulate"}
 # Readers of one format each: parse_surfaces, with the name of the format.

@@ -78,7 +78,7 @@ std::vector<Stage> stages_of_models();
 std::vector<Stage> stages_of_surfaces();
 std::vector<Stage> stages_of_files();
 std::vector<Stage> stages_of_outputs();
-/// Stages of large models and of many: simplification, blocks of space, realisations.
+/// Stages of large models and of many: simplification, tiles, realisations.
 std::vector<Stage> stages_of_scale();
 /// All of these.
 std::vector<Stage> all_stages();

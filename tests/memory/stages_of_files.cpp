@@ -53,8 +53,8 @@ std::string vtu_text() {
     mesh.surfaces = {{.name = "a face with a name that needs memory"}};
     mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     mesh.tetrahedra = {{0, 1, 2, 3}};
-    mesh.region_of = {1};
-    mesh.region_count = 2;
+    mesh.block_of = {1};
+    mesh.block_count = 2;
     mesh.faces = {{0, 1, 2}};
     mesh.face_triangle = {0};
     const std::uint32_t surface = 0;
@@ -111,7 +111,7 @@ std::vector<Stage> reading() {
     stages.push_back(stage(
         "read_model", [model] { return read_model(model); },
         [](const GocadModel& read) { return text_of(read.surfaces); }));
-    distribution::BlockPiece piece{*f.mesh, {}, {}};
+    tiles::TilePiece piece{*f.mesh, {}, {}};
     piece.mesh.intersection_edges.clear();
     for (std::uint32_t v = 0; v < f.mesh->vertices.size(); ++v) piece.vertex_ids.push_back(v);
     for (std::uint32_t t = 0; t < f.mesh->triangles.size(); ++t) piece.triangle_ids.push_back(t);

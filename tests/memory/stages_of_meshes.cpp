@@ -76,8 +76,8 @@ std::vector<Stage> measuring() {
         "locate_points", [&f] { return locate_points(f.mesh->vertices, *f.mesh, f.volumes); },
         [](const std::vector<std::uint32_t>& blocks) { return count_of(blocks); }));
     stages.push_back(stage(
-        "region_points", [&f] { return region_points(*f.mesh, f.volumes); },
-        [](const std::vector<RegionPoint>& points) { return count_of(points); }));
+        "block_points", [&f] { return block_points(*f.mesh, f.volumes); },
+        [](const std::vector<BlockPoint>& points) { return count_of(points); }));
     stages.push_back(stage(
         "build_structure", [&f] { return build_structure(*f.mesh, f.volumes); },
         [](const Structure& structure) { return count_of(structure.lines); }));

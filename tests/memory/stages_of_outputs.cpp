@@ -5,7 +5,7 @@
 #include <array>
 #include <memory>
 
-#include <terrane/algorithms/distribution/local_supersteps.hpp>
+#include <terrane/algorithms/tiles/local_supersteps.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/meshes/pvtp_output.hpp>
 #ifdef TERRANE_TESTS_PAGE
@@ -29,8 +29,8 @@ TetrahedralMesh few_tetrahedra() {
                      {.name = "box", .role = Role::boundary}};
     mesh.vertices = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 1}};
     mesh.tetrahedra = {{0, 1, 2, 4}, {0, 2, 3, 4}};
-    mesh.region_of = {1, 2};
-    mesh.region_count = 3;
+    mesh.block_of = {1, 2};
+    mesh.block_count = 3;
     mesh.faces = {{0, 2, 4}, {0, 2, 1}, {0, 3, 2}};
     mesh.face_triangle = {0, UINT32_MAX, UINT32_MAX};
     for (const std::uint32_t surface : {0U, 1U, 1U}) mesh.surfaces_of.push_back({&surface, 1});
@@ -54,7 +54,7 @@ std::vector<Stage> writing_tetrahedra() {
                                                options.format = format;
                                                options.order = order;
                                                if (format != Format::medit)
-                                                   options.region_names = names;
+                                                   options.block_names = names;
                                                return write_tetrahedra(mesh, path, options);
                                            }));
         }
@@ -79,25 +79,24 @@ std::vector<Stage> writing_models() {
 }
 
 std::vector<Stage> writing_pieces() {
-    using namespace distribution;
+    using namespace tiles;
     const auto arranged = [] {
         static const Run run;
-        auto blocks =
-            std::make_unique<LocalSupersteps>(LocalOptions{.blocks = 2, .spool = {}}, run);
+        auto tiles = std::make_unique<LocalSupersteps>(LocalOptions{.tiles = 2, .spool = {}}, run);
         const auto read = [](std::size_t file) -> Result<std::vector<Surface>> {
             return std::vector{Fixture::get().surfaces[file]};
         };
-        needed(arrange_in_blocks(*blocks, read, {.files = 3, .digest = false}));
-        return blocks;
+        needed(arrange_in_tiles(*tiles, read, {.files = 3, .digest = false}));
+        return tiles;
     };
     std::vector<Stage> stages{
         writing_stage("write_pvtp", "pieces with a long name.pvtp", true, arranged,
-                      [](const fs::path& path, const std::unique_ptr<LocalSupersteps>& blocks) {
-                          return write_pvtp(*blocks, path, false);
+                      [](const fs::path& path, const std::unique_ptr<LocalSupersteps>& tiles) {
+                          return write_pvtp(*tiles, path, false);
                       }),
         writing_stage("check_pvtp", "pieces with a long name.pvtp", true,
                       [](const fs::path& path) { return check_pvtp(path); })};
-    for (Stage& s : stages) s.returns_errors = false; // see distributed_arrangement.hpp
+    for (Stage& s : stages) s.returns_errors = false; // see tiled_arrangement.hpp
     return stages;
 }
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Stages for models that are too large or too uncertain to be built at once: simplification, blocks of space,
+// Stages for models that are too large or too uncertain to be built at once: simplification, tiles,
 // realisations.
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include <terrane/algorithms/distribution/distributed_arrangement.hpp>
-#include <terrane/algorithms/distribution/local_supersteps.hpp>
-#include <terrane/algorithms/structure/names_in_blocks.hpp>
+#include <terrane/algorithms/tiles/local_supersteps.hpp>
+#include <terrane/algorithms/tiles/names_in_tiles.hpp>
+#include <terrane/algorithms/tiles/tiled_arrangement.hpp>
+#include <terrane/algorithms/tiles/volumes_in_tiles.hpp>
 #include <terrane/algorithms/uncertainty/measures.hpp>
 #include <terrane/algorithms/uncertainty/realisations.hpp>
-#include <terrane/algorithms/volumes/volumes_in_blocks.hpp>
 
 #include "fixture.hpp"
 #include "scratch.hpp"
@@ -22,7 +22,7 @@ namespace failing {
 namespace {
 
 using namespace terrane;
-using namespace terrane::distribution;
+using namespace terrane::tiles;
 
 /// Two triangles that end just below a third surface.
 const Arranged& nearly_touching() {
@@ -72,87 +72,76 @@ const std::vector<Surface>& needle() {
     return surfaces;
 }
 
-/// Blocks in memory, or one after the other with files in a folder of their own.
-std::unique_ptr<LocalSupersteps> blocks_of(bool spools) {
+/// Tiles in memory, or one after the other with files in a folder of their own.
+std::unique_ptr<LocalSupersteps> tiles_of(bool spools) {
     static const Run run;
     if (!spools)
-        return std::make_unique<LocalSupersteps>(LocalOptions{.blocks = 2, .spool = {}}, run);
-    const auto folder = scratch() / "blocks with a long name";
+        return std::make_unique<LocalSupersteps>(LocalOptions{.tiles = 2, .spool = {}}, run);
+    const auto folder = scratch() / "tiles with a long name";
     std::filesystem::remove_all(folder);
     std::filesystem::create_directory(folder);
-    return std::make_unique<LocalSupersteps>(LocalOptions{.blocks = 2, .spool = folder}, run);
+    return std::make_unique<LocalSupersteps>(LocalOptions{.tiles = 2, .spool = folder}, run);
 }
 
-Result<DistributedReport>
-arranged_in(Supersteps& blocks, bool digest,
-            const std::vector<Surface>& surfaces = Fixture::get().surfaces) {
-    return arrange_in_blocks(blocks,
-                             [&surfaces](std::size_t file) -> Result<std::vector<Surface>> {
-                                 return std::vector<Surface>{surfaces[file]};
-                             },
-                             {.files = surfaces.size(), .digest = digest});
+Result<TiledReport> arranged_in(Supersteps& tiles, bool digest,
+                                const std::vector<Surface>& surfaces = Fixture::get().surfaces) {
+    return arrange_in_tiles(tiles,
+                            [&surfaces](std::size_t file) -> Result<std::vector<Surface>> {
+                                return std::vector<Surface>{surfaces[file]};
+                            },
+                            {.files = surfaces.size(), .digest = digest});
 }
 
 std::vector<Stage> dividing() {
     std::vector<Stage> stages;
     for (const bool spools : {false, true})
         stages.push_back(stage_of(
-            spools ? "arrange_in_blocks, files" : "arrange_in_blocks, memory",
-            [spools] { return blocks_of(spools); },
-            [](const std::unique_ptr<LocalSupersteps>& blocks) {
-                return arranged_in(*blocks, true);
-            },
-            [](const DistributedReport& report) { return report.digest; }));
+            spools ? "arrange_in_tiles, files" : "arrange_in_tiles, memory",
+            [spools] { return tiles_of(spools); },
+            [](const std::unique_ptr<LocalSupersteps>& tiles) { return arranged_in(*tiles, true); },
+            [](const TiledReport& report) { return report.digest; }));
     stages.push_back(stage_of(
-        "arrange_in_blocks, repair", [] { return blocks_of(false); },
-        [](const std::unique_ptr<LocalSupersteps>& blocks) {
-            return arranged_in(*blocks, false, needle());
+        "arrange_in_tiles, repair", [] { return tiles_of(false); },
+        [](const std::unique_ptr<LocalSupersteps>& tiles) {
+            return arranged_in(*tiles, false, needle());
         },
-        [](const DistributedReport& report) {
-            return shown(report.repair.value().surface_deviation);
-        }));
+        [](const TiledReport& report) { return shown(report.repair.value().surface_deviation); }));
     stages.push_back(stage_of(
         "repair_in_one_process",
         [] {
-            auto blocks = blocks_of(false);
-            needed(arranged_in(*blocks, false));
-            return blocks;
+            auto tiles = tiles_of(false);
+            needed(arranged_in(*tiles, false));
+            return tiles;
         },
-        [](const std::unique_ptr<LocalSupersteps>& blocks) {
-            return repair_in_one_process(*blocks);
-        },
+        [](const std::unique_ptr<LocalSupersteps>& tiles) { return repair_in_one_process(*tiles); },
         [](const RepairedWhole& whole) { return text_of(whole.piece.mesh); }));
     stages.push_back(stage_of(
-        "find_volumes_in_blocks",
+        "find_volumes_in_tiles",
         [] {
-            auto blocks = blocks_of(false);
-            needed(arranged_in(*blocks, false));
-            return blocks;
+            auto tiles = tiles_of(false);
+            needed(arranged_in(*tiles, false));
+            return tiles;
         },
-        [](const std::unique_ptr<LocalSupersteps>& blocks) {
-            return find_volumes_in_blocks(*blocks);
-        },
+        [](const std::unique_ptr<LocalSupersteps>& tiles) { return find_volumes_in_tiles(*tiles); },
         [](const std::vector<double>& measures) {
             const std::span bytes = std::as_bytes(std::span(measures));
             return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         }));
     stages.push_back(stage_of(
-        "name_volumes_in_blocks",
+        "name_volumes_in_tiles",
         [] {
-            auto blocks = blocks_of(false);
-            needed(arranged_in(*blocks, false));
-            needed(find_volumes_in_blocks(*blocks));
-            return blocks;
+            auto tiles = tiles_of(false);
+            needed(arranged_in(*tiles, false));
+            needed(find_volumes_in_tiles(*tiles));
+            return tiles;
         },
-        [](const std::unique_ptr<LocalSupersteps>& blocks) {
-            return name_volumes_in_blocks(*blocks);
-        },
+        [](const std::unique_ptr<LocalSupersteps>& tiles) { return name_volumes_in_tiles(*tiles); },
         [](const std::vector<std::string>& names) {
             std::string text;
             for (const std::string& name : names) text += name + "\n";
             return text;
         }));
-    for (Stage& s : stages) s.returns_errors = false; // see distributed_arrangement.hpp
+    for (Stage& s : stages) s.returns_errors = false; // see tiled_arrangement.hpp
     return stages;
 }
 

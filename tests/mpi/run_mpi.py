@@ -43,12 +43,14 @@ def names_in(folder: Path):
 
 
 def volumes_of(arguments, mesh: Path, work: Path):
-    """What terrane volume finds in a mesh: all blocks together, then each."""
+    """What terrane volume finds in a mesh: all blocks together, and each."""
     folder = work / "volumes"
-    done = run([arguments.terrane, "volume", mesh, "-o", folder])
+    stats = work / "volumes.json"
+    done = run([arguments.terrane, "volume", mesh, "-o", folder, "--stats", stats])
     assert done.returncode == 0, (mesh, done.stderr)
-    blocks = json.loads((folder / "model.json").read_text())["blocks"]
-    return {"count": len(blocks) - 1, "measures": [b["volume"] for b in blocks], "names": [b["name"] for b in blocks]}
+    blocks = json.loads((folder / "model.json").read_text())["blocks"][1:]
+    return {"all": json.loads(stats.read_text())["volumes"]["all"], "blocks": [b["volume"] for b in blocks],
+            "names": [b["name"] for b in blocks]}
 
 
 def check_case(arguments, folder: Path, work: Path):
@@ -68,10 +70,10 @@ def check_case(arguments, folder: Path, work: Path):
             continue
         found = json.loads(stats.read_text())
         assert found["digest"] == expected["digest"], (where, found["digest"])
-        assert found["blocks"] == ranks, where
+        assert found["tiles"] == ranks, where
         if folder.name in REPAIRED:
             assert found["rounding"]["gathered_triangles"] > 0, (where, found)
-        assert found["rounding"]["in_blocks"], (where, found)
+        assert found["rounding"]["in_tiles"], (where, found)
         assert found["rounding"]["arranged_again"] == (folder.name in MOVED), (where, found)
         assert found["volumes"] == volumes, (where, found["volumes"], volumes)
         converted = run([arguments.terrane, "convert", pieces, joined])

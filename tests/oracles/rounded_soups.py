@@ -231,7 +231,7 @@ def main():
             stated = json.loads(stats.read_text())["rounding"]
             rows.append(row)
             good = max(row[0], row[1]) <= args.most and row[3] <= 0
-            good = good and (box is not None or row[4] == stated["vanished_input_triangles"])
+            good = good and (box is not None or row[4] == stated["vanished"])
             broken += not good
             print("%s: parts %.3g, parents %.3g ulps, areas by %.2g, outside %.3g, %d needles gone; stated %s%s"
                   % (name, *row, {k: stated.get(k) for k in ("max_move", "deviation", "surface_deviation") if k in stated},

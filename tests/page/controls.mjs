@@ -246,8 +246,8 @@ export async function tryAccess(page, axe) {
 export async function tryFilled(page) {
   const filled = await page.evaluate(() => window.terrane.view.items.map((i) => [i.name, i.geometry.index.count]));
   const sizes = await page.locator("section[aria-label=Surfaces] .size").allTextContents();
-  const [given, invented] = sizes.map((text) => Number(text.replace(/[^\d.]/g, "")));
-  check(invented > 0 && given > invented, "each has the area of its own", sizes);
+  const [given, interpolated] = sizes.map((text) => Number(text.replace(/[^\d.]/g, "")));
+  check(interpolated > 0 && given > interpolated, "each has the area of its own", sizes);
   check(filled.length === 2 && filled[1][0] === "top: filled" && filled[1][1] > 0, "what was filled is apart", filled);
   const plots = await page.evaluate(() => window.terrane.report.content.plots.filter((p) => p.lines).map((p) => [p.title, p.lines.map((l) => [l.name, l.x.length])]));
   check(plots.length === 4 && plots.every(([, lines]) => lines.every(([, count]) => count > 1)), "each hole has a variogram and a cross-validation", plots);

@@ -26,9 +26,9 @@ using namespace terrane;
 
 using Cell = std::array<std::uint32_t, 4>;
 
-/// n^3 cubes of six tetrahedra each. Vertices inside of a region are displaced at random by up to
+/// n^3 cubes of six tetrahedra each. Vertices inside of a block are displaced at random by up to
 /// `disorder` edges, as long as no tetrahedron is inverted. The plane z = wall divides the cubes
-/// into regions 1 and 2; none if it is 0.
+/// into blocks 1 and 2; none if it is 0.
 class Cubes {
 public:
     Cubes(int n, int wall, double disorder, std::uint64_t seed) : n_(n), wall_(wall) {
@@ -39,7 +39,7 @@ public:
         for (int k = 0; k < n; ++k)
             for (int j = 0; j < n; ++j)
                 for (int i = 0; i < n; ++i) add_cube(i, j, k);
-        mesh.region_count = 3;
+        mesh.block_count = 3;
         mesh.surfaces = {{"wall", Role::horizon}, {"box", Role::boundary}};
         add_faces();
         displace(disorder, seed);
@@ -65,7 +65,7 @@ private:
             if (orient3d(v[cell[0]], v[cell[1]], v[cell[2]], v[cell[3]]) != Sign::Positive)
                 std::swap(cell[2], cell[3]);
             mesh.tetrahedra.push_back(cell);
-            mesh.region_of.push_back(wall_ > 0 && k >= wall_ ? 2 : 1);
+            mesh.block_of.push_back(wall_ > 0 && k >= wall_ ? 2 : 1);
         } while (std::next_permutation(order.begin(), order.end()));
     }
 
@@ -76,11 +76,11 @@ private:
                 const Cell& c = mesh.tetrahedra[t];
                 std::array<std::uint32_t, 3> face{c[(k + 1) % 4], c[(k + 2) % 4], c[(k + 3) % 4]};
                 std::sort(face.begin(), face.end());
-                beside[face].push_back(mesh.region_of[t]);
+                beside[face].push_back(mesh.block_of[t]);
             }
-        for (const auto& [face, regions] : beside) {
-            const bool inside = regions.size() == 2;
-            if (inside && regions[0] == regions[1]) continue;
+        for (const auto& [face, blocks] : beside) {
+            const bool inside = blocks.size() == 2;
+            if (inside && blocks[0] == blocks[1]) continue;
             mesh.faces.push_back({face[0], face[1], face[2]});
             mesh.face_triangle.push_back(inside ? 0 : UINT32_MAX);
             mesh.surfaces_of.push_back(std::array<std::uint32_t, 1>{inside ? 0U : 1U});
@@ -144,10 +144,10 @@ inline double least_quality(const TetrahedralMesh& mesh) {
     return qualities(mesh)[0];
 }
 
-inline mpq_class six_volumes(const TetrahedralMesh& mesh, std::uint32_t region) {
+inline mpq_class six_volumes(const TetrahedralMesh& mesh, std::uint32_t block) {
     mpq_class sum = 0;
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-        if (mesh.region_of[t] != region) continue;
+        if (mesh.block_of[t] != block) continue;
         const auto p = corners_of(mesh, mesh.tetrahedra[t]);
         std::array<std::array<mpq_class, 3>, 3> e;
         for (std::size_t k = 0; k < 3; ++k)

@@ -95,7 +95,7 @@ std::optional<std::uint32_t> add_node(TetrahedralMesh& mesh,
                 m.tetrahedra[t] = part;
             else {
                 m.tetrahedra.push_back(part);
-                m.region_of.push_back(m.region_of[t]);
+                m.block_of.push_back(m.block_of[t]);
             }
         }
     }
@@ -180,7 +180,7 @@ inline void divide(Filled& f, std::size_t count) {
     }
     for (std::uint32_t t = 0; t < m.tetrahedra.size() && f.inside.size() < count; ++t) {
         const auto corners = m.tetrahedra[t];
-        if (m.region_of[t] != 0)
+        if (m.block_of[t] != 0)
             if (const auto v = add_node(m, corners, point_between(m, corners)))
                 f.inside.push_back(*v);
     }

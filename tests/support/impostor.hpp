@@ -41,7 +41,7 @@ inline TetgenInput cube_input() {
 inline std::size_t request_size(const TetgenInput& input) {
     return sizeof(RequestHeader) + input.points.size() * sizeof(Coordinates) +
            (input.facets.offsets.size() + input.facets.values.size()) * sizeof(std::uint32_t) +
-           input.max_areas.size() * sizeof(double) + input.regions.size() * sizeof(RegionRecord);
+           input.max_areas.size() * sizeof(double) + input.blocks.size() * sizeof(BlockRecord);
 }
 
 template <class T>

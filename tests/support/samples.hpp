@@ -53,7 +53,7 @@ inline Mesh float_mesh() {
     return mesh;
 }
 
-/// Returns two tetrahedra of regions 0 and 2, the face between them, which belongs to two surfaces,
+/// Returns two tetrahedra of blocks 0 and 2, the face between them, which belongs to two surfaces,
 /// and a face on the box.
 inline TetrahedralMesh two_tetrahedra() {
     TetrahedralMesh mesh;
@@ -61,12 +61,12 @@ inline TetrahedralMesh two_tetrahedra() {
         {"fault & <co>", Role::fault}, {"base", Role::horizon}, {"box", Role::boundary}};
     mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 0.1, -1}, {0, 0, 1}};
     mesh.tetrahedra = {{0, 1, 2, 3}, {0, 2, 1, 4}};
-    mesh.region_of = {0, 2};
+    mesh.block_of = {0, 2};
     mesh.faces = {{0, 1, 2}, {0, 1, 3}};
     mesh.face_triangle = {5, UINT32_MAX};
     mesh.surfaces_of.push_back(std::vector<std::uint32_t>{0, 1});
     mesh.surfaces_of.push_back(std::vector<std::uint32_t>{2});
-    mesh.region_count = 3;
+    mesh.block_count = 3;
     return mesh;
 }
 

@@ -92,7 +92,7 @@ inline TetrahedralMesh must(const Mesh& mesh, const TetrahedraOptions& options) 
     INFO((result ? std::string() : result.error().message()));
     REQUIRE(result.ok());
     const TetrahedralMesh& made = result.value();
-    CHECK(made.region_of.size() == made.tetrahedra.size());
+    CHECK(made.block_of.size() == made.tetrahedra.size());
     CHECK(made.face_triangle.size() == made.faces.size());
     CHECK(made.surfaces_of.size() == made.faces.size());
     CHECK(made.surfaces.size() == mesh.surfaces.size() + 1);

@@ -57,7 +57,7 @@ Cells::Cells(const TetrahedralMesh& mesh, bool outside) :
     is_fixed_(mesh.vertices.size(), false), cell_of_(mesh.vertices.size(), none),
     cells_(mesh.tetrahedra.begin(), mesh.tetrahedra.end()),
     beside_(cells_.size(), {none, none, none, none}), walls_(cells_.size(), 0),
-    region_(mesh.region_of), changed_(cells_.size(), 0), touched_(mesh.vertices.size(), 0) {
+    block_(mesh.block_of), changed_(cells_.size(), 0), touched_(mesh.vertices.size(), 0) {
     for (const Point3& p : mesh.vertices) points_.push_back(times(p, -exponent_));
     for (const Triangle& face : mesh.faces)
         for (const std::uint32_t v : face) is_fixed_[v] = true;
@@ -171,7 +171,7 @@ void Cells::add_cell() {
     cells_.push_back({none, none, none, none});
     beside_.push_back({none, none, none, none});
     walls_.push_back(0);
-    region_.push_back(0);
+    block_.push_back(0);
     quality_.push_back(0);
     changed_.push_back(0);
 }
@@ -180,11 +180,11 @@ void Cells::set_wall(const Face& face) {
     walls_[face.cell] = static_cast<std::uint8_t>(walls_[face.cell] | 1U << face.k);
 }
 
-void Cells::store(std::uint32_t c, const Corners& corners, std::uint32_t region) {
+void Cells::store(std::uint32_t c, const Corners& corners, std::uint32_t block) {
     cells_[c] = corners;
     beside_[c] = {none, none, none, none};
     walls_[c] = 0;
-    region_[c] = region;
+    block_[c] = block;
     quality_[c] = counts(c) ? quality_of(corners) : HUGE_VAL;
     for (const std::uint32_t v : corners) cell_of_[v] = c;
     touch(c);
@@ -293,10 +293,10 @@ bool Cells::replace(std::span<const std::uint32_t> old, std::span<const Corners>
         if (!meets(c, demand)) return false;
     auto fitting = fit(old, added);
     if (!fitting) return false;
-    const std::uint32_t region = region_[old[0]];
+    const std::uint32_t block = block_[old[0]];
     ++time_;
     const auto numbers = renew(old, added.size());
-    for (std::size_t i = 0; i < added.size(); ++i) store(numbers[i], added[i], region);
+    for (std::size_t i = 0; i < added.size(); ++i) store(numbers[i], added[i], block);
     for (Face& f : fitting->faces) f.cell = numbers[f.cell];
     for (const auto& [one, other, is_wall] : fitting->inner) {
         connect(fitting->faces[one], fitting->faces[other]);
@@ -345,12 +345,12 @@ void Cells::write(TetrahedralMesh& mesh) const {
             mesh.vertices.push_back(place(static_cast<std::uint32_t>(v)));
         }
     mesh.tetrahedra.clear();
-    mesh.region_of.clear();
+    mesh.block_of.clear();
     for (std::uint32_t c = 0; c < cells_.size(); ++c) {
         if (cells_[c][0] == none) continue;
         auto& t = mesh.tetrahedra.emplace_back();
         for (unsigned k = 0; k < 4; ++k) t[k] = name[cells_[c][k]];
-        mesh.region_of.push_back(region_[c]);
+        mesh.block_of.push_back(block_[c]);
     }
     for (Triangle& face : mesh.faces)
         for (std::uint32_t& v : face) v = name[v];

@@ -40,14 +40,14 @@ struct Demand {
 /// corners.
 class Cells {
 public:
-    /// `outside`: whether cells of region 0 count. Those that don't may have any positive volume.
+    /// `outside`: whether cells of block 0 count. Those that don't may have any positive volume.
     explicit Cells(const TetrahedralMesh& mesh, bool outside = true);
 
     [[nodiscard]] std::size_t size() const { return cells_.size(); }
     [[nodiscard]] bool is_alive(std::uint32_t c) const { return cells_[c][0] != none; }
     [[nodiscard]] const Corners& corners(std::uint32_t c) const { return cells_[c]; }
     /// Tells whether it matters how good a cell is.
-    [[nodiscard]] bool counts(std::uint32_t c) const { return outside_ || region_[c] != 0; }
+    [[nodiscard]] bool counts(std::uint32_t c) const { return outside_ || block_[c] != 0; }
     /// Returns the quality of a cell; infinite if that does not count, or can't be trusted, so that
     /// it stays.
     [[nodiscard]] double quality(std::uint32_t c) const { return quality_[c]; }
@@ -95,7 +95,7 @@ public:
     [[nodiscard]] const Measure& judged_by() const { return measure_; }
     /// Computes the qualities of all cells again, by this measure.
     void judge_by(const Measure& by);
-    [[nodiscard]] std::uint32_t region(std::uint32_t c) const { return region_[c]; }
+    [[nodiscard]] std::uint32_t block(std::uint32_t c) const { return block_[c]; }
     /// Returns six times the volume, in floating point, in a unit of its own.
     [[nodiscard]] double volume_of(const Corners& c) const;
     /// Returns the cells at a vertex.
@@ -119,7 +119,7 @@ public:
     /// Takes back the last added vertex, which no cell has.
     void remove_last_vertex();
 
-    /// Replaces cells by others of the same region that fill the same space, if each of these is as
+    /// Replaces cells by others of the same block that fill the same space, if each of these is as
     /// good as demanded and has a positive volume, exactly, they match each other and those around
     /// them, and all walls between old ones are faces of new ones. Returns whether it did.
     bool replace(std::span<const std::uint32_t> old, std::span<const Corners> added,
@@ -150,9 +150,9 @@ private:
     void add_cell();
     void set_wall(const Face& face);
     void touch(std::uint32_t c);
-    void store(std::uint32_t c, const Corners& corners, std::uint32_t region);
+    void store(std::uint32_t c, const Corners& corners, std::uint32_t block);
 
-    bool outside_; ///< whether cells of region 0 count
+    bool outside_; ///< whether cells of block 0 count
     int exponent_; ///< points are those of the mesh times 2^-exponent
     std::vector<Point3> points_;
     std::vector<bool> is_fixed_;
@@ -161,7 +161,7 @@ private:
     std::vector<Corners> cells_;         ///< none: free
     std::vector<Corners> beside_;
     std::vector<std::uint8_t> walls_; ///< per cell: bit k for the face opposite to corner k
-    std::vector<std::uint32_t> region_;
+    std::vector<std::uint32_t> block_;
     Measure measure_; ///< by which qualities are computed
     std::vector<double> quality_;
     std::uint32_t time_ = 0;

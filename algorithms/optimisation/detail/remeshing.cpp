@@ -72,7 +72,7 @@ Part part_around(const Cells& cells, std::uint32_t c) {
         }
         for (std::uint32_t& v : corners) v = local(v);
         mesh.tetrahedra.push_back(corners);
-        mesh.region_of.push_back(0);
+        mesh.block_of.push_back(0);
     }
     return part;
 }

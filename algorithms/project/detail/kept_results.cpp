@@ -31,8 +31,8 @@ static void fields(auto& archive, Is<Mesh> auto& m) {
 }
 
 static void fields(auto& archive, Is<TetrahedralMesh> auto& m) {
-    archive(m.surfaces, m.vertices, m.tetrahedra, m.region_of, m.faces, m.face_triangle,
-            m.surfaces_of, m.twins, m.region_count, m.mesher, m.failure);
+    archive(m.surfaces, m.vertices, m.tetrahedra, m.block_of, m.faces, m.face_triangle,
+            m.surfaces_of, m.twins, m.block_count, m.mesher, m.failure);
 }
 
 static void fields(auto& archive, Is<Volumes> auto& v) {

@@ -358,7 +358,7 @@ private:
 
     /// Tells whether a tetrahedron will be kept: without the outside, if that is not wanted.
     [[nodiscard]] bool is_wanted(const TetrahedralMesh& tetrahedra, std::uint32_t t) const {
-        return input_.request.outside || tetrahedra.region_of[t] != 0;
+        return input_.request.outside || tetrahedra.block_of[t] != 0;
     }
 
     /// Returns the vertices at the nodes of tetrahedra.

@@ -132,13 +132,14 @@ void Rounding::report_moves() {
     RoundingReport& r = out_.report;
     r.surface_deviation = deviation();
     r.max_allowed = task_.limit;
-    r.lost_length = state_.total_gaps();
-    if (r.lost_length > 0) // it is a sum over rounds, and each can lose the same needle
-        r.lost_length =
-            std::min(r.lost_length, largest_distance(state_.points, state_.triangles,
-                                                     arrangement_.state->points.inputs()));
-    r.deviation = r.lost_length == 0 ? r.surface_deviation
-                                     : (r.surface_deviation + r.lost_length) * (1 + 0x1p-51);
+    r.vanished_length = state_.total_gaps();
+    if (r.vanished_length > 0) // it is a sum over rounds, and each can lose the same needle
+        r.vanished_length =
+            std::min(r.vanished_length, largest_distance(state_.points, state_.triangles,
+                                                         arrangement_.state->points.inputs()));
+    r.deviation = r.vanished_length == 0
+                      ? r.surface_deviation
+                      : (r.surface_deviation + r.vanished_length) * (1 + 0x1p-51);
     std::vector<double> moves = state_.move;
     const auto inputs = arrangement_.state->points.inputs();
     for (std::size_t v = 0; v < state_.points.size(); ++v) {

@@ -20,7 +20,7 @@ enum class Attempted {
     torn        ///< a boundary was not closed; coarser grids would not do either
 };
 
-/// An input that can be moved, in one process or in blocks of space. Frames and grids are for the corners
+/// An input that can be moved, in one process or in tiles. Frames and grids are for the corners
 /// of the triangles that are chosen: at first those in contact after the rounding where it lies.
 class MovableInput {
 public:

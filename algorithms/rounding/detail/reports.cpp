@@ -81,7 +81,7 @@ void add_to_report(const MovedInput& moved, const Arrangement& a, const Rounding
     report.vanished = vanished(a, rounded.mesh->parents_of);
 }
 
-void report_lost_regions(const Arrangement& a, RoundedMesh& rounded) {
+void report_vanished_regions(const Arrangement& a, RoundedMesh& rounded) {
     std::vector<Point3> places;
     for (const PointIndex v : a.vertices) places.push_back(a.state->points.nearest(v));
     const auto exact =
@@ -90,7 +90,7 @@ void report_lost_regions(const Arrangement& a, RoundedMesh& rounded) {
     const auto after = regions_per_surface(a.surfaces.size(), rounded.regions);
     for (std::uint32_t s = 0; s < before.size(); ++s)
         if (after[s] < before[s])
-            rounded.report.lost_regions.push_back({SurfaceId(s), before[s], after[s]});
+            rounded.report.vanished_regions.push_back({SurfaceId(s), before[s], after[s]});
 }
 
 } // namespace terrane::rounding::detail

@@ -30,6 +30,6 @@ void add_to_report(const MovedInput& moved, const Arrangement& arrangement,
                    const RoundingReport& first, RoundedMesh& rounded);
 
 /// Compares the regions with those of the exact surfaces and reports losses.
-void report_lost_regions(const Arrangement& arrangement, RoundedMesh& rounded);
+void report_vanished_regions(const Arrangement& arrangement, RoundedMesh& rounded);
 
 } // namespace terrane::rounding::detail

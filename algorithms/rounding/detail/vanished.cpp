@@ -171,12 +171,12 @@ Error nothing_left() {
             ""};
 }
 
-void state_lost_length(const Arrangement& a, RoundedMesh& rounded, const Run& run) {
+void state_vanished_length(const Arrangement& a, RoundedMesh& rounded, const Run& run) {
     RoundingReport& report = rounded.report;
     const Remains remains(*rounded.mesh);
     const std::vector<Piece> sides = sides_of(a, report.vanished);
     constexpr double room = 1 - 0x1p-8; // another method has to show the bound, too
-    const double known = report.surface_deviation + report.lost_length;
+    const double known = report.surface_deviation + report.vanished_length;
     const auto far = concatenated(parts_of_ranges<std::vector<std::size_t>>(
         sides.size(), run, [&](std::size_t first, std::size_t last) {
             std::vector<std::size_t> part;
@@ -190,7 +190,7 @@ void state_lost_length(const Arrangement& a, RoundedMesh& rounded, const Run& ru
     for (const std::size_t k : far)
         while (bound < largest && !remains.are_near(sides[k], bound * room))
             bound = std::max({2 * bound, remains.sample(sides[k]) * (1 + 0x1p-3), remains.noise()});
-    report.lost_length = bound;
+    report.vanished_length = bound;
     report.deviation = (report.surface_deviation + bound) * (1 + 0x1p-51);
 }
 

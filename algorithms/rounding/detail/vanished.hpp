@@ -22,12 +22,12 @@ std::vector<std::uint32_t> vanished(const Arrangement& arrangement,
 /// The error where no triangle would be left.
 Error nothing_left();
 
-/// Enlarges report.lost_length, and report.deviation with it, until each point of the sides of each
+/// Enlarges report.vanished_length, and report.deviation with it, until each point of the sides of each
 /// input triangle that vanished is shown to be at most report.deviation away from the mesh. Of an
 /// arrangement of which a part was removed, these are the sides of what was kept. Exact numbers
 /// decide; where they show no smaller bound, it may be two times too large.
 /// Precondition: the mesh has a triangle.
 /// Cost: some exact distances per side, if the triangle collapsed onto others.
-void state_lost_length(const Arrangement& arrangement, RoundedMesh& rounded, const Run& run);
+void state_vanished_length(const Arrangement& arrangement, RoundedMesh& rounded, const Run& run);
 
 } // namespace terrane::rounding::detail

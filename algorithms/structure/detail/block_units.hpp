@@ -11,8 +11,8 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/structure/block_contacts.hpp>
 #include <terrane/algorithms/structure/column.hpp>
-#include <terrane/algorithms/structure/detail/block_contacts.hpp>
 
 namespace terrane::structure::detail {
 

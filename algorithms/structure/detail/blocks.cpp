@@ -77,8 +77,9 @@ void add_blocks(const Mesh& mesh, const Volumes& volumes, Structure& structure) 
         auto& near = blocks[b].neighbours;
         std::sort(near.begin(), near.end());
         near.erase(std::unique(near.begin(), near.end()), near.end());
+        if (b == 0) continue; // the outside has no volume
         blocks[b].volume = volumes.measures[b];
-        if (b > 0) describe(shares[b], blocks[b]);
+        describe(shares[b], blocks[b]);
     }
 }
 
@@ -90,7 +91,7 @@ std::vector<NamedConstant> structure_constants() {
             {"least_resultant", c.least_resultant},
             {"most_listed", static_cast<double>(c.most_listed)},
             {"most_added", static_cast<double>(c.most_added)},
-            {"least_common", region_constants.least_common}};
+            {"least_common", stated_block_constants.least_common}};
 }
 
 } // namespace terrane

@@ -24,11 +24,11 @@ struct BlockNameConstants {
 };
 inline constexpr BlockNameConstants block_name_constants;
 
-struct RegionConstants {
-    /// Least share of the stated borders around a block that must be those of a region. Less: a
-    /// block of several regions may get the name of one of them.
+struct StatedBlockConstants {
+    /// Least share of the stated borders around a block that must be those of a stated block. Less: a
+    /// block of several of them may get the name of one of them.
     double least_common = 0.99;
 };
-inline constexpr RegionConstants region_constants;
+inline constexpr StatedBlockConstants stated_block_constants;
 
 } // namespace terrane::structure::detail

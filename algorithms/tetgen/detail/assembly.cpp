@@ -80,7 +80,7 @@ public:
         for (const auto step :
              {&Assembly::check_indices, &Assembly::check_points, &Assembly::take_vertices,
               &Assembly::take_tetrahedra, &Assembly::take_faces, &Assembly::match_faces,
-              &Assembly::check_volume, &Assembly::number_regions, &Assembly::check_triangles}) {
+              &Assembly::check_volume, &Assembly::number_blocks, &Assembly::check_triangles}) {
             if (stop_.stop_requested()) return stopped();
             if (Status done = (this->*step)(); !done) return done.error();
         }
@@ -304,10 +304,10 @@ private:
         return faces;
     }
 
-    /// Numbers the regions: 0 touches the box, the others follow in the order of their lowest
+    /// Numbers the blocks: 0 touches the box, the others follow in the order of their lowest
     /// tetrahedra, compared by the positions of the vertices, not by TetGen's numbers.
     /// adopt_volume_numbers() later replaces these numbers by those of the volumes.
-    Status number_regions() {
+    Status number_blocks() {
         using Position = std::array<Point3, 4>;
         const std::size_t count = out_.tetrahedra.size();
         std::vector<std::uint32_t> lowest(count, no_index);
@@ -335,10 +335,10 @@ private:
             return std::pair(a != outside, lowest_position[a]) <
                    std::pair(b != outside, lowest_position[b]);
         });
-        std::vector<std::uint32_t> region(count, no_index);
-        for (std::uint32_t r = 0; r < groups.size(); ++r) region[groups[r]] = r;
-        for (const std::uint32_t group : group_of_) out_.region_of.push_back(region[group]);
-        out_.region_count = static_cast<std::uint32_t>(groups.size());
+        std::vector<std::uint32_t> block(count, no_index);
+        for (std::uint32_t r = 0; r < groups.size(); ++r) block[groups[r]] = r;
+        for (const std::uint32_t group : group_of_) out_.block_of.push_back(block[group]);
+        out_.block_count = static_cast<std::uint32_t>(groups.size());
         return Done{};
     }
 
@@ -371,7 +371,7 @@ private:
     TetrahedralMesh out_;
     std::vector<MarkedFace> marked_;      ///< those on the mesh, parallel to out_.faces
     std::vector<std::uint32_t> at_box_;   ///< tetrahedra with a face on the box
-    std::vector<std::uint32_t> group_of_; ///< per tetrahedron: one number for each region
+    std::vector<std::uint32_t> group_of_; ///< per tetrahedron: one number for each block
 };
 
 } // namespace

@@ -17,8 +17,8 @@ namespace {
 static_assert(sizeof(Point3) == sizeof(Coordinates) && std::is_trivially_copyable_v<Point3>);
 static_assert(sizeof(BlockSides) == sizeof(SidesRecord) &&
               std::is_trivially_copyable_v<BlockSides>);
-static_assert(sizeof(RegionBound) == sizeof(RegionRecord) &&
-              std::is_trivially_copyable_v<RegionBound>);
+static_assert(sizeof(BlockBound) == sizeof(BlockRecord) &&
+              std::is_trivially_copyable_v<BlockBound>);
 
 // ---- The request ------------------------------------------------------------------------------
 
@@ -37,7 +37,7 @@ RequestHeader header_of(const TetgenInput& input) {
     header.facets = input.facets.size();
     header.corners = input.facets.values.size();
     header.area_bounds = input.max_areas.size();
-    header.regions = input.regions.size();
+    header.blocks = input.blocks.size();
     header.sides = input.sides.size();
     return header;
 }
@@ -48,7 +48,7 @@ Status send(HelperProcess& helper, const TetgenInput& input) {
          {std::as_bytes(std::span(&header, 1)), std::as_bytes(std::span(input.points)),
           std::as_bytes(std::span(input.facets.offsets)),
           std::as_bytes(std::span(input.facets.values)), std::as_bytes(std::span(input.max_areas)),
-          std::as_bytes(std::span(input.regions)), std::as_bytes(std::span(input.sides))})
+          std::as_bytes(std::span(input.blocks)), std::as_bytes(std::span(input.sides))})
         if (Status sent = helper.send(part); !sent) return sent;
     return Done{};
 }

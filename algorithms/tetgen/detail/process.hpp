@@ -19,15 +19,15 @@
 
 namespace terrane::tetgen::detail {
 
-/// A bound on the tetrahedra of a region that facets enclose.
-struct RegionBound {
-    Point3 place;          ///< inside the region
+/// A bound on the tetrahedra of a block that facets enclose.
+struct BlockBound {
+    Point3 place;          ///< inside the block
     double max_volume = 0; ///< largest volume of a tetrahedron, > 0
 };
 
-/// The regions on both sides of a facet.
+/// The blocks on both sides of a facet.
 struct BlockSides {
-    std::uint32_t front = 0;  ///< region that its front faces; no_region: outside of the domain
+    std::uint32_t front = 0;  ///< block that its front faces; no_block: outside of the domain
     std::uint32_t behind = 0; ///< likewise
 };
 
@@ -42,7 +42,7 @@ struct TetgenInput {
     bool parallel_delaunay = false;   ///< Gmsh's newer algorithm (HXT), which embeds no facet
     std::vector<BlockSides> sides;    ///< per facet; for Gmsh only
     std::optional<double> max_volume; ///< largest volume of any tetrahedron
-    std::vector<RegionBound> regions; ///< bounds of single regions
+    std::vector<BlockBound> blocks;   ///< bounds of single blocks
     std::vector<double> max_areas;    ///< per facet: largest area of a face, or infinite; or empty
     std::optional<double> radius_edge_ratio;
     double time_limit = std::numeric_limits<double>::infinity(); ///< seconds

@@ -5,8 +5,8 @@
 //
 // Request: RequestHeader; points as 3 doubles each; facets + 1 offsets into the corners (uint32);
 // corners (uint32); per facet a bound on the area of its faces, infinite for no bound, or no bounds
-// at all (double); regions as x, y, z and the largest volume of a tetrahedron (double); per facet the
-// regions on both its sides, or none at all (uint32).
+// at all (double); blocks as x, y, z and the largest volume of a tetrahedron (double); per facet the
+// blocks on both its sides, or none at all (uint32).
 //
 // Reply: ReplyHeader. If its status is `done`, there follow: points as 3 doubles each; tetrahedra
 // as 4 corners each (uint32); faces on facets as 3 corners each (uint32); per face 1 + its facet
@@ -50,7 +50,7 @@ struct RequestHeader {
     std::uint64_t facets = 0;
     std::uint64_t corners = 0;
     std::uint64_t area_bounds = 0; ///< 0 or as many as facets
-    std::uint64_t regions = 0;
+    std::uint64_t blocks = 0;
     std::uint64_t sides = 0; ///< 0 or as many as facets
     double max_volume = 0;
     double radius_edge_ratio = 0;
@@ -76,14 +76,14 @@ inline constexpr std::int32_t other_version = 102;
 inline constexpr std::int32_t mesher_failed = 103;
 
 using Coordinates = std::array<double, 3>;
-using RegionRecord = std::array<double, 4>;       ///< x, y, z, largest volume of a tetrahedron
-using SidesRecord = std::array<std::uint32_t, 2>; ///< regions in front of a facet and behind it
+using BlockRecord = std::array<double, 4>;        ///< x, y, z, largest volume of a tetrahedron
+using SidesRecord = std::array<std::uint32_t, 2>; ///< blocks in front of a facet and behind it
 
 /// The side of a facet that is outside of the whole domain.
-inline constexpr std::uint32_t no_region = std::numeric_limits<std::uint32_t>::max();
+inline constexpr std::uint32_t no_block = std::numeric_limits<std::uint32_t>::max();
 
 static_assert(sizeof(RequestHeader) == 80 && sizeof(ReplyHeader) == 40); // no padding
-static_assert(sizeof(Coordinates) == 24 && sizeof(RegionRecord) == 32);
+static_assert(sizeof(Coordinates) == 24 && sizeof(BlockRecord) == 32);
 static_assert(sizeof(int) == sizeof(std::uint32_t) && std::numeric_limits<double>::is_iec559);
 
 } // namespace terrane::tetgen::detail

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/volumes/region_points.hpp>
+#include <terrane/algorithms/volumes/block_points.hpp>
 
 namespace terrane::tetgen::detail {
 namespace {
@@ -109,15 +109,15 @@ Result<Sizes> sizes_of(const Mesh& mesh, const Volumes& volumes, const Tetrahedr
     return sizes;
 }
 
-Result<std::vector<RegionPoint>> points_of_bounded(const Mesh& mesh, const Volumes& volumes,
-                                                   const Box3& box, const Sizes& sizes,
-                                                   const Run& run) {
-    auto inside = region_points(mesh, volumes, run);
+Result<std::vector<BlockPoint>> points_of_bounded(const Mesh& mesh, const Volumes& volumes,
+                                                  const Box3& box, const Sizes& sizes,
+                                                  const Run& run) {
+    auto inside = block_points(mesh, volumes, run);
     if (!inside) return inside.error();
     std::vector<std::optional<Point3>> places(sizes.in_volumes.size());
-    for (const auto& [place, region] : inside.value()) places[region] = place;
+    for (const auto& [place, block] : inside.value()) places[block] = place;
     places[0] = outside_point(mesh, box);
-    std::vector<RegionPoint> points;
+    std::vector<BlockPoint> points;
     for (std::uint32_t v = 0; v < places.size(); ++v) {
         if (!sizes.in_volumes[v].bounded()) continue;
         if (!places[v])

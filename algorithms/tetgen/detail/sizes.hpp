@@ -17,8 +17,8 @@
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/mesh/block_point.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/mesh/region_point.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
@@ -56,8 +56,8 @@ double area_of(double edge_length);
 
 /// Finds a point in each volume that has a bound, including the outside. Errors: unsupported if
 /// none of the points of doubles tried lies in one of them; interrupted.
-Result<std::vector<RegionPoint>> points_of_bounded(const Mesh& mesh, const Volumes& volumes,
-                                                   const Box3& box, const Sizes& sizes,
-                                                   const Run& run);
+Result<std::vector<BlockPoint>> points_of_bounded(const Mesh& mesh, const Volumes& volumes,
+                                                  const Box3& box, const Sizes& sizes,
+                                                  const Run& run);
 
 } // namespace terrane::tetgen::detail

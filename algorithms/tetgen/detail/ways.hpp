@@ -14,7 +14,7 @@ namespace terrane::tetgen::detail {
 struct Way {
     Mesher mesher = Mesher::tetgen;
     bool keep_facets = true, improve = true, sort_points = true, parallel_delaunay = false;
-    bool embed_all = false;   ///< all triangles are embedded in one region; for Gmsh only
+    bool embed_all = false;   ///< all triangles are embedded in one block; for Gmsh only
     bool bound_shapes = true; ///< radius_edge_ratio is asked for
 };
 
@@ -26,7 +26,7 @@ struct Way {
 std::vector<Way> ways_of_tetgen(const TetgenInput& input);
 
 /// Returns the ways of asking Gmsh. Its newer algorithm is faster and better, but knows no facet
-/// with the same region on both sides. With all triangles in one region, and no vertices but those
+/// with the same block on both sides. With all triangles in one block, and no vertices but those
 /// that it needs, the other one recovers what it does not as borders of blocks.
 std::vector<Way> ways_of_gmsh(const Volumes& volumes);
 

@@ -51,8 +51,8 @@ void set_options(const Request& request) {
         setNumber("Mesh.MeshSizeMax", std::cbrt(request.header.max_volume * 6 * std::sqrt(2.0)));
 }
 
-/// Makes one surface of all facets between the same two regions, and a volume of each region.
-/// Facets with the same region on both sides are embedded in it.
+/// Makes one surface of all facets between the same two blocks, and a volume of each block.
+/// Facets with the same block on both sides are embedded in it.
 void set_domain(const Request& request) {
     std::map<SidesRecord, std::vector<std::size_t>> corners_between; // node tags
     for (std::size_t i = 0; i < request.sides.size(); ++i) {
@@ -64,15 +64,15 @@ void set_domain(const Request& request) {
             for (const auto corner : {first, k - 1, k})
                 corners.push_back(std::size_t{request.corners[corner]} + 1);
     }
-    std::map<std::uint32_t, std::vector<int>> around, within; // surfaces per region
+    std::map<std::uint32_t, std::vector<int>> around, within; // surfaces per block
     int surface = 0;
     for (const auto& [sides, corners] : corners_between) {
         gmsh::model::addDiscreteEntity(2, ++surface);
         if (sides[0] == sides[1])
             within[sides[0]].push_back(surface);
         else
-            for (const std::uint32_t region : sides)
-                if (region != no_region) around[region].push_back(surface);
+            for (const std::uint32_t block : sides)
+                if (block != no_block) around[block].push_back(surface);
     }
     std::vector<std::size_t> tags(request.points.size());
     std::iota(tags.begin(), tags.end(), 1);
@@ -82,14 +82,14 @@ void set_domain(const Request& request) {
     for (const auto& [sides, corners] : corners_between)
         gmsh::model::mesh::addElementsByType(++surface, triangle_type, {}, corners);
     // Gmsh meshes no discrete volume, but one of its own kernel that discrete surfaces bound.
-    for (const auto& [region, surfaces] : around) {
-        const int volume = static_cast<int>(region) + 1;
+    for (const auto& [block, surfaces] : around) {
+        const int volume = static_cast<int>(block) + 1;
         gmsh::model::geo::addSurfaceLoop(surfaces, volume);
         gmsh::model::geo::addVolume({volume}, volume);
     }
     gmsh::model::geo::synchronize();
-    for (const auto& [region, surfaces] : within)
-        gmsh::model::mesh::embed(2, surfaces, 3, static_cast<int>(region) + 1);
+    for (const auto& [block, surfaces] : within)
+        gmsh::model::mesh::embed(2, surfaces, 3, static_cast<int>(block) + 1);
 }
 
 /// Reads what Gmsh made. The points of the request come first, in their order.

@@ -75,7 +75,7 @@ struct Request {
     std::vector<Coordinates> points;
     std::vector<std::uint32_t> offsets, corners;
     std::vector<double> area_bounds;
-    std::vector<RegionRecord> regions;
+    std::vector<BlockRecord> blocks;
     std::vector<SidesRecord> sides;
 
     [[nodiscard]] bool has(RequestFlag flag) const { return (header.flags & flag) != 0; }
@@ -85,7 +85,7 @@ inline bool is_sound(const RequestHeader& header) {
     const auto is_bound = [](double x) { return std::isfinite(x) && x >= 0; };
     return (header.flags & ~all_flags) == 0 && header.points <= most_items &&
            header.facets <= most_items && header.corners <= 4 * most_items &&
-           header.regions <= most_items && (header.sides == 0 || header.sides == header.facets) &&
+           header.blocks <= most_items && (header.sides == 0 || header.sides == header.facets) &&
            (header.area_bounds == 0 || header.area_bounds == header.facets) &&
            ((header.flags & max_volume_flag) == 0 || is_bound(header.max_volume)) &&
            ((header.flags & radius_edge_ratio_flag) == 0 || is_bound(header.radius_edge_ratio));
@@ -108,7 +108,7 @@ inline bool is_sound(const Request& request) {
            std::all_of(request.points.begin(), request.points.end(), finite) &&
            std::all_of(request.area_bounds.begin(), request.area_bounds.end(),
                        [](double area) { return area >= 0; }) && // infinity: no bound
-           std::all_of(request.regions.begin(), request.regions.end(), finite);
+           std::all_of(request.blocks.begin(), request.blocks.end(), finite);
 }
 
 inline std::int32_t read_request(Request& request) {
@@ -119,7 +119,7 @@ inline std::int32_t read_request(Request& request) {
                       read_array(request.offsets, header.facets + 1) &&
                       read_array(request.corners, header.corners) &&
                       read_array(request.area_bounds, header.area_bounds) &&
-                      read_array(request.regions, header.regions) &&
+                      read_array(request.blocks, header.blocks) &&
                       read_array(request.sides, header.sides);
     return read && is_sound(request) ? done : bad_request;
 }

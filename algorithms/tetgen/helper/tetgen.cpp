@@ -52,12 +52,12 @@ void set_area_bounds(const Request& request, tetgenio& io) {
 }
 
 /// Sets the bounds on volumes: TetGen takes a point, an attribute (not used here) and the bound.
-void set_region_bounds(const Request& request, tetgenio& io) {
-    if (request.regions.empty()) return;
-    io.numberofregions = static_cast<int>(request.regions.size());
-    io.regionlist = new double[5 * request.regions.size()];
+void set_block_bounds(const Request& request, tetgenio& io) {
+    if (request.blocks.empty()) return;
+    io.numberofregions = static_cast<int>(request.blocks.size());
+    io.regionlist = new double[5 * request.blocks.size()];
     double* next = io.regionlist;
-    for (const auto& [x, y, z, max_volume] : request.regions)
+    for (const auto& [x, y, z, max_volume] : request.blocks)
         for (const double number : {x, y, z, 0.0, max_volume}) *next++ = number;
 }
 
@@ -78,7 +78,7 @@ void fill(const Request& request, tetgenio& io) {
         io.facetmarkerlist[i] = static_cast<int>(i) + 1; // 0 means "no marker" to TetGen
     }
     set_area_bounds(request, io);
-    set_region_bounds(request, io);
+    set_block_bounds(request, io);
 }
 
 /// Chooses TetGen's switches. p: facets are given. z: count from 0. J: keep all points. M: merge
@@ -92,9 +92,9 @@ tetgenbehavior behavior_for(const Request& request) {
     if (request.has(keep_facets_flag)) switches += "Y";
     if (!request.has(improve_flag)) switches += "O0";
     if (!request.has(sort_points_flag)) switches += "b0";
-    if (max_volume || ratio || !request.regions.empty() || !request.area_bounds.empty())
+    if (max_volume || ratio || !request.blocks.empty() || !request.area_bounds.empty())
         switches += "q";
-    if (!request.regions.empty()) switches += "Aa"; // without A 1.5.0 ignores bounds of regions
+    if (!request.blocks.empty()) switches += "Aa"; // without A 1.5.0 ignores bounds of blocks
     if (max_volume) switches += "a1";
     behavior.parse_commandline(switches.data());
     if (max_volume) behavior.maxvolume = request.header.max_volume; // text would round it

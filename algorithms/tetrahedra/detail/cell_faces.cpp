@@ -177,7 +177,7 @@ private:
             judge_on_triangle(listed->face, sides);
         const bool inner = cells.size() == 2 && !crowded;
         if (inner) cuts_.pass(listed == nullptr ? none : listed->face, key, sides);
-        if (!inner || region(sides[0]) != region(sides[1])) add_volume(cells);
+        if (!inner || block(sides[0]) != block(sides[1])) add_volume(cells);
     }
 
     void judge_inner(const Triangle& key, const Sides& sides) {
@@ -185,11 +185,11 @@ private:
             subject_.findings.add(Defect::open_face,
                                   "{} has one tetrahedron, {}, and is on no surface", at_face(key),
                                   sides[0] == none ? sides[1] : sides[0]);
-        else if (region(sides[0]) != region(sides[1]))
+        else if (block(sides[0]) != block(sides[1]))
             subject_.findings.add(Defect::wrong_block,
                                   "tetrahedra {} and {} are in blocks {} and {}, and no surface "
                                   "is between them",
-                                  sides[0], sides[1], region(sides[0]), region(sides[1]));
+                                  sides[0], sides[1], block(sides[0]), block(sides[1]));
     }
 
     void judge_on_box(const Triangle& key, std::uint32_t face, const Sides& sides) {
@@ -199,9 +199,9 @@ private:
             subject_.findings.add(Defect::stray_face,
                                   "face {} is not on a side of the box, or not wound outward",
                                   face);
-        else if (region(sides[1]) != 0)
+        else if (block(sides[1]) != 0)
             subject_.findings.add(Defect::wrong_block, "tetrahedron {} is on the box, in block {}",
-                                  sides[1], region(sides[1]));
+                                  sides[1], block(sides[1]));
         const auto box = static_cast<std::uint32_t>(subject_.mesh.surfaces.size());
         check_surfaces(face, std::span(&box, 1));
     }
@@ -217,12 +217,12 @@ private:
                     subject_.findings.add(Defect::open_face,
                                           "no tetrahedron is {} face {}, on triangle {}",
                                           names[side], face, triangle);
-            } else if (region(sides[side]) != expected[side] ||
+            } else if (block(sides[side]) != expected[side] ||
                        (!subject_.whole && expected[side] == 0)) {
                 subject_.findings.add(Defect::wrong_block,
                                       "tetrahedron {} is in block {}, {} triangle {} where block "
                                       "{} is",
-                                      sides[side], region(sides[side]), names[side], triangle,
+                                      sides[side], block(sides[side]), names[side], triangle,
                                       expected[side]);
             }
         }
@@ -242,9 +242,9 @@ private:
         const Exact part = six_volumes(v[a], v[b], v[c]);
         for (const CellFace& cell : cells)
             if (cell.even)
-                six_volumes_[region(cell.cell)] -= part;
+                six_volumes_[block(cell.cell)] -= part;
             else
-                six_volumes_[region(cell.cell)] += part;
+                six_volumes_[block(cell.cell)] += part;
     }
 
     void check_box() {
@@ -263,8 +263,8 @@ private:
         for (const auto& faces : faces_at_) all.push_back(faces);
         return all;
     }
-    [[nodiscard]] std::uint32_t region(std::uint32_t tetrahedron) const {
-        return subject_.made.region_of[tetrahedron];
+    [[nodiscard]] std::uint32_t block(std::uint32_t tetrahedron) const {
+        return subject_.made.block_of[tetrahedron];
     }
 
     const Subject& subject_;

@@ -42,9 +42,8 @@ private:
 
     void check_lengths() {
         const auto& [made, mesh, volumes, whole, findings] = subject_;
-        if (made.region_of.size() != made.tetrahedra.size())
-            unusable("{} tetrahedra have {} regions", made.tetrahedra.size(),
-                     made.region_of.size());
+        if (made.block_of.size() != made.tetrahedra.size())
+            unusable("{} tetrahedra have {} blocks", made.tetrahedra.size(), made.block_of.size());
         if (made.face_triangle.size() != made.faces.size() ||
             made.surfaces_of.size() != made.faces.size())
             unusable("{} faces have {} triangles and {} lists of surfaces", made.faces.size(),
@@ -68,8 +67,7 @@ private:
         check_indices(made.tetrahedra, made.vertices.size(), "tetrahedron");
         check_indices(made.faces, made.vertices.size(), "face");
         check_indices(made.twins, made.faces.size(), "twins");
-        check_numbers(made.region_of, subject_.volumes.measures.size(),
-                      "the region of tetrahedron");
+        check_numbers(made.block_of, subject_.volumes.measures.size(), "the block of tetrahedron");
         for (std::size_t f = 0; f < made.faces.size(); ++f)
             if (made.face_triangle[f] != none &&
                 made.face_triangle[f] >= subject_.mesh.triangles.size())
@@ -98,9 +96,9 @@ void check_attributes(const Subject& subject) {
         findings.add(TetrahedraDefect::wrong_attributes,
                      "the {} surfaces of the tetrahedra are not the {} of the mesh{}",
                      made.surfaces.size(), mesh.surfaces.size(), whole ? " and the box" : "");
-    if (made.region_count != volumes.measures.size())
-        findings.add(TetrahedraDefect::wrong_attributes, "{} regions, but {} volumes",
-                     made.region_count, volumes.measures.size());
+    if (made.block_count != volumes.measures.size())
+        findings.add(TetrahedraDefect::wrong_attributes, "{} blocks, but {} volumes",
+                     made.block_count, volumes.measures.size());
 }
 
 } // namespace terrane::tetrahedra::detail

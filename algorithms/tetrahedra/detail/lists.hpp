@@ -9,7 +9,7 @@ namespace terrane::tetrahedra::detail {
 /// and all triangles have an area; reports unusable_lists. Returns whether the rest can be checked.
 bool check_lists(const Subject& subject);
 
-/// Checks the surfaces and the number of regions; reports wrong_attributes.
+/// Checks the surfaces and the number of blocks; reports wrong_attributes.
 void check_attributes(const Subject& subject);
 
 } // namespace terrane::tetrahedra::detail

@@ -265,7 +265,7 @@ void check_numbers(const FilledClaim& filled, std::size_t surfaces, double accep
     }
     if (vertices != filled.vertices.size() || triangles != filled.triangles.size())
         found.push_back({rule, {}, "the filled surfaces do not have all vertices and triangles"});
-    if (filled.invented.size() != filled.triangles.size() ||
+    if (filled.interpolated.size() != filled.triangles.size() ||
         filled.deviation.size() != filled.vertices.size())
         found.push_back({rule, {}, "there are other numbers of holes or expected errors"});
 }
@@ -276,7 +276,7 @@ void check_expected_errors(const Surface& given, const FilledClaim& filled, std:
     constexpr Rule rule = Rule::R28_filled_indices;
     const FilledPart& part = filled.surfaces[number];
     for (std::size_t t = 0; t < part.triangles; ++t)
-        if ((filled.invented[first[1] + t] == 0) != (t < given.triangles.size()))
+        if ((filled.interpolated[first[1] + t] == 0) != (t < given.triangles.size()))
             found.push_back({rule,
                              {static_cast<std::uint32_t>(first[1] + t)},
                              "triangle " + text(first[1] + t) +

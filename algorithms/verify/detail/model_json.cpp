@@ -230,8 +230,10 @@ private:
         line.expect("{\"name\":").string(); // names are not compared
         if (line.begins(",\"unit\":")) line.expect(",\"unit\":").string();
         if (line.begins(",\"age\":")) line.expect(",\"age\":").number();
-        line.expect(",\"volume\":").number();
-        line.expect(",\"volume_written\":").number(b == 0 ? outside_volume() : lists_.volumes[b]);
+        if (b > 0) {
+            line.expect(",\"volume\":").number();
+            line.expect(",\"volume_written\":").number(lists_.volumes[b]);
+        }
         line.expect(",\"area\":").near(around.area.value, around.area.slack);
         for (const std::string_view place : {"above", "below", "beside"})
             line.expect(",\"" + std::string(place) + "\":").array();
@@ -320,7 +322,6 @@ private:
                 : kind + start + std::to_string(number) + "." + lists_.part_format;
         return ",\"file\":\"" + name + "\"";
     }
-    [[nodiscard]] double outside_volume() const { return lists_.volumes[0]; }
 
     LineScanner in_;
     const ModelLists& lists_;

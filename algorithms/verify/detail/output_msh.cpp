@@ -130,7 +130,7 @@ private:
     /// Reads the name of a block, of which only the number is compared.
     void read_block_name(std::uint32_t block) {
         const std::string start = "3 " + text(block_tag(block)) + " \"" +
-                                  (block == 0 ? "outside" : "region " + text(block));
+                                  (block == 0 ? "outside" : "block " + text(block));
         const std::string_view line = in_.next();
         const std::string_view rest =
             line.starts_with(start) ? line.substr(start.size()) : std::string_view();

@@ -13,7 +13,8 @@ void expect_expected_errors(VtkScanner& in, const FilledClaim& filled) {
     std::vector<double> means;
     for (const auto& [a, b, c] : filled.triangles)
         means.push_back((filled.deviation[a] + filled.deviation[b] + filled.deviation[c]) / 3);
-    in.array("invented", std::vector<std::int32_t>(filled.invented.begin(), filled.invented.end()));
+    in.array("interpolated",
+             std::vector<std::int32_t>(filled.interpolated.begin(), filled.interpolated.end()));
     in.array("deviation", means);
 }
 

@@ -46,8 +46,8 @@ Cells twin_cells(const TetrahedraClaim& claim) {
 
 void read_cell_data(VtkScanner& in, const ExpectedTetrahedra& expected) {
     const TetrahedraClaim& claim = expected.claim;
-    in.expect("<CellData Scalars=\"region\">");
-    in.array("region", block_cells(claim));
+    in.expect("<CellData Scalars=\"block\">");
+    in.array("block", block_cells(claim));
     in.array("surface", behind(claim, -1, first_of(expected.surfaces_of)));
     in.array("surface_count", behind(claim, 0, counts_of(expected.surfaces_of)));
     in.array("parent", parent_cells(claim));

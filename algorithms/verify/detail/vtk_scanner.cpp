@@ -113,7 +113,7 @@ void VtkScanner::field_data(std::span<const SurfaceInfo> surfaces,
 /// Passes the names of blocks, if there are any, which are not compared, and the end of the data.
 void VtkScanner::end_field_data() {
     const std::string start = has_strings_ ? "<Array type=\"String\" Name=\"block_name\" "
-                                           : "<DataArray type=\"UInt8\" Name=\"region_name\" ";
+                                           : "<DataArray type=\"UInt8\" Name=\"block_name\" ";
     std::string_view line = in_.next();
     if (line.starts_with(start)) {
         const std::string_view end = has_strings_ ? "</Array>" : "</DataArray>";

@@ -7,7 +7,7 @@
 
 #include <terrane/algorithms/mesh/median_tree.hpp>
 
-namespace terrane::volumes::detail {
+namespace terrane::volumes {
 namespace {
 
 constexpr std::uint32_t most_triangles_in_leaf = 8;
@@ -47,4 +47,4 @@ void TriangleBoxes::build_tree() {
     build_median_tree(order_, nodes_, most_triangles_in_leaf, middle, node);
 }
 
-} // namespace terrane::volumes::detail
+} // namespace terrane::volumes

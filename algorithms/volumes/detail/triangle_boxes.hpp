@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <terrane/algorithms/volumes/detail/complex.hpp>
+#include <terrane/algorithms/volumes/complex.hpp>
 
-namespace terrane::volumes::detail {
+namespace terrane::volumes {
 
 /// A line along an axis in doubles, as far as boxes need it.
 struct AxisLine {
@@ -76,4 +76,4 @@ private:
     mutable std::size_t visits_ = 0;
 };
 
-} // namespace terrane::volumes::detail
+} // namespace terrane::volumes

@@ -35,7 +35,7 @@ def main():
     right = drawing.axes(figure, 122, "tetrahedra, cut open")
     middles = cells.vertices[cells.tetrahedra].mean(axis=1)
     for number, colour in zip(range(1, len(cells.block_names)), drawing.COLOURS):
-        kept = cells.tetrahedra[(cells.region_of == number) & (middles[:, 1] > 900)]
+        kept = cells.tetrahedra[(cells.block_of == number) & (middles[:, 1] > 900)]
         faces = np.sort(kept[:, [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]].reshape(-1, 3), axis=1)
         outside, counts = np.unique(faces, axis=0, return_counts=True)
         drawing.add(right, cells.vertices, outside[counts == 1], colour)

@@ -19,7 +19,7 @@ CONDUCTIVITY = {"below base": 1e-6, "below top, above base": 1e-9, "above top": 
 
 
 def layer_of(block):
-    """The layer of "region 2: below top, above base, west of fault"."""
+    """The layer of "block 2: below top, above base, west of fault"."""
     return block.split(": ", 1)[1].rsplit(", ", 1)[0]
 
 
@@ -32,7 +32,7 @@ gmsh.finalize()
 
 conductivity = fem.Function(fem.FunctionSpace(mesh, ("DG", 0)))
 for name, tag in number.items():
-    if name.startswith("region"):
+    if name.startswith("block"):
         conductivity.x.array[cell_tags.find(tag)] = CONDUCTIVITY[layer_of(name)]
 
 space = fem.FunctionSpace(mesh, ("Lagrange", 1))
@@ -53,7 +53,7 @@ at_top = ufl.Measure("ds", mesh, subdomain_data=facet_tags)(number["boundary top
 flux = -conductivity * ufl.dot(ufl.grad(head), ufl.FacetNormal(mesh))
 print("discharge", fem.assemble_scalar(fem.form(flux * at_top)))
 for name, tag in sorted(number.items()):
-    if name.startswith("region"):
+    if name.startswith("block"):
         cells = ufl.Measure("dx", mesh, subdomain_data=cell_tags)(tag)
         one = fem.Constant(mesh, PETSc.ScalarType(1))
         print("volume", fem.assemble_scalar(fem.form(one * cells)), name)

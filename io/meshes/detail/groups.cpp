@@ -59,8 +59,8 @@ std::size_t side_tag(std::size_t surface, CutSide side, std::size_t surface_coun
     return surface_count + 2 * surface + (side == CutSide::front ? 1 : 2);
 }
 
-std::size_t region_tag(std::size_t region, std::size_t surface_count) {
-    return 3 * surface_count + region + 1;
+std::size_t block_tag(std::size_t block, std::size_t surface_count) {
+    return 3 * surface_count + block + 1;
 }
 
 std::vector<std::size_t> group_tags(const std::vector<SurfaceGroup>& groups,
@@ -102,11 +102,11 @@ std::vector<SideName> side_names(const std::vector<SurfaceGroup>& groups,
     return sides;
 }
 
-std::string region_name(std::size_t region, std::span<const std::string> names) {
-    if (region == 0) return "outside";
-    auto name = fmt::format("region {}", region);
-    if (region >= names.size() || names[region].empty()) return name;
-    auto said = one_line(names[region]);
+std::string block_name(std::size_t block, std::span<const std::string> names) {
+    if (block == 0) return "outside";
+    auto name = fmt::format("block {}", block);
+    if (block >= names.size() || names[block].empty()) return name;
+    auto said = one_line(names[block]);
     std::replace(said.begin(), said.end(), '"', '\'');
     return name + ": " + said;
 }

@@ -45,10 +45,10 @@ struct SurfaceGroup {
 /// for its back.
 [[nodiscard]] std::size_t side_tag(std::size_t surface, CutSide side, std::size_t surface_count);
 
-/// Returns the tag of a region, for formats in which surfaces and regions are groups, too. No
+/// Returns the tag of a block, for formats in which surfaces and blocks are groups, too. No
 /// surface, and no side of one, has the same: programs that take the mesh for a simulation, such as
 /// GetDP, know a group by its number alone.
-[[nodiscard]] std::size_t region_tag(std::size_t region, std::size_t surface_count);
+[[nodiscard]] std::size_t block_tag(std::size_t block, std::size_t surface_count);
 
 /// Returns the tag of the group of each triangle.
 [[nodiscard]] std::vector<std::size_t> group_tags(const std::vector<SurfaceGroup>& groups,
@@ -69,8 +69,8 @@ struct SideName {
 [[nodiscard]] std::vector<SideName> side_names(const std::vector<SurfaceGroup>& groups,
                                                const std::vector<SurfaceInfo>& surfaces);
 
-/// Returns "outside" for region 0, otherwise "region 1", ..., followed by its name if it has one:
-/// "region 1: top/base".
-[[nodiscard]] std::string region_name(std::size_t region, std::span<const std::string> names = {});
+/// Returns "outside" for block 0, otherwise "block 1", ..., followed by its name if it has one:
+/// "block 1: top/base".
+[[nodiscard]] std::string block_name(std::size_t block, std::span<const std::string> names = {});
 
 } // namespace terrane::detail

@@ -44,21 +44,21 @@ void add_side_sets(const TetrahedralMesh& mesh, NamedParts& parts) {
     }
 }
 
-void add_blocks(const TetrahedralMesh& mesh, std::span<const std::string> region_names,
+void add_blocks(const TetrahedralMesh& mesh, std::span<const std::string> block_names,
                 NamedParts& parts) {
     std::vector<ElementBlock> blocks;
     for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-        const auto region = mesh.region_of[t];
-        if (region >= blocks.size()) blocks.resize(region + 1);
-        blocks[region].tetrahedra.push_back(t);
+        const auto block = mesh.block_of[t];
+        if (block >= blocks.size()) blocks.resize(block + 1);
+        blocks[block].tetrahedra.push_back(t);
     }
-    const std::size_t after = std::max<std::size_t>(mesh.region_count, blocks.size());
+    const std::size_t after = std::max<std::size_t>(mesh.block_count, blocks.size());
     for (std::uint32_t r = 0; r < blocks.size(); ++r) {
         if (blocks[r].tetrahedra.empty()) continue;
-        blocks[r].region = r;
+        blocks[r].block = r;
         blocks[r].number = r == 0 ? after : r;
-        const bool named = r < region_names.size() && !region_names[r].empty();
-        blocks[r].name = parts.names.add(named ? region_names[r] : region_name(r), "region");
+        const bool named = r < block_names.size() && !block_names[r].empty();
+        blocks[r].name = parts.names.add(named ? block_names[r] : block_name(r), "block");
         parts.blocks.push_back(std::move(blocks[r]));
     }
 }
@@ -99,12 +99,12 @@ std::vector<Edge> border_edges(const TetrahedralMesh& mesh) {
 
 } // namespace
 
-NamedParts named_parts(const TetrahedralMesh& mesh, std::span<const std::string> region_names) {
+NamedParts named_parts(const TetrahedralMesh& mesh, std::span<const std::string> block_names) {
     NamedParts parts;
     for (const SurfaceInfo& surface : mesh.surfaces)
         parts.surfaces.push_back(parts.names.add(surface.name, "surface"));
     add_side_sets(mesh, parts);
-    add_blocks(mesh, region_names, parts);
+    add_blocks(mesh, block_names, parts);
     return parts;
 }
 

@@ -18,10 +18,10 @@
 
 namespace terrane::detail {
 
-/// The tetrahedra of a region.
+/// The tetrahedra of a block.
 struct ElementBlock {
-    std::uint32_t region = 0;
-    std::size_t number = 0; ///< that of the region; the outside, 0, has the number after all others
+    std::uint32_t block = 0;
+    std::size_t number = 0; ///< that of the block; the outside, 0, has the number after all others
     std::string name;       ///< one word, after the block; see WordNames
     std::vector<std::uint32_t> tetrahedra; ///< ascending
 };
@@ -40,12 +40,12 @@ struct SideSet {
 struct NamedParts {
     std::vector<std::string> surfaces; ///< one word per surface
     std::vector<SideSet> side_sets;    ///< by surface, front first; none is empty
-    std::vector<ElementBlock> blocks;  ///< by region; none is empty
+    std::vector<ElementBlock> blocks;  ///< by block; none is empty
     WordNames names;                   ///< to name further parts
 };
 
 [[nodiscard]] NamedParts named_parts(const TetrahedralMesh& mesh,
-                                     std::span<const std::string> region_names);
+                                     std::span<const std::string> block_names);
 
 /// Returns the nodes of a face: its corners, and with `nodes` those on its edges.
 [[nodiscard]] std::vector<std::uint32_t> nodes_of_face(const TetrahedralMesh& mesh,

@@ -143,17 +143,17 @@ TEST_CASE("validation: each list of tetrahedra has its length, and names what is
     sound.surfaces = {{"top", Role::horizon}};
     sound.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     sound.tetrahedra = {{0, 1, 2, 3}};
-    sound.region_of = {1};
+    sound.block_of = {1};
     sound.faces = {{0, 1, 2}, {0, 1, 3}};
     sound.face_triangle = {0, UINT32_MAX};
     for (int f = 0; f < 2; ++f) sound.surfaces_of.push_back(std::vector<std::uint32_t>{0});
     sound.twins = {{0, 1}};
-    sound.region_count = 2;
+    sound.block_count = 2;
     REQUIRE(validate_indices(sound).ok());
     const std::vector<void (*)(TetrahedralMesh&)> flaws{
         [](TetrahedralMesh& m) { m.tetrahedra[0][3] = 4; },
-        [](TetrahedralMesh& m) { m.region_of.clear(); },
-        [](TetrahedralMesh& m) { m.region_of[0] = 2; },
+        [](TetrahedralMesh& m) { m.block_of.clear(); },
+        [](TetrahedralMesh& m) { m.block_of[0] = 2; },
         [](TetrahedralMesh& m) { m.faces[1][0] = 4; },
         [](TetrahedralMesh& m) { m.face_triangle.pop_back(); },
         [](TetrahedralMesh& m) { m.surfaces_of.values[1] = 1; },

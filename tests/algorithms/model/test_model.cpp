@@ -72,7 +72,7 @@ TEST_CASE("model: each mesh is proven once, and searched for volumes once", "[vo
     const auto filled = fill_blocks(*model, {});
     REQUIRE(filled);
     CHECK(filled->report.violations.empty());
-    CHECK(filled->tetrahedra.region_count == 8);
+    CHECK(filled->tetrahedra.block_count == 8);
 #endif
     CHECK(WorkCount::meshes_of("prove conforming") == 2);
     CHECK(WorkCount::meshes_of("find volumes") == 2);

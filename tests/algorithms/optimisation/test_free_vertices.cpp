@@ -21,7 +21,7 @@ using namespace test_support;
 namespace {
 
 /// Cubes in which a vertex of the wall z = 2 is near an opposite edge of a triangle there, so that
-/// tetrahedra are flat that no change inside of the regions makes better.
+/// tetrahedra are flat that no change inside of the blocks makes better.
 TetrahedralMesh crowded_wall(std::uint32_t& moved) {
     Cubes cubes(4, 2, 0, 1);
     moved = 2 * 25 + 2 * 5 + 2;
@@ -71,9 +71,9 @@ TEST_CASE("optimise: a free vertex on a wall moves where tetrahedra are bad, as 
     const auto moved = moved_corners(before, free);
     REQUIRE(moved.size() == 1);
     CHECK(moved.count(crowded) == 1);
-    CHECK(moved.at(crowded).z == 2); // the wall stays a plane, so both regions keep their volumes
-    for (const std::uint32_t region : {1U, 2U})
-        CHECK(six_volumes(free, region) == six_volumes(before, region));
+    CHECK(moved.at(crowded).z == 2); // the wall stays a plane, so both blocks keep their volumes
+    for (const std::uint32_t block : {1U, 2U})
+        CHECK(six_volumes(free, block) == six_volumes(before, block));
     for (const Cell& c : free.tetrahedra) {
         const auto p = corners_of(free, c);
         CHECK(orient3d(p[0], p[1], p[2], p[3]) == Sign::Positive);
@@ -172,20 +172,20 @@ TEST_CASE("optimise: a vertex of a surface moves where tetrahedra are needles, i
     REQUIRE(moved.size() == 1);
     CHECK(moved.at(near).z == 2);
     CHECK(moved.at(near).x > 2.5); // no farther than it must
-    for (const std::uint32_t region : {1U, 2U})
-        CHECK(six_volumes(wide, region) == six_volumes(before, region));
+    for (const std::uint32_t block : {1U, 2U})
+        CHECK(six_volumes(wide, block) == six_volumes(before, block));
 }
 
 TEST_CASE("optimise: vertices of surfaces move, whatever becomes of tetrahedra outside",
           "[optimisation]") {
     std::uint32_t crowded = 0;
     TetrahedralMesh before = crowded_wall(crowded);
-    for (std::uint32_t& region : before.region_of) region = region == 2 ? 0 : 1;
+    for (std::uint32_t& block : before.block_of) block = block == 2 ? 0 : 1;
     const auto inner = [](const TetrahedralMesh& mesh) {
         TetrahedralMesh kept = mesh;
         kept.tetrahedra.clear();
         for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-            if (mesh.region_of[t] != 0) kept.tetrahedra.push_back(mesh.tetrahedra[t]);
+            if (mesh.block_of[t] != 0) kept.tetrahedra.push_back(mesh.tetrahedra[t]);
         return kept;
     };
     // Above the wall, a vertex is so near to it that no place for the crowded one is good there.

@@ -22,7 +22,7 @@ using namespace test_support;
 
 namespace {
 
-/// Checks what is promised of the tetrahedra, but for their shapes. `beside_wall`: the regions beside
+/// Checks what is promised of the tetrahedra, but for their shapes. `beside_wall`: the blocks beside
 /// faces that are not on the box.
 void check_still_fills(const TetrahedralMesh& before, const TetrahedralMesh& after,
                        const std::vector<std::uint32_t>& beside_wall = {1, 2}) {
@@ -30,8 +30,8 @@ void check_still_fills(const TetrahedralMesh& before, const TetrahedralMesh& aft
         const auto p = corners_of(after, c);
         CHECK(orient3d(p[0], p[1], p[2], p[3]) == Sign::Positive);
     }
-    for (const std::uint32_t region : {1U, 2U})
-        CHECK(six_volumes(after, region) == six_volumes(before, region));
+    for (const std::uint32_t block : {1U, 2U})
+        CHECK(six_volumes(after, block) == six_volumes(before, block));
     REQUIRE(after.faces.size() == before.faces.size());
     std::map<std::array<std::uint32_t, 3>, std::vector<std::uint32_t>> beside;
     for (std::size_t t = 0; t < after.tetrahedra.size(); ++t)
@@ -39,7 +39,7 @@ void check_still_fills(const TetrahedralMesh& before, const TetrahedralMesh& aft
             const Cell& c = after.tetrahedra[t];
             std::array<std::uint32_t, 3> face{c[(k + 1) % 4], c[(k + 2) % 4], c[(k + 3) % 4]};
             std::sort(face.begin(), face.end());
-            beside[face].push_back(after.region_of[t]);
+            beside[face].push_back(after.block_of[t]);
         }
     for (std::size_t f = 0; f < after.faces.size(); ++f) {
         for (std::size_t k = 0; k < 3; ++k)
@@ -48,17 +48,17 @@ void check_still_fills(const TetrahedralMesh& before, const TetrahedralMesh& aft
         std::sort(face.begin(), face.end());
         const auto at = beside.find(face);
         REQUIRE(at != beside.end());
-        auto regions = at->second;
-        std::sort(regions.begin(), regions.end());
+        auto blocks = at->second;
+        std::sort(blocks.begin(), blocks.end());
         if (after.face_triangle[f] == UINT32_MAX)
-            CHECK(regions.size() == 1);
+            CHECK(blocks.size() == 1);
         else
-            CHECK(regions == beside_wall);
+            CHECK(blocks == beside_wall);
         beside.erase(at);
     }
-    for (const auto& [face, regions] : beside) {
-        REQUIRE(regions.size() == 2);
-        CHECK(regions[0] == regions[1]);
+    for (const auto& [face, blocks] : beside) {
+        REQUIRE(blocks.size() == 2);
+        CHECK(blocks[0] == blocks[1]);
     }
 }
 
@@ -99,10 +99,10 @@ TEST_CASE("optimise: the mean ratio of needles with good angles is raised", "[op
     }
 }
 
-TEST_CASE("optimise: a sheet that ends inside of a region stays", "[optimisation]") {
+TEST_CASE("optimise: a sheet that ends inside of a block stays", "[optimisation]") {
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
         TetrahedralMesh before = Cubes(6, 3, 0.45, seed).mesh;
-        for (std::uint32_t& region : before.region_of) region = 1;
+        for (std::uint32_t& block : before.block_of) block = 1;
         std::vector<Triangle> faces;
         std::vector<std::uint32_t> triangles;
         before.surfaces_of = {};
@@ -151,7 +151,7 @@ TEST_CASE("optimise: any number of threads gives the same result", "[optimisatio
         REQUIRE(again);
         CHECK(several.vertices == one.vertices);
         CHECK(several.tetrahedra == one.tetrahedra);
-        CHECK(several.region_of == one.region_of);
+        CHECK(several.block_of == one.block_of);
         CHECK(again->moved == report->moved);
     }
 }
@@ -178,7 +178,7 @@ TEST_CASE("optimise: a limit of effort ends the work early, with a sound result"
         CHECK(report->effort < all->effort / 2);
         CHECK(one.vertices == two.vertices);
         CHECK(one.tetrahedra == two.tetrahedra);
-        CHECK(one.region_of == two.region_of);
+        CHECK(one.block_of == two.block_of);
         check_still_fills(before, one);
         CHECK(sines(one)[0] >= least_sine);
         CHECK(qualities(one) >= was); // from the worst one on
@@ -230,13 +230,13 @@ TEST_CASE("optimise: places are those that the mesh can have, among denormals as
 
 TEST_CASE("optimise: the outside stays as it is on request", "[optimisation]") {
     TetrahedralMesh before = Cubes(4, 2, 0.45, 9).mesh;
-    for (std::uint32_t& region : before.region_of) region = region == 2 ? 0 : 1;
+    for (std::uint32_t& block : before.block_of) block = block == 2 ? 0 : 1;
     TetrahedralMesh after = before;
     REQUIRE(optimise(after, {.outside = false}));
     const auto outside = [](const TetrahedralMesh& mesh) {
         std::multiset<std::vector<std::array<double, 3>>> all;
         for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-            if (mesh.region_of[t] != 0) continue;
+            if (mesh.block_of[t] != 0) continue;
             std::vector<std::array<double, 3>> corners;
             for (const std::uint32_t v : mesh.tetrahedra[t])
                 corners.push_back({mesh.vertices[v].x, mesh.vertices[v].y, mesh.vertices[v].z});
@@ -269,8 +269,8 @@ TEST_CASE("optimise: an edge with three flat tetrahedra around it goes", "[optim
     for (int k = 0; k < 3; ++k)
         mesh.vertices.push_back({std::cos(2.1 * k) * 4, std::sin(2.1 * k) * 4, 0});
     mesh.tetrahedra = {{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 2}};
-    mesh.region_of = {1, 1, 1};
-    mesh.region_count = 2;
+    mesh.block_of = {1, 1, 1};
+    mesh.block_count = 2;
     for (const Cell& c : mesh.tetrahedra) {
         const auto p = corners_of(mesh, c);
         REQUIRE(orient3d(p[0], p[1], p[2], p[3]) == Sign::Positive);
@@ -299,7 +299,7 @@ TEST_CASE("optimise: on request no tetrahedron is larger than the largest before
                 TetrahedralMesh one;
                 one.vertices = mesh.vertices;
                 one.tetrahedra = {c};
-                one.region_of = {1};
+                one.block_of = {1};
                 most = std::max(most, six_volumes(one, 1).get_d());
             }
             return most;
@@ -332,7 +332,7 @@ TEST_CASE("optimise: refuses options that make no sense, and stops on request", 
     broken.tetrahedra[5][2] = static_cast<std::uint32_t>(broken.vertices.size());
     CHECK(optimise(broken).error().code == ErrorCode::bad_index);
     broken = mesh;
-    broken.region_of.pop_back();
+    broken.block_of.pop_back();
     CHECK(optimise(broken).error().code == ErrorCode::bad_index);
     mesh.twins.push_back({0, 1});
     CHECK(optimise(mesh).error().code == ErrorCode::bad_option);

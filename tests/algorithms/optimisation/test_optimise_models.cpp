@@ -49,7 +49,7 @@ void check_sound(const Filled& f) {
     const TetrahedralMesh& m = f.tetrahedra;
     verifier::Violations found;
     verifier::check_tetrahedra(
-        {true, m.vertices, m.tetrahedra, m.region_of, m.faces, m.face_triangle, m.twins},
+        {true, m.vertices, m.tetrahedra, m.block_of, m.faces, m.face_triangle, m.twins},
         {f.mesh.vertices, f.mesh.triangles, f.volumes.of_sides, volumes}, found);
     for (const auto& violation : found) UNSCOPED_INFO(static_cast<int>(violation.rule));
     CHECK(found.empty());

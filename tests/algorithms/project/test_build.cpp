@@ -74,12 +74,12 @@ TEST_CASE("build: each mesh is proven once, and searched for volumes once", "[vo
     const auto built = build(project, {.surfaces = sectors()});
     REQUIRE(built);
     REQUIRE(built->model);
-    CHECK(built->model->block_count() + 1 == regions);
+    CHECK(built->model->block_count() + 1 == blocks);
     CHECK(built->model->lost == 1);
 #ifdef TERRANE_HAS_TETGEN
     REQUIRE(built->filled);
     CHECK(built->filled->report.violations.empty());
-    CHECK(built->filled->tetrahedra.region_count == regions);
+    CHECK(built->filled->tetrahedra.block_count == blocks);
 #endif
     CHECK(WorkCount::meshes_of("prove conforming") == 2);
     CHECK(WorkCount::meshes_of("find volumes") == 2);

@@ -87,7 +87,7 @@ TEST_CASE("kept results: a second build takes them and is equal to the first", "
     CHECK(second->improved->is_near_back() == first->improved->is_near_back());
     if (!first->filled) return;
     CHECK(second->filled->tetrahedra.tetrahedra == first->filled->tetrahedra.tetrahedra);
-    CHECK(second->filled->tetrahedra.region_of == first->filled->tetrahedra.region_of);
+    CHECK(second->filled->tetrahedra.block_of == first->filled->tetrahedra.block_of);
     CHECK(second->filled->block_names == first->filled->block_names);
 }
 

@@ -74,7 +74,7 @@ std::vector<Surface> sheets_in_nearly_one_plane(unsigned n) {
 /// Checks that no statement of the report contradicts another.
 void check_consistent(const RoundingReport& r) {
     CHECK(r.surface_deviation <= r.max_allowed);
-    CHECK(r.deviation >= r.surface_deviation + r.lost_length);
+    CHECK(r.deviation >= r.surface_deviation + r.vanished_length);
     std::size_t last = 0;
     for (std::size_t k = 0; k < r.moves.size(); ++k)
         if (r.moves[k] > 0) last = k;
@@ -165,7 +165,7 @@ TEST_CASE("movement: the length of a needle that vanished is no move of a surfac
     const auto r = rounded(a);
     REQUIRE(r.report.clean);
     CHECK(r.report.surface_deviation < 1e-14);
-    CHECK(r.report.lost_length > 1);
+    CHECK(r.report.vanished_length > 1);
     check_consistent(r.report);
 }
 

@@ -36,13 +36,13 @@ RoundedMesh without_needle(const std::array<Point3, 3>& needle, double surface_d
     r.report.vanished = rounding::detail::vanished(a, r.mesh->parents_of);
     REQUIRE(r.report.vanished == std::vector<std::uint32_t>{1});
     r.report.surface_deviation = r.report.deviation = surface_deviation;
-    rounding::detail::state_lost_length(a, r, {});
-    CHECK(r.report.deviation >= r.report.surface_deviation + r.report.lost_length);
+    rounding::detail::state_vanished_length(a, r, {});
+    CHECK(r.report.deviation >= r.report.surface_deviation + r.report.vanished_length);
     return r;
 }
 
 double lost(const std::array<Point3, 3>& needle, double surface_deviation) {
-    return without_needle(needle, surface_deviation).report.lost_length;
+    return without_needle(needle, surface_deviation).report.vanished_length;
 }
 
 } // namespace
@@ -87,9 +87,9 @@ TEST_CASE("vanished: a needle over a gap of the mesh is lost there") {
     r.report.vanished = {2};
     const auto lost_of = [&](double surface_deviation) {
         r.report.surface_deviation = surface_deviation;
-        r.report.lost_length = 0;
-        rounding::detail::state_lost_length(a, r, {});
-        return r.report.lost_length;
+        r.report.vanished_length = 0;
+        rounding::detail::state_vanished_length(a, r, {});
+        return r.report.vanished_length;
     };
     CHECK(lost_of(1.24) > 1.25); // the middle of the gap is .75 aside and 1 below
     CHECK(lost_of(1.26) == 0);
@@ -111,8 +111,8 @@ TEST_CASE("vanished: of what was cut out, only what was kept is lost") {
     const auto lost_of = [&](double surface_deviation) {
         RoundedMesh copy = r;
         copy.report.surface_deviation = surface_deviation;
-        rounding::detail::state_lost_length(a, copy, {});
-        return copy.report.lost_length;
+        rounding::detail::state_vanished_length(a, copy, {});
+        return copy.report.vanished_length;
     };
     CHECK(lost_of(2 * high) > 1.7);
     own_state(a).whole = false;
@@ -141,13 +141,13 @@ TEST_CASE(
     REQUIRE(far.report.clean);
     CHECK(far.report.collapsed_triangles == 0);
     CHECK_FALSE(far.report.vanished.empty());
-    CHECK(far.report.lost_length > 2.77); // the triangle reaches so far from what is left
-    CHECK(far.report.lost_length < 4);
+    CHECK(far.report.vanished_length > 2.77); // the triangle reaches so far from what is left
+    CHECK(far.report.vanished_length < 4);
     const auto near =
         rounded(arranged(read_data("regression/020-needle-moved-onto-what-it-missed.obj")));
     REQUIRE(near.report.clean);
     CHECK_FALSE(near.report.vanished.empty());
-    CHECK(near.report.lost_length == 0);
+    CHECK(near.report.vanished_length == 0);
 }
 
 TEST_CASE("vanished: where nothing would be left, there is an error") {

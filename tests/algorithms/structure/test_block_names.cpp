@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/structure/block_names.hpp>
-#include <terrane/algorithms/structure/stated_regions.hpp>
+#include <terrane/algorithms/structure/stated_blocks.hpp>
 
 #include <algorithm>
 #include <set>
@@ -192,30 +192,30 @@ TEST_CASE("columns: what is refused", "[structure][names]") {
     CHECK(unknown.error().sentence == "no surface is called base; did you mean bsae?");
 }
 
-TEST_CASE("stated regions: match by their borders, whole or divided", "[structure][names]") {
+TEST_CASE("stated blocks: match by their borders, whole or divided", "[structure][names]") {
     // The box is one border for each of its six sides: two triangles each.
     const auto side = [](std::uint32_t k) { return StatedBorder{SurfaceId(0), 2 * k, 2}; };
     const StatedBorder layer{SurfaceId(1), 0, 2};
     const auto model = [&](std::vector<Surface> more) {
-        // All sides but the lowest and the highest are around both regions.
-        std::vector<StatedRegion> regions{
+        // All sides but the lowest and the highest are around both blocks.
+        std::vector<StatedBlock> stated{
             {"lower", "Old", {side(0), side(2), side(3), side(4), side(5), layer}},
             {"upper", "New", {side(1), side(2), side(3), side(4), side(5), layer}}};
         std::vector<Surface> surfaces{boundary_box(), horizon_at(3, "top")};
         for (Surface& s : more) surfaces.push_back(std::move(s));
-        return named_model(surfaces, {.regions = regions});
+        return named_model(surfaces, {.stated = stated});
     };
     CHECK(names_by_volume(model({})) == NameList{"lower", "upper"});
     CHECK(units_by_volume(model({})) == NameList{"Old", "New"});
     CHECK(names_by_volume(model({fault_at(3.5, -1, 9, "F1")})) ==
           NameList{"lower, west of F1", "lower, east of F1", "upper, west of F1",
                    "upper, east of F1"});
-    // A block of two regions has the name of neither.
-    std::vector<StatedRegion> regions{{"lower", "", {side(0)}}, {"upper", "", {side(1)}}};
-    CHECK(names_by_volume(named_model({boundary_box()}, {.regions = regions})) ==
+    // A block of two stated ones has the name of neither.
+    std::vector<StatedBlock> stated{{"lower", "", {side(0)}}, {"upper", "", {side(1)}}};
+    CHECK(names_by_volume(named_model({boundary_box()}, {.stated = stated})) ==
           NameList{"inside the boundary"});
     // Borders beyond the triangles of a surface are passed over.
-    regions = {{"lower", "", {{SurfaceId(0), 0, 13}, {SurfaceId(7), 0, 1}}}};
-    CHECK(names_by_volume(named_model({boundary_box()}, {.regions = regions})) ==
+    stated = {{"lower", "", {{SurfaceId(0), 0, 13}, {SurfaceId(7), 0, 1}}}};
+    CHECK(names_by_volume(named_model({boundary_box()}, {.stated = stated})) ==
           NameList{"inside the boundary"});
 }

@@ -135,7 +135,8 @@ void check_laws(const Built& b) {
         if (block > 0) CHECK(own.value().measures[0] >= s.blocks[block].volume);
     }
     CHECK(std::all_of(shared.begin(), shared.end(), [](const auto& t) { return t.second == 2; }));
-    CHECK(sum == Approx(s.blocks[0].volume));
+    CHECK(sum == Approx(b.volumes.measures[0]));
+    CHECK(s.blocks[0].volume == 0);
 }
 
 } // namespace

@@ -35,7 +35,7 @@ TetrahedralMesh by_gmsh(const Mesh& mesh, TetrahedraOptions options = {}) {
     REQUIRE(volumes);
     CHECK(check_tetrahedra(made.value(), mesh, volumes.value()).violations.empty());
     CHECK(made.value().mesher == "Gmsh");
-    CHECK(made.value().region_count == volumes.value().measures.size());
+    CHECK(made.value().block_count == volumes.value().measures.size());
     // The triangles are faces, undivided, and no vertex of the mesh has moved.
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
         CHECK(made.value().face_triangle[t] == t);
@@ -56,12 +56,12 @@ Mesh nested_cubes_and_sheet() {
 } // namespace
 
 TEST_CASE("Gmsh: blocks in blocks, and a sheet that closes nothing", "[tetrahedra][gmsh]") {
-    CHECK(by_gmsh(cube()).region_count == 2);
-    CHECK(by_gmsh(nested_cubes_and_sheet()).region_count == 3);
+    CHECK(by_gmsh(cube()).block_count == 2);
+    CHECK(by_gmsh(nested_cubes_and_sheet()).block_count == 3);
     MeshBuilder sheet;
     sheet.quad(sheet.surface("sheet"), {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
-    CHECK(by_gmsh(sheet.mesh()).region_count == 1);
-    CHECK(by_gmsh(Mesh{}, {.box = unit_box}).region_count == 1);
+    CHECK(by_gmsh(sheet.mesh()).block_count == 1);
+    CHECK(by_gmsh(Mesh{}, {.box = unit_box}).block_count == 1);
 }
 
 TEST_CASE("Gmsh: a real model, twice the same", "[tetrahedra][gmsh]") {
@@ -69,7 +69,7 @@ TEST_CASE("Gmsh: a real model, twice the same", "[tetrahedra][gmsh]") {
     REQUIRE(surfaces);
     const Mesh mesh = rounded(arranged(surfaces.value())).mesh;
     const TetrahedralMesh made = by_gmsh(mesh), again = by_gmsh(mesh);
-    CHECK(made.region_count == 3);
+    CHECK(made.block_count == 3);
     CHECK(made.vertices == again.vertices);
     CHECK(made.tetrahedra == again.tetrahedra);
 }

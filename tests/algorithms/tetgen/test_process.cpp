@@ -210,7 +210,7 @@ TEST_CASE("TetGen's helper: it refuses requests that make no sense", "[tetrahedr
     bad[3].facets.offsets = {0, 2, 24};
     bad[4].max_volume = nan;
     bad[5].max_areas = {1, 2};
-    bad[6].regions.push_back({{0.5, nan, 0.5}, 1});
+    bad[6].blocks.push_back({{0.5, nan, 0.5}, 1});
     for (std::size_t i = 0; i < bad.size(); ++i) {
         INFO(i);
         bad[i].helper = find_tetgen_helper().value();

@@ -65,8 +65,8 @@ Made make(const TetrahedraOptions& options) {
     CHECK(check_tetrahedra(result.value(), layers(), volumes.value()).violations.empty());
     Made made{std::move(result).value(), {}, {}, {}, {}, {}};
     const TetrahedralMesh& m = made.mesh;
-    made.counts.resize(m.region_count);
-    made.largest.resize(m.region_count);
+    made.counts.resize(m.block_count);
+    made.largest.resize(m.block_count);
     made.largest_areas.resize(m.surfaces.size());
     made.faces.resize(m.surfaces.size());
     made.areas.resize(m.surfaces.size());
@@ -76,8 +76,8 @@ Made make(const TetrahedraOptions& options) {
     for (std::size_t t = 0; t < m.tetrahedra.size(); ++t) {
         const auto [a, b, c, d] = m.tetrahedra[t];
         const double volume = std::fabs(dot(from(a, b), cross(from(a, c), from(a, d)))) / 6;
-        ++made.counts[m.region_of[t]];
-        made.largest[m.region_of[t]] = std::max(made.largest[m.region_of[t]], volume);
+        ++made.counts[m.block_of[t]];
+        made.largest[m.block_of[t]] = std::max(made.largest[m.block_of[t]], volume);
     }
     for (std::size_t f = 0; f < m.faces.size(); ++f) {
         const auto [a, b, c] = m.faces[f];

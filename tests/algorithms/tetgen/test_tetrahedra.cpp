@@ -43,25 +43,25 @@ double volume(const TetrahedralMesh& mesh, std::size_t t) {
            6;
 }
 
-std::vector<double> region_volumes(const TetrahedralMesh& mesh) {
-    std::vector<double> volumes(mesh.region_count);
+std::vector<double> block_volumes(const TetrahedralMesh& mesh) {
+    std::vector<double> volumes(mesh.block_count);
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-        volumes[mesh.region_of[t]] += volume(mesh, t);
+        volumes[mesh.block_of[t]] += volume(mesh, t);
     return volumes;
 }
 
-/// Returns the regions on the two sides of a face: those of the tetrahedra that have all its
+/// Returns the blocks on the two sides of a face: those of the tetrahedra that have all its
 /// corners.
-std::vector<std::uint32_t> regions_at(const TetrahedralMesh& mesh, const Triangle& face) {
-    std::vector<std::uint32_t> regions;
+std::vector<std::uint32_t> blocks_at(const TetrahedralMesh& mesh, const Triangle& face) {
+    std::vector<std::uint32_t> blocks;
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
         const auto& corners = mesh.tetrahedra[t];
         if (std::all_of(face.begin(), face.end(), [&](std::uint32_t v) {
                 return std::find(corners.begin(), corners.end(), v) != corners.end();
             }))
-            regions.push_back(mesh.region_of[t]);
+            blocks.push_back(mesh.block_of[t]);
     }
-    return regions;
+    return blocks;
 }
 
 /// Returns the first `count` triangles as points, each rotated so that its least point comes first.
@@ -80,17 +80,17 @@ std::multiset<std::array<Point3, 3>> as_points(const std::vector<Point3>& vertic
 
 } // namespace
 
-TEST_CASE("tetrahedra: a closed cube in a box makes two regions", "[tetrahedra]") {
+TEST_CASE("tetrahedra: a closed cube in a box makes two blocks", "[tetrahedra]") {
     const TetrahedralMesh made = must(cube(), {.box = unit_box});
-    REQUIRE(made.region_count == 2);
-    const std::vector<double> volumes = region_volumes(made);
+    REQUIRE(made.block_count == 2);
+    const std::vector<double> volumes = block_volumes(made);
     CHECK(volumes[0] == Approx(26));
     CHECK(volumes[1] == Approx(1));
     for (std::size_t i = 0; i < made.faces.size(); ++i) {
         const bool box = made.face_triangle[i] == UINT32_MAX;
         CHECK(made.surfaces_of[i].size() == 1);
         CHECK(made.surfaces_of[i][0] == (box ? 1U : 0U));
-        CHECK(regions_at(made, made.faces[i]).size() == (box ? 1U : 2U));
+        CHECK(blocks_at(made, made.faces[i]).size() == (box ? 1U : 2U));
     }
 }
 
@@ -105,19 +105,19 @@ TEST_CASE("tetrahedra: without sizes the faces are the triangles, wound alike", 
     }
 }
 
-TEST_CASE("tetrahedra: a sheet that closes nothing leaves one region", "[tetrahedra]") {
+TEST_CASE("tetrahedra: a sheet that closes nothing leaves one block", "[tetrahedra]") {
     const TetrahedralMesh made = must(rectangle(), {.box = unit_box});
-    CHECK(made.region_count == 1);
-    CHECK(region_volumes(made)[0] == Approx(27));
+    CHECK(made.block_count == 1);
+    CHECK(block_volumes(made)[0] == Approx(27));
 }
 
-TEST_CASE("tetrahedra: nested cubes make three regions, in order of position", "[tetrahedra]") {
+TEST_CASE("tetrahedra: nested cubes make three blocks, in order of position", "[tetrahedra]") {
     MeshBuilder builder;
     builder.block(builder.surface("inner"), {0.25, 0.25, 0.25}, {0.75, 0.75, 0.75});
     builder.block(builder.surface("outer"), {0, 0, 0}, {1, 1, 1});
     const TetrahedralMesh made = must(builder.mesh(), {.box = unit_box});
-    REQUIRE(made.region_count == 3);
-    const std::vector<double> volumes = region_volumes(made);
+    REQUIRE(made.block_count == 3);
+    const std::vector<double> volumes = block_volumes(made);
     CHECK(volumes[0] == Approx(26));
     CHECK(volumes[1] == Approx(0.875));
     CHECK(volumes[2] == Approx(0.125));
@@ -130,8 +130,8 @@ TEST_CASE("tetrahedra: a sheet across a block halves it", "[tetrahedra]") {
     builder.walls(block, {0, 0, 0.25}, {1, 1, 1});
     builder.quad(block, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1});
     const TetrahedralMesh made = must(builder.mesh(), {.box = unit_box});
-    REQUIRE(made.region_count == 3);
-    const std::vector<double> volumes = region_volumes(made);
+    REQUIRE(made.block_count == 3);
+    const std::vector<double> volumes = block_volumes(made);
     CHECK(volumes[0] == Approx(26));
     CHECK(volumes[1] == Approx(0.25));
     CHECK(volumes[2] == Approx(0.75));
@@ -144,21 +144,21 @@ TEST_CASE("tetrahedra: a fault that ends inside a block has that block on both s
     const std::uint32_t fault = builder.surface("fault");
     builder.quad(fault, {0.5, 0.25, 0.25}, {0.5, 0.75, 0.25}, {0.5, 0.75, 0.75}, {0.5, 0.25, 0.75});
     const TetrahedralMesh made = must(builder.mesh(), {.box = unit_box});
-    CHECK(made.region_count == 2);
+    CHECK(made.block_count == 2);
     std::size_t on_fault = 0;
     for (std::size_t i = 0; i < made.faces.size(); ++i) {
         if (made.surfaces_of[i][0] != fault) continue;
         ++on_fault;
-        CHECK(regions_at(made, made.faces[i]) == std::vector<std::uint32_t>{1, 1});
+        CHECK(blocks_at(made, made.faces[i]) == std::vector<std::uint32_t>{1, 1});
     }
     CHECK(on_fault == 2);
 }
 
 TEST_CASE("tetrahedra: the box alone", "[tetrahedra]") {
     const TetrahedralMesh made = must(Mesh{}, {.box = unit_box});
-    CHECK(made.region_count == 1);
+    CHECK(made.block_count == 1);
     CHECK(made.vertices.size() == 8);
-    CHECK(region_volumes(made)[0] == Approx(27));
+    CHECK(block_volumes(made)[0] == Approx(27));
     CHECK(must_fail(Mesh{}, {}).code == ErrorCode::nothing_to_do);
 }
 
@@ -182,13 +182,13 @@ TEST_CASE("tetrahedra: lengths, volumes and shapes are honoured", "[tetrahedra]"
     CHECK(by_ratio.tetrahedra.size() > coarse);
     CHECK(by_ratio.faces.size() > must(cube(), {.box = unit_box}).faces.size());
     for (const TetrahedralMesh* made : {&by_volume, &by_length}) {
-        REQUIRE(made->region_count == 2);
-        CHECK(region_volumes(*made)[0] == Approx(26));
-        CHECK(region_volumes(*made)[1] == Approx(1));
+        REQUIRE(made->block_count == 2);
+        CHECK(block_volumes(*made)[0] == Approx(26));
+        CHECK(block_volumes(*made)[1] == Approx(1));
     }
     const TetrahedralMesh sheet = must(uneven_sheet(4), {.edge_length = 0.1});
     CHECK(sheet.faces.size() > 200);
-    CHECK(sheet.region_count == 1);
+    CHECK(sheet.block_count == 1);
 }
 
 TEST_CASE("tetrahedra: the same input gives the same result", "[tetrahedra]") {
@@ -197,7 +197,7 @@ TEST_CASE("tetrahedra: the same input gives the same result", "[tetrahedra]") {
         const TetrahedralMesh again = must(uneven_sheet(6), {.edge_length = length});
         CHECK(first.vertices == again.vertices);
         CHECK(first.tetrahedra == again.tetrahedra);
-        CHECK(first.region_of == again.region_of);
+        CHECK(first.block_of == again.block_of);
         CHECK(first.faces == again.faces);
     }
 }
@@ -316,18 +316,18 @@ TEST_CASE("tetrahedra: a margin lost in rounding is as wide as it can be told ap
 TEST_CASE("tetrahedra: real models, arranged and rounded", "[tetrahedra][once]") {
     struct Model {
         std::vector<std::string> files;
-        std::uint32_t regions;
+        std::uint32_t blocks;
     };
     // The second one makes TetGen lose a face when it improves shapes.
     const Model models[] = {{{"ringmesh/modelA1.ml"}, 5},
                             {{"arch-platform/mnt.ts", "arch-platform/faults.ts"}, 5}};
-    for (const auto& [files, regions] : models) {
+    for (const auto& [files, blocks] : models) {
         std::vector<Surface> surfaces;
         for (const std::string& file : files) {
             const auto read = read_data(file);
             surfaces.insert(surfaces.end(), read.begin(), read.end());
         }
-        CHECK(must(mesh_of(surfaces), {.optimise = {}}).region_count == regions);
+        CHECK(must(mesh_of(surfaces), {.optimise = {}}).block_count == blocks);
     }
 }
 

@@ -58,7 +58,7 @@ void tear_edge(Filled& f, bool in_three) {
 }
 
 void exchange_blocks(Filled& f, std::uint32_t a, std::uint32_t b) {
-    for (std::uint32_t& r : f.tetrahedra.region_of) r = r == a ? b : r == b ? a : r;
+    for (std::uint32_t& r : f.tetrahedra.block_of) r = r == a ? b : r == b ? a : r;
 }
 
 } // namespace
@@ -81,8 +81,8 @@ std::vector<Damage> damage_to_faces() {
          [](Filled& f) { ++f.tetrahedra.surfaces_of.values[0]; }},
         {"a surface with another name", Defect::wrong_attributes,
          [](Filled& f) { f.tetrahedra.surfaces[0].name += "'"; }},
-        {"a wrong number of regions", Defect::wrong_attributes,
-         [](Filled& f) { ++f.tetrahedra.region_count; }},
+        {"a wrong number of blocks", Defect::wrong_attributes,
+         [](Filled& f) { ++f.tetrahedra.block_count; }},
         {"a triangle without faces", Defect::uncovered_triangle,
          [](Filled& f) {
              const auto of = f.tetrahedra.face_triangle;
@@ -130,8 +130,8 @@ std::vector<Damage> damage_to_blocks() {
     return {
         {"the block of one tetrahedron changed", Defect::wrong_block,
          [](Filled& f) {
-             auto& region = f.tetrahedra.region_of;
-             *std::find(region.begin(), region.end(), 1U) = 0;
+             auto& block = f.tetrahedra.block_of;
+             *std::find(block.begin(), block.end(), 1U) = 0;
          }},
         {"a block exchanged with the outside", Defect::wrong_block,
          [](Filled& f) { exchange_blocks(f, 0, 1); }},
@@ -144,9 +144,9 @@ std::vector<Damage> damage_to_blocks() {
          [](Filled& f) {
              for (auto& sides : f.volumes.of_sides) sides = {0, 0};
          }},
-        {"a region that is none", Defect::unusable_lists,
+        {"a block that is none", Defect::unusable_lists,
          [](Filled& f) {
-             f.tetrahedra.region_of[0] = static_cast<std::uint32_t>(f.volumes.measures.size());
+             f.tetrahedra.block_of[0] = static_cast<std::uint32_t>(f.volumes.measures.size());
          }},
         {"a face that names no triangle", Defect::unusable_lists,
          [](Filled& f) {

@@ -146,8 +146,8 @@ std::vector<Damage> damage_to_other_nodes() {
          }},
         {"a node doubled for a whole block", Defect::open_face,
          [](Filled& f) {
-             const auto region = f.tetrahedra.region_of;
-             copy_node(f, f.on_faces.front(), [&](std::uint32_t t) { return region[t] == 1; });
+             const auto block = f.tetrahedra.block_of;
+             copy_node(f, f.on_faces.front(), [&](std::uint32_t t) { return block[t] == 1; });
          }},
         {"a copy that is larger by 2^-30", Defect::missing_vertex,
          [](Filled& f) { move_all(f, [](const Point3& p) { return sum(p, p, 0x1p-30); }); }},

@@ -14,22 +14,22 @@ void remove(Filled& f, const Which& which) {
     for (std::uint32_t t = 0; t < m.tetrahedra.size(); ++t) {
         if (which(t)) continue;
         m.tetrahedra[kept] = m.tetrahedra[t];
-        m.region_of[kept++] = m.region_of[t];
+        m.block_of[kept++] = m.block_of[t];
     }
     m.tetrahedra.resize(kept);
-    m.region_of.resize(kept);
+    m.block_of.resize(kept);
 }
 
-void add(Filled& f, const std::array<std::uint32_t, 4>& corners, std::uint32_t region) {
+void add(Filled& f, const std::array<std::uint32_t, 4>& corners, std::uint32_t block) {
     f.tetrahedra.tetrahedra.push_back(corners);
-    f.tetrahedra.region_of.push_back(region);
+    f.tetrahedra.block_of.push_back(block);
 }
 
 /// The first tetrahedron in a block without a corner on the box.
 std::uint32_t inner(const Filled& f) {
-    const auto& region = f.tetrahedra.region_of;
-    for (std::uint32_t t = 0; t < region.size(); ++t)
-        if (region[t] != 0) return t;
+    const auto& block = f.tetrahedra.block_of;
+    for (std::uint32_t t = 0; t < block.size(); ++t)
+        if (block[t] != 0) return t;
     FAIL("no block");
     return 0;
 }
@@ -43,7 +43,7 @@ void cover_twice(Filled& f) {
     for (std::size_t t = 0, count = m.tetrahedra.size(); t < count; ++t) {
         auto corners = m.tetrahedra[t];
         for (std::uint32_t& v : corners) v += nodes;
-        add(f, corners, m.region_of[t]);
+        add(f, corners, m.block_of[t]);
     }
     for (std::size_t i = 0, count = m.faces.size(); i < count; ++i) {
         Triangle face = m.faces[i];
@@ -67,9 +67,9 @@ void add_mirrored_pair(Filled& f) {
         p.x += 1e-3 * (m.vertices[corners[0]].x - p.x) + 1e-9;
         m.vertices.push_back(p);
     }
-    add(f, fresh, m.region_of[t]);
+    add(f, fresh, m.block_of[t]);
     std::swap(fresh[0], fresh[1]);
-    add(f, fresh, m.region_of[t]);
+    add(f, fresh, m.block_of[t]);
 }
 
 /// Moves a node far away; all tetrahedra are positive afterwards, each face has two, and some
@@ -96,15 +96,15 @@ std::vector<Damage> damage_to_single_tetrahedra() {
          [](Filled& f) { remove(f, [at = inner(f)](std::uint32_t t) { return t == at; }); }},
         {"a tetrahedron of the outside removed", Defect::open_face,
          [](Filled& f) {
-             const auto region = f.tetrahedra.region_of;
-             const auto at = std::find(region.begin(), region.end(), 0U) - region.begin();
+             const auto block = f.tetrahedra.block_of;
+             const auto at = std::find(block.begin(), block.end(), 0U) - block.begin();
              remove(f, [&](std::uint32_t t) { return t == at; });
          },
          true},
         {"a tetrahedron twice", Defect::crowded_face,
          [](Filled& f) {
              const std::uint32_t t = inner(f);
-             add(f, std::array(f.tetrahedra.tetrahedra[t]), f.tetrahedra.region_of[t]);
+             add(f, std::array(f.tetrahedra.tetrahedra[t]), f.tetrahedra.block_of[t]);
          }},
         {"a tetrahedron flipped", Defect::no_volume,
          [](Filled& f) {
@@ -147,8 +147,8 @@ std::vector<Damage> damage_to_many_tetrahedra() {
          }},
         {"all tetrahedra of a block gone", Defect::wrong_volume,
          [](Filled& f) {
-             const auto region = f.tetrahedra.region_of;
-             remove(f, [&](std::uint32_t t) { return region[t] == 1; });
+             const auto block = f.tetrahedra.block_of;
+             remove(f, [&](std::uint32_t t) { return block[t] == 1; });
          }},
         {"no tetrahedra at all", Defect::stray_face,
          [](Filled& f) { remove(f, [](std::uint32_t) { return true; }); }},

@@ -27,6 +27,8 @@ std::size_t check_and_count_equal(const Filled& f) {
     const auto report = check_tetrahedra(f.tetrahedra, f.mesh, f.volumes);
     CHECK(text_of(report.violations) == "");
     REQUIRE(report.volumes.size() == f.volumes.measures.size());
+    CHECK(report.volumes[0].block == report.volumes[0].tetrahedra); // the outside
+    CHECK(report.volumes[0].equal);
     std::size_t equal = 0;
     for (std::size_t v = 1; v < report.volumes.size(); ++v) {
         CHECK(report.volumes[v].block == f.volumes.measures[v]);
@@ -43,7 +45,7 @@ const std::vector<Surface> faulted{box({0, 0, 0}, {8, 8, 8}, "box"), level(3, -1
 
 } // namespace
 
-TEST_CASE("tetrahedra: regions are the blocks, with their numbers and exact volumes",
+TEST_CASE("tetrahedra: their blocks are those of the mesh, with numbers and exact volumes",
           "[tetrahedra]") {
     CHECK(check_and_count_equal(fill({cube(0, 4), cube(1, 2), box({2.5, 2, 2}, {3, 3, 3})})) == 3);
     CHECK(check_and_count_equal(fill({cube(0, 2), cube(1, 3)})) == 3);
@@ -62,7 +64,7 @@ TEST_CASE("tetrahedra: with added vertices volumes stay within the bound", "[tet
     CHECK(f.tetrahedra.tetrahedra.size() > 500);
     check_and_count_equal(f);
     const auto report = check_tetrahedra(f.tetrahedra, f.mesh, f.volumes);
-    for (const RegionVolume& v : report.volumes) CHECK(v.bound < 1e-10);
+    for (const BlockVolume& v : report.volumes) CHECK(v.bound < 1e-10);
 }
 
 TEST_CASE("tetrahedra: random models, two methods agree", "[tetrahedra]") {
@@ -135,5 +137,5 @@ TEST_CASE("adopt_volume_numbers: disagreement is an error with a place", "[tetra
     none.of_sides.assign(good.mesh.triangles.size(), {0, 0});
     CHECK_FALSE(adopt_volume_numbers(none, tetrahedra));
     CHECK(adopt_volume_numbers(good.volumes, tetrahedra));
-    CHECK(tetrahedra.region_of == good.tetrahedra.region_of);
+    CHECK(tetrahedra.block_of == good.tetrahedra.block_of);
 }

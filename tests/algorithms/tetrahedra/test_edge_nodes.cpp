@@ -34,12 +34,12 @@ TetrahedralMesh cut_through_an_edge() {
     mesh.vertices = {{0, 0, 0},  {0, 0, 1},  {1, 0, 0}, {0, 1, 0},
                      {-1, 0, 0}, {0, -1, 0}, {1, 0, 0}, {-1, 0, 0}};
     mesh.tetrahedra = {{0, 2, 3, 1}, {0, 3, 4, 1}, {0, 7, 5, 1}, {0, 5, 6, 1}};
-    mesh.region_of = {1, 1, 1, 1};
+    mesh.block_of = {1, 1, 1, 1};
     mesh.faces = {{0, 2, 1}, {0, 4, 1}, {0, 6, 1}, {0, 7, 1}};
     mesh.face_triangle = {0, 1, 0, 1};
     for (int f = 0; f < 4; ++f) mesh.surfaces_of.push_back(std::vector<std::uint32_t>{0});
     mesh.twins = {{0, 2}, {1, 3}};
-    mesh.region_count = 2;
+    mesh.block_count = 2;
     return mesh;
 }
 

@@ -112,8 +112,8 @@ private:
 
 void check_places(const TetrahedralMesh& before, const TetrahedralMesh& after) {
     REQUIRE(after.tetrahedra.size() == before.tetrahedra.size());
-    CHECK(after.region_of == before.region_of);
-    CHECK(after.region_count == before.region_count);
+    CHECK(after.block_of == before.block_of);
+    CHECK(after.block_count == before.block_count);
     CHECK(std::equal(before.vertices.begin(), before.vertices.end(), after.vertices.begin()));
     bool same = true;
     for (std::size_t t = 0; t < after.tetrahedra.size(); ++t)
@@ -245,10 +245,10 @@ TEST_CASE("split nodes: where faults cross, each sector has its node", "[split_n
 TEST_CASE("split nodes: of all surfaces, each block stands alone", "[split_nodes]") {
     const auto before = filled({cube(0, 4), cube(1, 2), level(3, -1, -1, 5, 5)});
     const auto after = check_split(before, {0, 1, 2});
-    std::map<std::uint32_t, std::uint32_t> region_of;
+    std::map<std::uint32_t, std::uint32_t> block_of;
     for (std::size_t t = 0; t < after.tetrahedra.size(); ++t)
         for (const std::uint32_t v : after.tetrahedra[t])
-            CHECK(region_of.try_emplace(v, after.region_of[t]).first->second == after.region_of[t]);
+            CHECK(block_of.try_emplace(v, after.block_of[t]).first->second == after.block_of[t]);
 }
 
 TEST_CASE("split nodes: random models hold for the oracle", "[split_nodes]") {
@@ -295,7 +295,7 @@ TEST_CASE("split nodes: without the outside, the blocks are left as they were", 
     std::vector<std::array<Point3, 4>> wanted, found;
     std::set<Point3> used;
     for (std::size_t t = 0; t < before.tetrahedra.size(); ++t) {
-        if (before.region_of[t] == 0) continue;
+        if (before.block_of[t] == 0) continue;
         auto& corners = wanted.emplace_back();
         for (unsigned k = 0; k < 4; ++k) {
             corners[k] = before.vertices[before.tetrahedra[t][k]];
@@ -307,8 +307,8 @@ TEST_CASE("split nodes: without the outside, the blocks are left as they were", 
             corner = inner.vertices[tetrahedron[k++]];
     CHECK(found == wanted);
     CHECK(inner.vertices.size() == used.size());
-    CHECK(std::count(inner.region_of.begin(), inner.region_of.end(), 0U) == 0);
-    CHECK(inner.region_count == before.region_count);
+    CHECK(std::count(inner.block_of.begin(), inner.block_of.end(), 0U) == 0);
+    CHECK(inner.block_count == before.block_count);
     // Each face belongs to a tetrahedron, and the border of the blocks consists of faces.
     std::map<Key, int> times;
     for (const auto& corners : inner.tetrahedra)

@@ -41,10 +41,9 @@ TEST_CASE("without_outside: the blocks are left, and nothing else", "[tetrahedra
     REQUIRE(whole.value().surfaces.back().name == "box");
     const TetrahedralMesh blocks = without_outside(whole.value());
     CHECK(six_volumes(blocks) == 6 * 64);
-    CHECK(std::find(blocks.region_of.begin(), blocks.region_of.end(), 0U) ==
-          blocks.region_of.end());
-    CHECK(blocks.region_of.size() == blocks.tetrahedra.size());
-    CHECK(blocks.region_count == whole.value().region_count);
+    CHECK(std::find(blocks.block_of.begin(), blocks.block_of.end(), 0U) == blocks.block_of.end());
+    CHECK(blocks.block_of.size() == blocks.tetrahedra.size());
+    CHECK(blocks.block_count == whole.value().block_count);
     CHECK(blocks.surfaces.size() == 3);
     CHECK(blocks.surfaces_of.size() == blocks.faces.size());
     CHECK(blocks.face_triangle.size() == blocks.faces.size());

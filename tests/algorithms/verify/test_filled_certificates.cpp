@@ -58,13 +58,14 @@ Subject filled_subject(const std::vector<File>& files, const std::vector<std::st
     REQUIRE(work);
     std::vector<Surface> surfaces;
     std::vector<FilledRecord> filled;
-    std::vector<std::int32_t> invented;
+    std::vector<std::int32_t> interpolated;
     std::vector<double> means;
     for (const HoledSurface& surface : work->surfaces) {
         surfaces.push_back(surface.filled);
         filled.push_back({&surface.filled, surface.given_vertices, surface.given_triangles,
-                          surface.invented, surface.deviation});
-        invented.insert(invented.end(), surface.invented.begin(), surface.invented.end());
+                          surface.interpolated, surface.deviation});
+        interpolated.insert(interpolated.end(), surface.interpolated.begin(),
+                            surface.interpolated.end());
         const auto& error = surface.deviation;
         for (const auto& [a, b, c] : surface.filled.triangles)
             means.push_back((error[a] + error[b] + error[c]) / 3);
@@ -75,7 +76,7 @@ Subject filled_subject(const std::vector<File>& files, const std::vector<std::st
     std::vector<OutputRecord> outputs;
     for (const std::string& format : formats) {
         WriteOptions written;
-        const std::vector<CellArray> cells{{"invented", invented}, {"deviation", means}};
+        const std::vector<CellArray> cells{{"interpolated", interpolated}, {"deviation", means}};
         if (format == "vtp") written.cells = cells;
         auto text = format_mesh(mesh, format_named(format).value(), written);
         REQUIRE(text);

@@ -20,7 +20,7 @@ using namespace test_support;
 namespace {
 
 TetrahedraClaim claim_of(const TetrahedralMesh& m, bool box) {
-    return {box, m.vertices, m.tetrahedra, m.region_of, m.faces, m.face_triangle, m.twins};
+    return {box, m.vertices, m.tetrahedra, m.block_of, m.faces, m.face_triangle, m.twins};
 }
 
 /// What the verifier knows of a mesh when it judges tetrahedra.

@@ -274,7 +274,7 @@ TEST_CASE("volumes: random planes through a box make as many blocks as Euler's f
     CHECK(sum == mpq_class(std::ldexp(1.0, 63)));
 }
 
-TEST_CASE("volumes: real models have the regions that they state", "[volumes]") {
+TEST_CASE("volumes: real models have the blocks that they state", "[volumes]") {
     for (const std::string name : {"modelA1", "modelA2", "split_cube"}) {
         INFO(name);
         const auto model = read_model(test_data() + "/ringmesh/" + name + ".ml");

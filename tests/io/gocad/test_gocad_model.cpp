@@ -172,7 +172,7 @@ TEST_CASE("GOCAD model: layers, names that would be misread, and blocks read as 
     const GocadModel read = read_again(model_text(model));
     REQUIRE(read.layers.size() == 3);
     for (const ModelLayer& layer : read.layers) CHECK(layer.regions.size() == 2);
-    const auto stated = stated_regions_of(read);
+    const auto stated = stated_blocks_of(read);
     REQUIRE(stated.size() == 6);
     const Model again = built_model(read.surfaces, {{}, stated});
     std::map<std::string, std::pair<std::string, double>> before, after;
@@ -188,7 +188,7 @@ TEST_CASE("GOCAD model: a real model has the same blocks when it is read again",
     const Model model = built_model(read_data("ringmesh/modelA1.ml"));
     const GocadModel read = read_again(model_text(model));
     check_same_surfaces(model.mesh, read.surfaces);
-    const Model again = built_model(read.surfaces, {{}, stated_regions_of(read)});
+    const Model again = built_model(read.surfaces, {{}, stated_blocks_of(read)});
     REQUIRE(again.structure.blocks.size() == model.structure.blocks.size());
     std::map<std::string, double> before, after;
     for (std::size_t b = 1; b < model.structure.blocks.size(); ++b) {

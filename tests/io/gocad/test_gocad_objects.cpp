@@ -61,17 +61,17 @@ TEST_CASE("GOCAD models: the regions that are stated", "[io][gocad]") {
             box_tsurf,
         "a.ml", "a");
     REQUIRE(message_of(result) == "no error");
-    const auto regions = stated_regions_of(result.value());
+    const auto regions = stated_blocks_of(result.value());
     REQUIRE(regions.size() == 2);
     CHECK(regions[0].name == "in side");
     CHECK(regions[0].layer == "one");
     CHECK(regions[0].borders == std::vector<StatedBorder>{{SurfaceId(0), 0, 1}}); // TFACE 2 dangles
     CHECK(regions[1].layer == "two");
     CHECK(regions[1].borders == std::vector<StatedBorder>{{SurfaceId(0), 1, 2}});
-    CHECK(read_stated_regions(data / "ringmesh" / "modelA2.ml").size() == 12);
-    CHECK(read_stated_regions("/there/is/no/file.ml").empty());
-    std::vector<StatedRegion> all;
-    append_regions(regions, 3, all);
+    CHECK(read_stated_blocks(data / "ringmesh" / "modelA2.ml").size() == 12);
+    CHECK(read_stated_blocks("/there/is/no/file.ml").empty());
+    std::vector<StatedBlock> all;
+    append_stated_blocks(regions, 3, all);
     CHECK(all[1].borders == std::vector<StatedBorder>{{SurfaceId(3), 1, 2}});
 }
 

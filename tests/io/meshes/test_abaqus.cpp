@@ -17,10 +17,10 @@ TEST_CASE("Abaqus: surfaces are element sets", "[io][abaqus]") {
                          "*ELSET, ELSET=TOP_RESERVOIR_2\n4\n"));
 }
 
-TEST_CASE("Abaqus: regions are element sets, surfaces node sets and sides", "[io][abaqus]") {
+TEST_CASE("Abaqus: blocks are element sets, surfaces node sets and sides", "[io][abaqus]") {
     const auto text = to_abaqus(two_tetrahedra());
     CHECK(text.ends_with("** outside\n*ELEMENT, TYPE=C3D4, ELSET=OUTSIDE\n1, 1, 2, 3, 4\n"
-                         "** region 2\n*ELEMENT, TYPE=C3D4, ELSET=REGION_2\n2, 1, 3, 2, 5\n"
+                         "** block 2\n*ELEMENT, TYPE=C3D4, ELSET=BLOCK_2\n2, 1, 3, 2, 5\n"
                          "*NSET, NSET=FAULT____CO_\n1, 2, 3\n"
                          "*SURFACE, TYPE=ELEMENT, NAME=FAULT____CO__FRONT\n1, S1\n"
                          "*SURFACE, TYPE=ELEMENT, NAME=FAULT____CO__BACK\n2, S1\n"
@@ -36,14 +36,13 @@ TEST_CASE("Abaqus: element sets are called after blocks, where those have names"
     const std::vector<std::string> names{"outside", "", "Outside"};
     const auto text = to_abaqus(mesh, names);
     CHECK(text.find("** outside\n*ELEMENT, TYPE=C3D4, ELSET=OUTSIDE\n1, ") != text.npos);
-    CHECK(text.find("** region 2: Outside\n*ELEMENT, TYPE=C3D4, ELSET=OUTSIDE_2\n2, ") !=
-          text.npos);
-    mesh.region_of = {1, 2};
+    CHECK(text.find("** block 2: Outside\n*ELEMENT, TYPE=C3D4, ELSET=OUTSIDE_2\n2, ") != text.npos);
+    mesh.block_of = {1, 2};
     const std::vector<std::string> blocks{"outside", "top/base|box", "top/base|box 2\nx"};
     const auto of_blocks = to_abaqus(mesh, blocks);
-    CHECK(of_blocks.find("** region 1: top/base|box\n*ELEMENT, TYPE=C3D4, ELSET=TOP_BASE_BOX\n") !=
+    CHECK(of_blocks.find("** block 1: top/base|box\n*ELEMENT, TYPE=C3D4, ELSET=TOP_BASE_BOX\n") !=
           text.npos);
-    CHECK(of_blocks.find("** region 2: top/base|box 2 x\n"
+    CHECK(of_blocks.find("** block 2: top/base|box 2 x\n"
                          "*ELEMENT, TYPE=C3D4, ELSET=TOP_BASE_BOX_2_X\n") != text.npos);
 }
 

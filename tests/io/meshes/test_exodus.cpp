@@ -49,12 +49,12 @@ TEST_CASE("Exodus: names that are longer than 32 characters are complete", "[io]
     auto mesh = two_tetrahedra();
     const std::string name(70, 'n'), block(90, 'b');
     mesh.surfaces[0].name = name;
-    const std::vector<std::string> regions{"outside", "", block};
-    const auto text = to_exodus(mesh, regions).value();
+    const std::vector<std::string> blocks{"outside", "", block};
+    const auto text = to_exodus(mesh, blocks).value();
     CHECK(text.starts_with("CDF\2"));
     CHECK(text.find(name + "_front") != text.npos);
     CHECK(text.find(block) != text.npos);
-    CHECK(text.find("region_") == text.npos);
+    CHECK(text.find("block_") == text.npos);
     CHECK(text.find("_pairs_") == text.npos);
     CHECK(to_exodus(cut_tetrahedra()).value().find("base_pairs_back") != text.npos);
 }

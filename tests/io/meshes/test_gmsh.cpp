@@ -23,17 +23,17 @@ TEST_CASE("MSH: a triangle of several surfaces is in an entity of its own", "[io
                           "2 2 2 1\n3 6 5 1\n2 3 2 1\n4 1 1 6\n$EndElements\n");
 }
 
-TEST_CASE("MSH: tetrahedra by region, then faces", "[io][gmsh]") {
+TEST_CASE("MSH: tetrahedra by block, then faces", "[io][gmsh]") {
     const auto text = to_msh(two_tetrahedra());
     CHECK(text.find("$PhysicalNames\n5\n2 1 \"fault & <co>\"\n2 2 \"base\"\n2 3 \"box\"\n"
-                    "3 10 \"outside\"\n3 12 \"region 2\"\n$EndPhysicalNames\n") != text.npos);
+                    "3 10 \"outside\"\n3 12 \"block 2\"\n$EndPhysicalNames\n") != text.npos);
     CHECK(text.find("$Elements\n4 4 1 4\n3 1 4 1\n1 1 2 3 4\n3 3 4 1\n2 1 3 2 5\n"
                     "2 4 2 1\n3 1 2 3\n2 3 2 1\n4 1 2 4\n$EndElements\n") != text.npos);
 }
 
-TEST_CASE("MSH: regions are called after the blocks, where those have names", "[io][gmsh]") {
+TEST_CASE("MSH: blocks have their names", "[io][gmsh]") {
     const std::vector<std::string> names{"ignored", "", "top/\"base\"|fault"};
-    const std::string section = "3 10 \"outside\"\n3 12 \"region 2: top/'base'|fault\"\n$EndPhys";
+    const std::string section = "3 10 \"outside\"\n3 12 \"block 2: top/'base'|fault\"\n$EndPhys";
     CHECK(to_msh(two_tetrahedra(), names).find(section) != std::string::npos);
     CHECK(to_msh22(two_tetrahedra(), names).find(section) != std::string::npos);
     const std::vector<std::string> too_few{"ignored"};

@@ -17,7 +17,7 @@ TEST_CASE("MEDIT: references tell surfaces, also where there are several", "[io]
     CHECK(text.ends_with("\nTriangles\n4\n1 2 3 1\n2 5 3 4\n6 5 1 2\n1 1 6 3\n\nEnd\n"));
 }
 
-TEST_CASE("MEDIT: the reference of a tetrahedron is its region", "[io][medit]") {
+TEST_CASE("MEDIT: the reference of a tetrahedron is its block", "[io][medit]") {
     CHECK(to_medit(two_tetrahedra())
               .ends_with("\nTriangles\n2\n1 2 3 4\n1 2 4 3\n\n"
                          "Tetrahedra\n2\n1 2 3 4 0\n1 3 2 5 2\n\nEnd\n"));

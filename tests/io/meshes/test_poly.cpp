@@ -11,7 +11,7 @@
 #include "support/files.hpp"
 #include "support/rounded.hpp"
 #include "support/solids.hpp"
-#include <terrane/algorithms/volumes/region_points.hpp>
+#include <terrane/algorithms/volumes/block_points.hpp>
 #include <terrane/io/files.hpp>
 
 #include "support/samples.hpp"
@@ -82,12 +82,12 @@ TEST_CASE("TetGen: .poly and .smesh read back by its own reader", "[io][poly]") 
     TemporaryFolder folder;
     auto mesh = awkward_mesh();
     mesh.surfaces[0].name = "top # reservoir"; // in a comment, which TetGen must skip
-    const std::vector<RegionPoint> regions{{{0.1, -2, 3e-300}, BlockId(7)},
-                                           {{1.0 / 3, 5, 6}, BlockId(8)}};
+    const std::vector<BlockPoint> points{{{0.1, -2, 3e-300}, BlockId(7)},
+                                         {{1.0 / 3, 5, 6}, BlockId(8)}};
     for (const std::string extension : {"poly", "smesh"}) {
         INFO(extension);
         REQUIRE(message_of(write_mesh(mesh, folder / ("a_" + extension + "." + extension),
-                                      {.regions = regions})) == "no error");
+                                      {.block_points = points})) == "no error");
         tetgenio io;
         load(io, folder / ("a_" + extension));
         check_points(io, mesh);
@@ -96,24 +96,24 @@ TEST_CASE("TetGen: .poly and .smesh read back by its own reader", "[io][poly]") 
         REQUIRE(io.numberofregions == 2);
         for (std::size_t r = 0; r < 2; ++r) {
             const double* line = io.regionlist + 5 * r;
-            CHECK(same_bits({line[0], line[1], line[2]}, regions[r].place));
-            CHECK(line[3] == regions[r].region);
+            CHECK(same_bits({line[0], line[1], line[2]}, points[r].place));
+            CHECK(line[3] == points[r].block);
         }
     }
 }
 
-TEST_CASE("TetGen: it fills the blocks from their region points", "[io][poly]") {
+TEST_CASE("TetGen: it fills the blocks from points inside them", "[io][poly]") {
     TemporaryFolder folder;
     const Mesh mesh = faulted();
     const auto volumes = find_volumes(mesh);
     REQUIRE(volumes);
     REQUIRE(volumes.value().block_count() == 4);
-    const auto points = region_points(mesh, volumes.value());
+    const auto points = block_points(mesh, volumes.value());
     REQUIRE(points);
     REQUIRE(points.value().size() == 4);
     for (const std::string extension : {"poly", "smesh"}) {
         const auto file = "b_" + extension + "." + extension;
-        REQUIRE(write_mesh(mesh, folder / file, {.regions = points.value()}));
+        REQUIRE(write_mesh(mesh, folder / file, {.block_points = points.value()}));
         tetgenio in, out;
         load(in, folder / ("b_" + extension));
         char switches[] = "pAQ";

@@ -35,8 +35,8 @@ std::string contents_of(const SeveralFiles& files, const std::string& name) {
 } // namespace
 
 TEST_CASE("PFLOTRAN: cells, blocks and faces", "[io][simulators]") {
-    const std::vector<std::string> regions{"", "", "top/base 2"};
-    const auto files = to_pflotran(two_tetrahedra(), "a", regions);
+    const std::vector<std::string> blocks{"", "", "top/base 2"};
+    const auto files = to_pflotran(two_tetrahedra(), "a", blocks);
     CHECK(names_of_files(files) == std::vector<std::string>{"", "a_outside.txt", "a_top_base_2.txt",
                                                             "a_fault_co_front.ss",
                                                             "a_fault_co_back.ss", "a_base_front.ss",
@@ -53,7 +53,7 @@ TEST_CASE("OpenGeoSys: the mesh, and a file for each side of a surface", "[io][s
     CHECK(names_of_files(files) ==
           std::vector<std::string>{"", "a_fault_co_front.vtu", "a_fault_co_back.vtu",
                                    "a_base_front.vtu", "a_base_back.vtu", "a_box.vtu"});
-    CHECK(files[0].contents.find("<!--\nMaterialIDs:\n0 outside\n2 region_2\n-->") !=
+    CHECK(files[0].contents.find("<!--\nMaterialIDs:\n0 outside\n2 block_2\n-->") !=
           std::string::npos);
     CHECK(files[0].contents.find("NumberOfPoints=\"7\" NumberOfCells=\"2\"") != std::string::npos);
     CHECK(files[5].contents.find("type=\"UInt64\" Name=\"bulk_element_ids\"") != std::string::npos);
@@ -86,14 +86,14 @@ TEST_CASE("PyLith: groups of tetrahedra, surfaces and edges of faults", "[io][si
 TEST_CASE("simulators: names of parts differ", "[io][simulators]") {
     auto mesh = two_tetrahedra();
     mesh.surfaces = {{"F", Role::fault}, {"f", Role::fault}, {"f_FRONT", Role::unknown}};
-    const std::vector<std::string> regions{"F", "", "f_back"};
-    const auto parts = detail::named_parts(mesh, regions);
+    const std::vector<std::string> blocks{"F", "", "f_back"};
+    const auto parts = detail::named_parts(mesh, blocks);
     CHECK(parts.surfaces == std::vector<std::string>{"F", "f_2", "f_FRONT"});
     std::vector<std::string> names;
     for (const auto& set : parts.side_sets) names.push_back(set.name);
     for (const auto& block : parts.blocks) names.push_back(block.name);
     CHECK(names == std::vector<std::string>{"F_front_2", "F_back", "f_2_front", "f_2_back",
                                             "f_FRONT", "F_3", "f_back_2"});
-    CHECK(parts.blocks[0].number == 3); // the outside follows the other regions
+    CHECK(parts.blocks[0].number == 3); // the outside follows the other blocks
     CHECK(parts.blocks[1].number == 2);
 }

@@ -127,7 +127,7 @@ TEST_CASE("VTU: what is in it", "[io][vtk]") {
     const auto piece = grid.child("Piece");
     CHECK(piece.attribute("NumberOfCells").as_int() == 4);
     const auto cells = piece.child("CellData");
-    CHECK(values<std::int32_t>(cells, "region") == Ints{0, 2, -1, -1});
+    CHECK(values<std::int32_t>(cells, "block") == Ints{0, 2, -1, -1});
     CHECK(values<std::int32_t>(cells, "surface") == Ints{-1, -1, 0, 2});
     CHECK(values<std::int32_t>(cells, "surface_count") == Ints{0, 0, 2, 1});
     CHECK(values<std::int32_t>(cells, "parent") == Ints{-1, -1, 5, -1});
@@ -146,7 +146,7 @@ TEST_CASE("VTK: names of blocks", "[io][vtk]") {
     const auto of_polygons = polygons.child("VTKFile").child("PolyData").child("FieldData");
     CHECK(strings(of_polygons, "block_name") == names);
     const auto of_grid = grid.child("VTKFile").child("UnstructuredGrid").child("FieldData");
-    CHECK(strings(of_grid, "region_name", "DataArray") == names);
+    CHECK(strings(of_grid, "block_name", "DataArray") == names);
 }
 
 TEST_CASE("VTK: a cell array has one value per cell", "[io][vtk]") {

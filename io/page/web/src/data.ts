@@ -40,7 +40,7 @@ export interface Content {
     origin: [number, number, number]; step: number; triangles: number; drawn: number;
     cell: number; tetrahedra_left_out: number;
   };
-  arrays: Record<"vertices" | "triangles" | "segments" | "nodes" | "tetrahedra" | "regions", ArrayPlace>;
+  arrays: Record<"vertices" | "triangles" | "segments" | "nodes" | "tetrahedra" | "blocks", ArrayPlace>;
 }
 export interface RunInfo { seconds: Record<string, number>; peak_rss_mb: number | null; threads: number }
 

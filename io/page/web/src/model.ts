@@ -24,7 +24,7 @@ export class ModelGeometry {
   readonly unit: number; ///< of the relative coordinates, in units of the input: 1 for common sizes
   private readonly triangles: Uint32Array;
   private readonly segments: Uint32Array;
-  private readonly regions: Uint32Array;
+  private readonly blockOf: Uint32Array;
   private readonly position: BufferAttribute;
   private readonly content: Content;
   private readonly partsOfSurface = new Map<number, Part[]>();
@@ -55,13 +55,13 @@ export class ModelGeometry {
     this.triangles = report.array("triangles");
     this.segments = report.array("segments");
     this.tetrahedra = report.array("tetrahedra");
-    this.regions = report.array("regions");
+    this.blockOf = report.array("blocks");
     this.position = new BufferAttribute(this.vertices, 3);
     for (const part of this.content.parts) {
       for (const s of part.surfaces) append(this.partsOfSurface, s, part);
       if (part.blocks && part.blocks[0] !== part.blocks[1]) for (const b of part.blocks) append(this.partsOfBlock, b, part);
     }
-    this.regions.forEach((block, t) => append(this.tetrahedraOfBlock, block, t));
+    this.blockOf.forEach((block, t) => append(this.tetrahedraOfBlock, block, t));
   }
 
   /** The place of a point in the input's coordinates. */

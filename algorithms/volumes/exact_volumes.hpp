@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Exact volumes of blocks.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <terrane/algorithms/volumes/complex.hpp>
+
+namespace terrane::volumes {
+
+/// The volumes in front of and behind each triangle.
+using VolumeSides = std::span<const std::array<std::uint32_t, 2>>;
+
+/// Returns, for each volume, the double nearest to its exact measure. Determinants are summed with
+/// about 106 bits and an error bound; where this does not decide the rounding, the exact sum does.
+/// [0] is the sum of all blocks. The rounding mode must be "to nearest".
+std::vector<double> measure_volumes(const TriangleComplex& sheets, VolumeSides of_sides,
+                                    std::size_t count);
+
+/// Returns, for each volume, six times the part of its exact measure that these triangles
+/// contribute, as text; all vertices are input points.
+std::vector<std::string> partial_measures(const TriangleComplex& sheets, VolumeSides of_sides,
+                                          std::size_t count);
+/// Returns the double nearest to the measure whose parts are given.
+double measure_of_parts(std::span<const std::string> parts);
+
+/// Returns the exact measures as reduced fractions.
+std::vector<std::string> exact_measures(const TriangleComplex& sheets, VolumeSides of_sides,
+                                        std::size_t count, int base);
+
+} // namespace terrane::volumes

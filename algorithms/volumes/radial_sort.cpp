@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/volumes/radial_sort.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace terrane::volumes {
+namespace {
+
+using Side = EdgeSides::Side;
+
+bool have_common_value(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+    for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+        if (a[i] == b[j]) return true;
+        a[i] < b[j] ? ++i : ++j;
+    }
+    return false;
+}
+
+/// Compares the directions of triangles away from one edge by their angles.
+class Directions {
+public:
+    Directions(UpwardWitness upward, const TriangleComplex& sheets, std::uint32_t low,
+               const Side& reference) :
+        upward_(upward),
+        sheets_(sheets), low_(low), reference_(reference) {}
+
+    /// Tells whether p has a strictly smaller angle than q, measured from the reference in
+    /// [0, 2 pi).
+    [[nodiscard]] bool before(const Side& p, const Side& q) const {
+        if (p.triangle == q.triangle) return false;
+        const int a = sector(p), b = sector(q);
+        if (a != b) return a < b;
+        if (const Sign s = turn(p, q); s != Sign::Zero) return s == Sign::Positive;
+        throw std::logic_error("two triangles overlap");
+    }
+
+private:
+    /// Returns 0 for the angle 0 of the reference, 1 for angles below pi, 2 for pi, 3 above.
+    [[nodiscard]] int sector(const Side& q) const {
+        if (q.triangle == reference_.triangle) return 0;
+        const Sign s = turn(reference_, q);
+        return s == Sign::Positive ? 1 : s == Sign::Zero ? 2 : 3;
+    }
+
+    /// Returns Positive iff q is less than half a turn ahead of p, Zero iff it is opposite.
+    [[nodiscard]] Sign turn(const Side& p, const Side& q) const {
+        if (sheets_.parents != nullptr &&
+            have_common_value((*sheets_.parents)[p.triangle], (*sheets_.parents)[q.triangle]))
+            return Sign::Zero;
+        const auto [a, b, c] = sheets_.triangles[q.triangle];
+        const std::uint32_t apex = a ^ b ^ c ^ low_ ^ q.high; // the third corner
+        const Sign side = side_of(upward_, sheets_, TriangleId(p.triangle), VertexId(apex));
+        return runs_along(sheets_.triangles[p.triangle], low_, p.high) ? side : -side;
+    }
+
+    [[no_unique_address]] UpwardWitness upward_;
+    const TriangleComplex& sheets_;
+    std::uint32_t low_; ///< vertex of the edge
+    const Side reference_;
+};
+
+} // namespace
+
+void sort_round_edge(UpwardWitness upward, const TriangleComplex& sheets, std::uint32_t low,
+                     std::span<Side> sides) {
+    if (sides.size() < 3) return;
+    const Directions directions(upward, sheets, low, sides[0]);
+    std::sort(sides.begin(), sides.end(),
+              [&](const Side& p, const Side& q) { return directions.before(p, q); });
+}
+
+void join_round_edges(const TriangleComplex& sheets, DisjointSets& sides) {
+    const UpwardRounding guard;
+    std::vector<Side> round;
+    sheets.edges.for_each([&](std::uint32_t low, std::uint32_t, std::span<const Side> at_edge) {
+        round.assign(at_edge.begin(), at_edge.end());
+        sort_round_edge(guard, sheets, low, round);
+        join_round_edge(sheets, low, round,
+                        [&](std::uint32_t a, std::uint32_t b) { sides.join(a, b); });
+    });
+}
+
+} // namespace terrane::volumes
