@@ -47,12 +47,12 @@ model=(tests/data/ringmesh/modelA1.ml)
 run "$terrane" arrange "${model[@]}" -o "$out/modelA1.vtp" -o "$out/modelA1.obj" >/dev/null
 run "$terrane" check "$out/modelA1.obj"
 run "$terrane" tetrahedralize "${model[@]}" -o "$out/modelA1.vtu" --stats "$out/modelA1.json"
-expect "$out/modelA1.json" tetrahedra.regions 5
+expect "$out/modelA1.json" tetrahedra.blocks 5
 
 say "modelA2, three horizons and two faults; the model states 13 blocks, the outside included"
 run "$terrane" tetrahedralize tests/data/ringmesh/modelA2.ml -o "$out/modelA2.vtu" \
     -o "$out/modelA2.msh" --stats "$out/modelA2.json"
-expect "$out/modelA2.json" tetrahedra.regions 13
+expect "$out/modelA2.json" tetrahedra.blocks 13
 
 say "the same model for a simulator: in a box, what is nearer than 60 m joined, its triangles improved"
 rm -rf "$out/simulator"

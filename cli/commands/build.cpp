@@ -286,7 +286,7 @@ private:
         if (!folder) return folder.error();
         const fs::path& to = folder.value().temporary();
         for (const auto step :
-             {&Build::write_outputs, &Build::write_invented, &Build::write_certificates}) {
+             {&Build::write_outputs, &Build::write_interpolated, &Build::write_certificates}) {
             if (auto done = (this->*step)(to); !done) return done;
             if (session_.stopped()) return Error{ErrorCode::interrupted, "", ""};
         }
@@ -323,7 +323,7 @@ private:
         return Done{};
     }
 
-    Status write_invented(const fs::path& to) {
+    Status write_interpolated(const fs::path& to) {
         if (!built_.preprocessed.filled) return Done{};
         written_.insert(written_.end(), {"interpolated.csv", "filled.svg"});
         if (auto done = write_file(to / "interpolated.csv", csv_of(*built_.preprocessed.filled));
