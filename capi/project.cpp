@@ -2,10 +2,8 @@
 #include <terrane/capi/project.h>
 
 #include <memory>
-#include <string>
 #include <utility>
 
-#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>
@@ -27,35 +25,9 @@ std::unique_ptr<terrane_built> handle_of(Built made) {
     return built;
 }
 
-MadeBuilt build_of(const Project& project, BuildInput input, const Run& run) {
-    auto built = terrane::build(project, std::move(input), run);
-    if (!built) return built.error();
-    return handle_of(*std::move(built));
-}
-
-MadeBuilt build_from_files(const Project& project, const Run& run) {
-    auto inputs = read_inputs(project, run);
-    if (!inputs) return inputs.error();
-    return build_of(project, std::move(inputs->build), run);
-}
-
-/// Builds with surfaces of the caller's, one for each entry of the project.
-MadeBuilt build_from(Project project, std::vector<Surface> surfaces, const Run& run) {
-    if (surfaces.size() != project.surfaces.size())
-        return at_key(project, "surfaces",
-                      "has " + std::to_string(project.surfaces.size()) + " entries, but " +
-                          std::to_string(surfaces.size()) + " surfaces are given");
-    if (auto valid = validate(surfaces, run); !valid) return valid.error();
-    for (std::size_t i = 0; i < surfaces.size(); ++i) {
-        const ProjectSurfaces& entry = project.surfaces[i];
-        if (!entry.name.empty()) surfaces[i].name = entry.name;
-        if (entry.role) surfaces[i].role = *entry.role;
-    }
-    project.surfaces.clear(); // no file is read but that of the volume of interest
-    auto inputs = read_inputs(project, run);
-    if (!inputs) return inputs.error();
-    inputs->build.surfaces = std::move(surfaces);
-    return build_of(project, std::move(inputs->build), run);
+MadeBuilt handle_of(Result<Built> made) {
+    if (!made) return made.error();
+    return handle_of(*std::move(made));
 }
 
 } // namespace
@@ -68,7 +40,7 @@ terrane_code terrane_build_file(const char* path, const terrane_run* run, terran
     return produce(out, error, [&]() -> MadeBuilt {
         const auto project = terrane::read_project(needed_file(path));
         if (!project) return project.error();
-        return build_from_files(*project, run_of(run));
+        return handle_of(build_model(*project, run_of(run)));
     });
 }
 
@@ -78,8 +50,9 @@ terrane_code terrane_build(const char* json, const char* folder, const terrane_s
         auto project =
             terrane::parse_project(needed_text(json, "json"), folder ? folder : "", "project");
         if (!project) return project.error();
-        if (!surfaces) return build_from_files(*project, run_of(run));
-        return build_from(*std::move(project), needed(surfaces, "surfaces").list, run_of(run));
+        if (!surfaces) return handle_of(build_model(*project, run_of(run)));
+        return handle_of(build_model(*std::move(project), needed(surfaces, "surfaces").list,
+                                     run_of(run)));
     });
 }
 

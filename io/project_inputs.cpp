@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/text/units.hpp>
@@ -144,6 +145,29 @@ Result<ProjectInputs> read_inputs(const Project& project, const Run& run) {
         read.build.boundary = std::move(*boundary);
         return read;
     });
+}
+
+Result<Built> build_model(const Project& project, const Run& run) {
+    auto inputs = read_inputs(project, run);
+    if (!inputs) return inputs.error();
+    return build(project, std::move(inputs->build), run);
+}
+
+Result<Built> build_model(Project project, std::vector<Surface> surfaces, const Run& run) {
+    const auto entries = std::exchange(project.surfaces, {});
+    if (!entries.empty() && entries.size() != surfaces.size())
+        return at_key(project, "surfaces",
+                      fmt::format("has {} entries, but {} surfaces are given", entries.size(),
+                                  surfaces.size()));
+    if (auto valid = validate(surfaces, run); !valid) return valid.error();
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        if (!entries[i].name.empty()) surfaces[i].name = entries[i].name;
+        if (entries[i].role) surfaces[i].role = *entries[i].role;
+    }
+    auto inputs = read_inputs(project, run); // no file is read but that of the volume of interest
+    if (!inputs) return inputs.error();
+    inputs->build.surfaces = std::move(surfaces);
+    return build(project, std::move(inputs->build), run);
 }
 
 } // namespace terrane

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The files that a project names, read.
+// The files that a project names, read, and the model of a project.
 #pragma once
 
 #include <cstddef>
@@ -41,5 +41,13 @@ std::vector<std::filesystem::path> named_files(const Project& project);
 /// that a file does not have, or of a name for several surfaces; unsupported where 32 bits can't
 /// count everything; interrupted.
 Result<ProjectInputs> read_inputs(const Project& project, const Run& run = {});
+
+/// Reads the files of a project and builds its model. Errors: those of read_inputs() and build().
+Result<Built> build_model(const Project& project, const Run& run = {});
+
+/// Builds the model of surfaces in memory. Entries of project.surfaces, if there are any, stand for one
+/// surface each and give it their name and role; their files are not read. Errors: bad_option (another number of
+/// surfaces than of entries); those of validate(), boundary_of() and build().
+Result<Built> build_model(Project project, std::vector<Surface> surfaces, const Run& run = {});
 
 } // namespace terrane

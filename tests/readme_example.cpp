@@ -3,7 +3,6 @@
 // README.md shows the lines between the marks and what they print; a test compares both.
 #include <cstddef>
 #include <cstdio>
-#include <utility>
 
 #include <terrane/terrane.hpp>
 
@@ -20,9 +19,7 @@ int list_blocks() {
     project.surfaces = {{"top.ts"}, {"base.ts"}, {"fault.ts"}};
     project.volume = terrane::ProjectBox{{0, 0, -1700}, {2000, 1500, -700}};
     project.seal = 20;
-    auto inputs = terrane::read_inputs(project);
-    if (!inputs) return fail(inputs.error());
-    const auto built = terrane::build(project, std::move(inputs->build));
+    const auto built = terrane::build_model(project);
     if (!built) return fail(built.error());
     const auto& blocks = built->model->structure.blocks;
     for (std::size_t b = 1; b < blocks.size(); ++b) // 0 is the outside
