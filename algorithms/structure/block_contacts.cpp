@@ -71,7 +71,7 @@ void add_contacts(const Mesh& mesh, std::span<const std::array<std::uint32_t, 2>
             const Point3 p = minus(mesh.vertices[v], origin);
             place = {place.x + p.x / 3, place.y + p.y / 3, place.z + p.z / 3};
         }
-        const Point3 n = area_vector(mesh, t);
+        const Point3 n = detail::area_vector(mesh, t);
         for (std::size_t side = 0; side < 2; ++side) {
             const double half = side == 0 ? -0.5 : 0.5; // normals point away from the back
             const std::uint32_t block = of_sides[t][side];

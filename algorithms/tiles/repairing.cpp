@@ -471,7 +471,7 @@ Result<RepairOfFew> detail::repair_few(Supersteps& tiles, TiledReport& report,
                           },
                           join_within,
                           join_across,
-                          number_blocks,
+                          number_regions,
                           receive_regions};
     for (const Step& s : steps)
         if (auto passed = tiles.step("repair", s); !passed) return passed.error();
