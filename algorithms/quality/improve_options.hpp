@@ -23,7 +23,7 @@ struct LocalSize {
 struct ImproveOptions {
     /// \name Members that describe() describes
     /// @{
-    double edge_length = 0;
+    double edge_length = 0;               ///< see describe(), as all members of this group
     std::vector<double> edge_length_of{}; ///< per surface; 0: edge_length; empty: no exceptions
     double max_deviation = 0;
     double curve_length = 0;
