@@ -13,7 +13,7 @@ using namespace detail;
 
 namespace {
 
-std::string points(const std::vector<Point3>& vertices) {
+std::string vertex_lines(const std::vector<Point3>& vertices) {
     // The dimension is 3; there are no attributes and no markers.
     auto out = fmt::format("{} 3 0 0\n", vertices.size());
     for (std::size_t v = 0; v < vertices.size(); ++v) {
@@ -50,7 +50,7 @@ std::string written(const Mesh& mesh, std::span<const BlockPoint> points, bool s
     const auto groups = surface_groups(mesh.surfaces_of, mesh.surfaces.size());
     const auto markers = group_tags(groups, mesh.triangles.size());
     auto out = "# markers of facets\n" + tag_comments(groups, mesh.surfaces) + "# regions\n" +
-               points(mesh.vertices);
+               vertex_lines(mesh.vertices);
     out += fmt::format("# facets\n{} 1\n", mesh.triangles.size()); // 1: with markers
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (!short_form) out += fmt::format("1 0 {}\n", markers[t]); // one polygon, no hole
