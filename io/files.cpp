@@ -207,29 +207,29 @@ Result<SeveralFiles> one_file(Result<std::string> contents) {
 /// Returns the files of tetrahedra, of second order with `nodes`.
 Result<SeveralFiles> files_of(const TetrahedralMesh& mesh, Format format, const fs::path& path,
                               const WriteOptions& options, const EdgeNodes* nodes) {
-    const auto& names = options.block_names;
+    const auto& block_names = options.block_names;
     const VtkFiles vtk{path.stem().string(), options.compress};
     switch (format) {
     case Format::vtu:
-        return one_file(to_vtu(mesh, options.compress, options.cells, names, nodes));
+        return one_file(to_vtu(mesh, options.compress, options.cells, block_names, nodes));
     case Format::msh:
-        return one_file(to_msh(mesh, names, nodes));
+        return one_file(to_msh(mesh, block_names, nodes));
     case Format::msh22:
-        return one_file(to_msh22(mesh, names, nodes));
+        return one_file(to_msh22(mesh, block_names, nodes));
     case Format::inp:
-        return one_file(to_abaqus(mesh, names, nodes));
+        return one_file(to_abaqus(mesh, block_names, nodes));
     case Format::medit:
         return one_file(to_medit(mesh));
     case Format::exodus:
-        return one_file(to_exodus(mesh, names, nodes));
+        return one_file(to_exodus(mesh, block_names, nodes));
     case Format::pylith:
         return one_file(to_pylith(mesh));
     case Format::ogs:
-        return to_opengeosys(mesh, vtk, names, nodes);
+        return to_opengeosys(mesh, vtk, block_names, nodes);
     case Format::geos:
-        return to_geos(mesh, vtk, names);
+        return to_geos(mesh, vtk, block_names);
     case Format::ugi:
-        return to_pflotran(mesh, vtk.stem, names);
+        return to_pflotran(mesh, vtk.stem, block_names);
     default:
         break;
     }

@@ -46,10 +46,10 @@ std::string region_lines(std::span<const BlockPoint> points) {
     return out;
 }
 
-std::string written(const Mesh& mesh, std::span<const BlockPoint> points, bool short_form) {
+std::string written(const Mesh& mesh, std::span<const BlockPoint> inside, bool short_form) {
     const auto groups = surface_groups(mesh.surfaces_of, mesh.surfaces.size());
     const auto markers = group_tags(groups, mesh.triangles.size());
-    auto out = "# markers of facets\n" + tag_comments(groups, mesh.surfaces) + "# regions\n" +
+    auto out = "# markers of facets\n" + tag_comments(groups, mesh.surfaces) + "# points\n" +
                points(mesh.vertices);
     out += fmt::format("# facets\n{} 1\n", mesh.triangles.size()); // 1: with markers
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -58,7 +58,7 @@ std::string written(const Mesh& mesh, std::span<const BlockPoint> points, bool s
         if (short_form) out += fmt::format(" {}", markers[t]);
         out += '\n';
     }
-    return out + "# holes\n0\n# regions\n" + region_lines(points);
+    return out + "# holes\n0\n# regions\n" + region_lines(inside);
 }
 
 } // namespace
