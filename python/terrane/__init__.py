@@ -52,11 +52,11 @@ for _name in ("tetgen", "gmsh"):
 __version__: str = _core.version
 
 __all__ = [
-    "Arrangement", "Block", "BlockOutcome", "BlockParts", "Blocks", "BorderLoop", "Built", "CheckReport", "ClosedGap",
+    "Arrangement", "Block", "BlockOutcome", "BlockParts", "BlockVolume", "Blocks", "BorderLoop", "Built", "CheckReport", "ClosedGap",
     "Contact", "Corner", "ERROR_CODES", "Ensemble", "Error", "Failure", "FillReport", "Filled", "FilledHole", "Frame",
     "HAS_REPORTS", "Improved", "IndexLists", "Interface", "InterfaceParts", "Juxtaposed", "Juxtaposition", "LayerReport", "Layered",
     "Leak", "Line", "Mesh", "Model", "NO_INDEX", "OpenBorder", "OpenGap", "OutOfMemory", "OutOfOrder",
-    "Patch", "ROLES", "Region", "BlockVolume", "Regions", "Relation", "RoundedMesh", "RoundingReport",
+    "Patch", "ROLES", "Region", "Regions", "Relation", "RoundedMesh", "RoundingReport",
     "RuleViolation", "SealAdvice", "SealChange", "SealTrial", "Sealed", "Structure", "Surface",
     "SurfaceCut", "SurfaceInfo", "Tetrahedra", "Verdict", "VerifiedFile", "Violation",
     "VolumeOfInterest", "Volumes", "arrange", "as_surface", "as_surfaces", "box", "build", "check",
