@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/algorithms/structure/relations.hpp>
