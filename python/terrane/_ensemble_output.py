@@ -26,9 +26,6 @@ if TYPE_CHECKING:
     from ._ensemble import Ensemble
 
 _STATISTICS = [*(name for name, _ in PERCENTILES), "mean", "sd", "least", "largest", "count"]
-_NOTHING = -9999.0
-
-
 _unfinished: Set[str] = set()  # temporary folders
 
 
