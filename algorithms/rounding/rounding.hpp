@@ -3,7 +3,7 @@
 // Rounds an arrangement from exact points to doubles. Each point goes to the nearest doubles. Where
 // the mesh of doubles is then no longer conforming, iterated snap rounding moves the corners of the
 // triangles that cross, and all points in the same grid cells. Inputs that were written as decimals
-// are arranged as these decimals instead, so that what is coplanar in decimals is coplanar.
+// are arranged as these decimals instead, so that triangles coplanar in decimals are coplanar.
 //
 // Guarantee: if report.clean, no two triangles of the mesh meet other than in a shared vertex or
 // edge, none is degenerate and none is repeated, as exact predicates on the doubles have shown.
@@ -64,7 +64,7 @@ struct RoundingReport {
     /// more: they are then the first ones, in the order of their triangles.
     std::vector<ImproperContact> contacts;
     /// No point of the mesh is farther from the input triangles that it is part of, and no point of
-    /// an input triangle is farther from its parts, except for what vanished; unit of the input.
+    /// an input triangle is farther from its parts, except for vanished slivers; unit of the input.
     double surface_deviation = 0;
     double max_allowed = 0; ///< the limit of surface_deviation: max_move of the options
     /// Largest distance from the mesh, in addition to surface_deviation, of a point of a sliver that

@@ -100,7 +100,7 @@ enum class Rule : std::uint8_t {
                       ///< number is not finite
     R54_attached,     ///< an added part is not attached along the border of its surface
     R55_ends,      ///< an added part ends free elsewhere than at a lateral side, or meets nothing
-    R56_trimmed,   ///< what is missing of a surface is not a whole part beyond another surface
+    R56_trimmed,   ///< the missing part of a surface is not a whole part beyond another surface
     R57_only_kept, ///< doubles lie where nothing was kept
     // Layers: see detail/layered.hpp.
     R60_layer_lists = 59, ///< as R1, in layers, or a number is not finite
@@ -142,7 +142,7 @@ struct Violation {
                                          ///< R50: none; R51, R52: a triangle
                                          ///< R60, R63, R65, R66: a triangle or none; R61: as R3 to
                                          ///< R5; R62: two triangles; R64: a triangle or an edge
-    std::string sentence;                ///< what is wrong
+    std::string sentence;                ///< the violation in words
 };
 
 /// Once this many pairs violate R5, no more are searched for: the claim is sufficiently refuted.

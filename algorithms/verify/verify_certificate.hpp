@@ -207,7 +207,7 @@ enum class OutputCheck : std::uint8_t {
 
 /// The verdict about an output file.
 struct OutputVerdict {
-    OutputCheck check = OutputCheck::doubles; ///< what it was compared with
+    OutputCheck check = OutputCheck::doubles; ///< the kind of comparison
     std::vector<Violation> violations;        ///< of R21; none: the file is the one it should be
     std::vector<std::uint32_t> renamed; ///< surfaces with another name or role than in the input
     double float32_move = 0; ///< no number's point is farther from its doubles; unit of the input
