@@ -113,7 +113,7 @@ struct VolumeRecord {
 
 /// The parts that were left out of surfaces, and those that were added.
 struct CutRecord {
-    const VolumeRecord* volume = nullptr; ///< what was cut out; nullptr: nothing
+    const VolumeRecord* volume = nullptr; ///< the cut volume; nullptr: none
     std::size_t boundary_count = 0;       ///< number of the last surfaces, which bound the volume
     std::span<const SurfaceGrowth> growth{}; ///< per surface before these; empty: nothing was
                                              ///< sealed or extended
@@ -125,7 +125,7 @@ struct CutSections {
     Arrangement whole;               ///< of all surfaces, which `Certified::exact` is a part of
     std::string text;                ///< the keys
     std::vector<InputRecord> files;  ///< all input files, with those of the volume
-    std::vector<Surface> surfaces{}; ///< in these files, without what was added
+    std::vector<Surface> surfaces{}; ///< in these files, without added parts
 };
 
 /// The contents of a certificate, by reference: the values must outlive it.

@@ -19,8 +19,8 @@ namespace terrane {
 
 /// A model with its sealing and its leaks; by reference: the values must outlive it.
 struct ModelReports {
-    const Model& model;                      ///< what is written
-    const std::optional<SealReport>& sealed; ///< what was sealed; none: nothing
+    const Model& model;                      ///< the model to write
+    const std::optional<SealReport>& sealed; ///< the report of sealing; none: not sealed
     const std::optional<LeakAdvice>& leaks;  ///< leaks that were judged; none: they were not
 };
 
@@ -44,9 +44,9 @@ std::vector<std::string> part_formats();
 /// Tells whether a certificate can be about blocks and interfaces in this format.
 bool is_certified(const std::string& part_format);
 
-/// Writes model.json (with what was sealed or judged, if anything), result.vtp, and the blocks and
+/// Writes model.json (with the reports of sealing and leaks), result.vtp, and the blocks and
 /// interfaces in `part_format` into an empty folder that exists; as VTP also model.vtm, which has
-/// all these files under the names of what they hold. Errors: those of write_mesh; interrupted.
+/// all these files under the names of their contents. Errors: those of write_mesh; interrupted.
 Status write_model_files(const ModelReports& reports, const std::string& part_format,
                          const std::filesystem::path& folder, const Run& run = {});
 

@@ -34,7 +34,7 @@ struct PairCheckOptions {
     /// long triangles side by side nearly all boxes overlap.
     std::uint64_t most_per_triangle = UINT64_MAX;
 
-    /// Returns how many pairs are counted at most for a mesh of this size; 0: none.
+    /// Returns the largest number of pairs that is counted for a mesh of this size; 0: none.
     [[nodiscard]] constexpr std::uint64_t most_counted(std::size_t triangles) const {
         if (triangles > count_up_to || triangles == 0) return 0;
         return most_per_triangle > UINT64_MAX / triangles ? UINT64_MAX

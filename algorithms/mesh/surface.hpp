@@ -37,7 +37,7 @@ struct CoordinateFrame {
 /// degenerate triangles; only its coordinates must be finite.
 struct Surface {
     std::string name;                ///< from the file; need not be unique
-    Role role = Role::unknown;       ///< what it is to the geologist
+    Role role = Role::unknown;       ///< its geological role
     std::vector<Point3> vertices;    ///< order and unit of the file; finite
     std::vector<Triangle> triangles; ///< order of the file; indices < vertices.size()
     CoordinateFrame frame{};         ///< what the file states about the coordinates

@@ -57,7 +57,7 @@ struct SealReport {
 /// The simplification to a resolution (resolution.hpp).
 struct AtResolution {
     SharedMesh before{};     ///< the rounded mesh before
-    SimplifyReport report{}; ///< what was joined, left alone and changed
+    SimplifyReport report{}; ///< joined places, those left alone, and changes
 };
 
 /// Numbers of triangles of a surface. New ones follow the given ones.

@@ -45,7 +45,7 @@ struct BlockMerge {
 /// An arrangement without small blocks.
 struct WithoutSmallBlocks {
     Arrangement arrangement; ///< restricted to the triangles that are kept
-    BlockMerge report;       ///< what was merged
+    BlockMerge report;       ///< the merged blocks
 };
 
 /// Merges all blocks whose exact volume is below `least`. Errors: bad_option (`least` is not

@@ -40,10 +40,10 @@ std::string_view name_of(Doubt doubt);
 
 /// A mistake that the surfaces suggest.
 struct PlausibilityWarning {
-    Doubt doubt{};                   ///< what it is about
+    Doubt doubt{};                   ///< the kind of mistake
     std::vector<SurfaceId> surfaces; ///< those concerned, in order; may be empty
-    std::string seen;                ///< what was found, with names and numbers
-    std::string why;                 ///< what goes wrong if it is a mistake
+    std::string seen;                ///< the finding, with names and numbers
+    std::string why;                 ///< the consequence of the mistake
     std::string answer;              ///< the option that answers it
 
     /// Returns the three as sentences.

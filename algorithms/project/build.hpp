@@ -83,11 +83,11 @@ struct BuildObserver {
 };
 
 /// Keeps results of stages that take long, `improve` and `tetrahedra`, for another call of build()
-/// with the same inputs. A result is bytes under a key, a hash of all that decides it. A store must find
-/// only what build() kept under this key, unchanged: what measures say is believed. Whatever the bytes are,
-/// a mesh that is taken is proven conforming again, and tetrahedra are checked again; what fails is made anew.
+/// with the same inputs. A result is bytes under a key, a hash of all that decides it. A store must return
+/// only bytes that build() kept under this key, unchanged: measures in them are believed. A mesh that is taken
+/// is proven conforming again, and tetrahedra are checked again; a result that fails is made anew.
 struct StageStore {
-    /// Returns what was kept under a key; none if nothing was.
+    /// Returns the bytes that were kept under a key, or none.
     std::function<std::optional<std::string>(BuildStage, const std::string& key)> find{};
     /// Keeps the bytes under a key.
     std::function<void(BuildStage, const std::string& key, const std::string& bytes)> keep{};

@@ -3,7 +3,7 @@
 // Rounds an arrangement from exact points to doubles. Each point goes to the nearest doubles. Where
 // the mesh of doubles is then no longer conforming, iterated snap rounding moves the corners of the
 // triangles that cross, and all points in the same grid cells. Inputs that were written as decimals
-// are arranged as these decimals instead, so that what is coplanar in decimals is coplanar.
+// are arranged as these decimals instead, so that triangles coplanar in decimals are coplanar.
 //
 // Guarantee: if report.clean, no two triangles of the mesh meet other than in a shared vertex or
 // edge, none is degenerate and none is repeated, as exact predicates on the doubles have shown.

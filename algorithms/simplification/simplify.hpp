@@ -121,7 +121,7 @@ struct Simplified {
     std::vector<std::uint32_t>
         block_before{};      ///< per volume of the mesh: the volume before that most of it was,
                              ///< or UINT32_MAX
-    SimplifyReport report{}; ///< what was joined, left alone, and changed
+    SimplifyReport report{}; ///< joined places, those left alone, and changes
 };
 
 /// Simplifies the mesh. Errors: bad_option (the resolution is not positive, not finite, or larger

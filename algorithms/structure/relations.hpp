@@ -34,7 +34,7 @@ std::string_view name_of(RelationKind kind);
 struct SurfaceRelation {
     SurfaceId from{};                       ///< the surface that ends
     SurfaceId to{};                         ///< the other one
-    RelationKind kind = RelationKind::near; ///< what they do
+    RelationKind kind = RelationKind::near; ///< the kind of relation
     double length = 0;                      ///< of all lines, unit of the mesh
     double least = 0;   ///< of `near`: the smallest gap, as in Leak; otherwise 0
     double largest = 0; ///< of `near`: the largest gap

@@ -46,7 +46,7 @@ std::string_view name_of(TetrahedraDefect defect);
 
 /// All defects of one kind.
 struct TetrahedraViolation {
-    TetrahedraDefect defect{}; ///< what is wrong
+    TetrahedraDefect defect{}; ///< the kind of defect
     std::size_t count = 0;     ///< how many there are, >= 1
     std::string first;         ///< a sentence about the first one, with its place
 };

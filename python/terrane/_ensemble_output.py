@@ -25,9 +25,6 @@ from ._errors import Error
 from ._surface import surface_of_parts
 
 _STATISTICS = [*(name for name, _ in PERCENTILES), "mean", "sd", "least", "largest", "count"]
-_NOTHING = -9999.0
-
-
 _unfinished: Set[str] = set()  # temporary folders
 
 

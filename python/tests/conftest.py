@@ -97,12 +97,6 @@ BOX = ((0.2, 0.2, -2.0), (4.8, 4.8, 2.0))
 
 
 @pytest.fixture(scope="session")
-def docs_surfaces():
-    """The two horizons and the fault of the documentation."""
-    return terrane.read([DATA / "top.ts", DATA / "base.ts", DATA / "fault.ts"])
-
-
-@pytest.fixture(scope="session")
 def arrangement():
     """The arrangement of `stack`."""
     return terrane.arrange(stack())
