@@ -64,7 +64,9 @@ def main():
     for name in sorted(n for n in names if isinstance(getattr(module, n), type)):
         lines += stub_of_class(name, getattr(module, name))
     lines.append("")
-    for name in sorted(n for n in names if not isinstance(getattr(module, n), type)):
+    for name in sorted(n for n in names if isinstance(getattr(module, n), list)):
+        lines.append(f"{name}: List[Any]")
+    for name in sorted(n for n in names if not isinstance(getattr(module, n), (list, type))):
         lines.append(f"def {name}{signature(getattr(module, name).__doc__, name)}: ...")
     with open(sys.argv[2], "w", encoding="utf-8") as out:
         out.write("\n".join(lines) + "\n")
