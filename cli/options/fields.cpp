@@ -7,7 +7,7 @@
 namespace terrane::cli {
 namespace {
 
-std::string dashed(std::string_view name) {
+std::string option_named(std::string_view name) {
     std::string all = "--" + std::string(name);
     std::ranges::replace(all, '_', '-');
     return all;
@@ -16,14 +16,14 @@ std::string dashed(std::string_view name) {
 } // namespace
 
 std::string option_of(const Field& field) {
-    return dashed(field.name);
+    return option_named(field.name);
 }
 
 std::string help_of(const Field& field) {
     std::string rest = text_of(field), help;
     for (std::size_t open = rest.find('`'); open != std::string::npos; open = rest.find('`')) {
         const std::size_t close = rest.find('`', open + 1);
-        help += rest.substr(0, open) + dashed(rest.substr(open + 1, close - open - 1));
+        help += rest.substr(0, open) + option_named(rest.substr(open + 1, close - open - 1));
         rest.erase(0, close + 1);
     }
     return help + rest;
