@@ -15,7 +15,6 @@ from markdown_pages import anchors_of, headings_of, host_slug, lines_of_text, li
 
 LEFT_OUT = {".git", ".cache", "out"}
 MOST_COLUMNS = 120
-STILL_WIDE = {"docs/how-to/scale.md"}
 
 
 def pages_of(root):
@@ -67,9 +66,7 @@ def check(root):
     flaws = []
     for page in pages_of(root):
         pages += 1
-        if str(page.relative_to(root)) not in STILL_WIDE:
-            flaws += [f"{page.relative_to(root)}:{line}: more than {MOST_COLUMNS} columns"
-                      for line in too_wide(page.read_text())]
+        flaws += [f"{page.relative_to(root)}:{line}: more than {MOST_COLUMNS} columns" for line in too_wide(page.read_text())]
         for line, target in links_of(page.read_text()):
             if urllib.parse.urlsplit(target).scheme:
                 others += 1

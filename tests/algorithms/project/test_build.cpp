@@ -67,7 +67,7 @@ TEST_CASE("build: each mesh is proven once, and searched for volumes once", "[vo
     const WorkCount count;
     Project project;
     project.improve = ProjectImprove{.options = {.edge_length = 2}};
-    std::size_t regions = 8;
+    std::size_t blocks = 8;
 #ifdef TERRANE_HAS_TETGEN
     project.outputs.tetrahedra = {"vtu"};
 #endif

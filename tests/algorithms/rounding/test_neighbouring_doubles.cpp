@@ -101,7 +101,7 @@ struct Vertex {
     [[nodiscard]] std::size_t fewest(RoundingState s) const {
         const Point3 from = s.points[index];
         std::size_t least = contacts(s);
-        constexpr int most = RoundingTuning::search_steps;
+        constexpr int most = rounding_tuning.search_steps;
         for (int i = -most; i <= most; ++i)
             for (int j = -most; j <= most; ++j)
                 for (int k = -most; k <= most; ++k) {
