@@ -71,8 +71,8 @@ std::vector<BlockVolume> compare_volumes(const Subject& subject, const FaceResul
     const auto of_blocks = six_volumes_of_blocks(subject);
     const auto bounds = bounds_of_differences(subject, divided);
     std::vector<BlockVolume> compared;
-    // The outside has no volume but that of its tetrahedra.
-    const double outside = nearest_quotient(faces.six_volumes[0], Exact(6));
+    // The outside has no volume but that of its tetrahedra, where they are kept.
+    const double outside = subject.whole ? nearest_quotient(faces.six_volumes[0], Exact(6)) : 0;
     compared.push_back({outside, outside, 0, 0, true});
     for (std::size_t v = 1; v < of_blocks.size(); ++v) {
         const Exact difference = faces.six_volumes[v] - of_blocks[v];

@@ -49,7 +49,7 @@ std::string region_lines(std::span<const BlockPoint> points) {
 std::string written(const Mesh& mesh, std::span<const BlockPoint> points, bool short_form) {
     const auto groups = surface_groups(mesh.surfaces_of, mesh.surfaces.size());
     const auto markers = group_tags(groups, mesh.triangles.size());
-    auto out = "# markers of facets\n" + tag_comments(groups, mesh.surfaces) + "# regions\n" +
+    auto out = "# markers of facets\n" + tag_comments(groups, mesh.surfaces) + "# points\n" +
                vertex_lines(mesh.vertices);
     out += fmt::format("# facets\n{} 1\n", mesh.triangles.size()); // 1: with markers
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

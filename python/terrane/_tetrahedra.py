@@ -271,7 +271,7 @@ class Tetrahedra(Result):
         >>> len(cells.to_pyvista().points) == len(cells.vertices)
         True
         """
-        return unstructured_grid(self.vertices, self.tetrahedra, {"region": self.region_of})
+        return unstructured_grid(self.vertices, self.tetrahedra, {"block": self.block_of})
 
     def to_meshio(self) -> Any:
         """Return a ``meshio.Mesh`` of tetrahedra and faces. Needs meshio.

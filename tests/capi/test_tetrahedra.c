@@ -52,7 +52,7 @@ static void test_cells(const terrane_tetrahedra* t) {
     const terrane_block_volume* const volumes = terrane_tetrahedra_volumes(t, &n);
     CHECK(n == 7);
     for (size_t r = 0; r < 7; ++r)
-        CHECK(fabs(volumes[r].block - measured[r]) < 1e-9 &&
+        CHECK(fabs(volumes[r].block - measured[r]) < 1e-9 * (1 + measured[r]) &&
               volumes[r].is_equal == (volumes[r].difference == 0));
     const uint32_t* const f = terrane_tetrahedra_faces(t, &faces);
     CHECK(faces > 20 && f[0] < vertices);
