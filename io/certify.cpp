@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/block_certificate.hpp>
 #include <terrane/io/files.hpp>
@@ -166,7 +167,9 @@ std::vector<ResultFile> outputs_of(const Model& model, const fs::path& folder,
     return files;
 }
 
-Result<std::string> certify(const CertifiedResult& result, const fs::path& path, const Run& run) {
+namespace {
+
+Result<std::string> text_of(const CertifiedResult& result, const fs::path& path, const Run& run) {
     for (const Surface& surface : result.surfaces)
         if (!detail::is_utf8(surface.name))
             return Error{ErrorCode::bad_option,
@@ -183,6 +186,13 @@ Result<std::string> certify(const CertifiedResult& result, const fs::path& path,
                                       *result.layered);
     return text_of_mesh(result, {*inputs, result.surfaces, *result.exact, result.rounded, *outputs},
                         path, run);
+}
+
+} // namespace
+
+Result<std::string> certify(const CertifiedResult& result, const fs::path& path, const Run& run) {
+    return guarded("for the certificate", "certificate",
+                   [&] { return text_of(result, path, run); });
 }
 
 double stated_deviation(const CertifiedResult& result) {

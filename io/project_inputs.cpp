@@ -91,21 +91,21 @@ Error at_volume(const Project& project, Error error) {
 
 Result<std::vector<Surface>> boundary_of(const ProjectVolume& wanted, const std::string& unit,
                                          const Run& run) {
-    return std::visit(
-        [&](const auto& volume) -> Result<std::vector<Surface>> {
-            using Volume = std::decay_t<decltype(volume)>;
-            if constexpr (std::is_same_v<Volume, ProjectBox>)
-                return box_boundary(volume.low, volume.high);
-            else if constexpr (std::is_same_v<Volume, RotatedBox>)
-                return rotated_box_boundary(volume);
-            else if constexpr (std::is_same_v<Volume, ProjectPolygon>)
-                return polygon_boundary(volume.corners, volume.between[0], volume.between[1]);
-            else if constexpr (std::is_same_v<Volume, ProjectWithin>)
-                return boundary_within(volume, unit, run);
-            else
-                return std::vector<Surface>();
-        },
-        wanted);
+    const auto make = [&](const auto& volume) -> Result<std::vector<Surface>> {
+        using Volume = std::decay_t<decltype(volume)>;
+        if constexpr (std::is_same_v<Volume, ProjectBox>)
+            return box_boundary(volume.low, volume.high);
+        else if constexpr (std::is_same_v<Volume, RotatedBox>)
+            return rotated_box_boundary(volume);
+        else if constexpr (std::is_same_v<Volume, ProjectPolygon>)
+            return polygon_boundary(volume.corners, volume.between[0], volume.between[1]);
+        else if constexpr (std::is_same_v<Volume, ProjectWithin>)
+            return boundary_within(volume, unit, run);
+        else
+            return std::vector<Surface>();
+    };
+    return guarded("for the volume of interest", "boundary",
+                   [&] { return std::visit(make, wanted); });
 }
 
 std::vector<std::filesystem::path> named_files(const Project& project) {
@@ -148,12 +148,16 @@ Result<ProjectInputs> read_inputs(const Project& project, const Run& run) {
 }
 
 Result<Built> build_model(const Project& project, const Run& run) {
-    auto inputs = read_inputs(project, run);
-    if (!inputs) return inputs.error();
-    return build(project, std::move(inputs->build), run);
+    return guarded("for the model", "build", [&]() -> Result<Built> {
+        auto inputs = read_inputs(project, run);
+        if (!inputs) return inputs.error();
+        return build(project, std::move(inputs->build), run);
+    });
 }
 
-Result<Built> build_model(Project project, std::vector<Surface> surfaces, const Run& run) {
+namespace {
+
+Result<Built> build_of(Project project, std::vector<Surface> surfaces, const Run& run) {
     const auto entries = std::exchange(project.surfaces, {});
     if (!entries.empty() && entries.size() != surfaces.size())
         return at_key(project, "surfaces",
@@ -168,6 +172,13 @@ Result<Built> build_model(Project project, std::vector<Surface> surfaces, const 
     if (!inputs) return inputs.error();
     inputs->build.surfaces = std::move(surfaces);
     return build(project, std::move(inputs->build), run);
+}
+
+} // namespace
+
+Result<Built> build_model(Project project, std::vector<Surface> surfaces, const Run& run) {
+    return guarded("for the model", "build",
+                   [&] { return build_of(std::move(project), std::move(surfaces), run); });
 }
 
 } // namespace terrane

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/volumes/block_points.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/certify.hpp>
@@ -125,22 +126,27 @@ std::string file_name(const std::string& start, const std::string& format) {
 
 Result<std::vector<std::string>> write_results(const Results& results, const fs::path& folder,
                                                const Run& run) {
-    return Writer(results, folder, run)();
+    return guarded("to write the results", "write", [&] { return Writer(results, folder, run)(); });
 }
 
 Status check_certifiable(const Project& project) {
-    if (!project.outputs.certificate) return Done{};
-    for (std::size_t i = 0; i < project.surfaces.size(); ++i)
-        if (!project.surfaces[i].objects.empty())
-            return at_key(project, fmt::format("surfaces[{}].objects", i),
-                          "a certificate is about whole files, not about some of their objects");
-    return Done{};
+    return guarded("to check the project", "project", [&]() -> Status {
+        if (!project.outputs.certificate) return Done{};
+        for (std::size_t i = 0; i < project.surfaces.size(); ++i)
+            if (!project.surfaces[i].objects.empty())
+                return at_key(
+                    project, fmt::format("surfaces[{}].objects", i),
+                    "a certificate is about whole files, not about some of their objects");
+        return Done{};
+    });
 }
 
-Result<std::vector<WrittenCertificate>> write_certificates(const Results& results,
-                                                           const ProjectInputs& read,
-                                                           const Arranged& arranged,
-                                                           const fs::path& folder, const Run& run) {
+namespace {
+
+Result<std::vector<WrittenCertificate>> certify_all(const Results& results,
+                                                    const ProjectInputs& read,
+                                                    const Arranged& arranged,
+                                                    const fs::path& folder, const Run& run) {
     const Project& project = results.project;
     std::vector<WrittenCertificate> written;
     if (!project.outputs.certificate) return written;
@@ -183,6 +189,16 @@ Result<std::vector<WrittenCertificate>> write_certificates(const Results& result
         !done)
         return done.error();
     return written;
+}
+
+} // namespace
+
+Result<std::vector<WrittenCertificate>> write_certificates(const Results& results,
+                                                           const ProjectInputs& read,
+                                                           const Arranged& arranged,
+                                                           const fs::path& folder, const Run& run) {
+    return guarded("for the certificates", "certificate",
+                   [&] { return certify_all(results, read, arranged, folder, run); });
 }
 
 } // namespace terrane

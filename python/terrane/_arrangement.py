@@ -17,7 +17,7 @@ from ._report import facts
 from ._results import Result, counted
 from ._rounding import RoundingReport, rounding_report
 from ._run import how
-from ._surface import Surface, as_surfaces, parts_of_surfaces
+from ._surface import Surface, as_surfaces, parts_of_surfaces, surface_of_parts
 
 
 class Arrangement(Result):
@@ -240,10 +240,11 @@ def _cut_again(whole: Arrangement, boundary: List[int]) -> Arrangement:
     return Arrangement(core, ("cut", whole, boundary))
 
 
-def _sealed_again(surfaces: List[Surface], distance: float, distance_of: Dict[str, float],
-                  changed: List[Surface]) -> Arrangement:
-    core, _, _ = _core.seal(parts_of_surfaces(surfaces), distance, distance_of, how(None, None))
-    return Arrangement(core, ("seal", surfaces, distance, distance_of, changed))
+def _sealed_again(surfaces: List[Surface], distance: float, distance_of: Dict[Any, float],
+                  _: List[Surface]) -> Arrangement:
+    # The surfaces that were changed are made again as well: those of a changed pickle need not be of this arrangement.
+    core, made, _report = _core.seal(parts_of_surfaces(surfaces), distance, distance_of, how(None, None))
+    return Arrangement(core, ("seal", surfaces, distance, distance_of, [surface_of_parts(p) for p in made]))
 
 
 class RoundedMesh(Result):

@@ -174,7 +174,7 @@ def test_to_pyvista_of_models(results, pyvista):
 @pytest.mark.tetgen
 def test_to_pyvista_of_tetrahedra(results, pyvista):
     made = results["Tetrahedra"].to_pyvista()
-    assert (made.kinds == 10).all() and len(made.cell_data["region"]) == len(made.kinds)
+    assert (made.kinds == 10).all() and len(made.cell_data["block"]) == len(made.kinds)
 
 
 def test_without_pyvista_an_error_says_so(results, monkeypatch):

@@ -420,11 +420,19 @@ def test_built_tetrahedra_are_those_of_the_program():
 
 
 @pytest.mark.parametrize("change, words", [({"colour": 1}, "colour"), ({"format": "x"}, "format"), ({"surfaces": []}, "surfaces"),
-                                           ({"seal": -1}, "seal"), ({"outputs": {"certificate": True, "surfaces": ["vtp"]}},
-                                                                    "terrane build")])
+                                           ({"seal": -1}, "seal"),
+                                           ({"outputs": {"certificate": True, "surfaces": ["vtp"]},
+                                             "surfaces": [{"file": "top.ts", "objects": ["top"]}]}, "whole files")])
 def test_projects_that_are_refused(change, words):
     with pytest.raises(terrane.Error, match=words):
         terrane.build({**project(), **change})
+
+
+def test_certificates_of_a_project_hold():
+    wanted = {**project(), "outputs": {"certificate": True, "surfaces": ["vtp"], "blocks": "vtp"}}
+    terrane.build(wanted).save("certified")
+    for name in ("certificate.json", "certificate_blocks.json"):
+        assert not terrane.verify("certified/" + name).violations
 
 
 def test_errors_of_projects_name_their_key():

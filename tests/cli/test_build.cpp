@@ -290,7 +290,7 @@ TEST_CASE("cli: build: tetrahedra with sizes and cuts, by name", "[cli][once]") 
     CHECK(contains(msh, "\"block 2: below top, above base"));
     CHECK(contains(c.folder.read("fine/tetrahedra.inp"), "NSET=F1_PAIRS_BACK, UNSORTED"));
     // The same block is named by its name instead of its number, and the outside is filled.
-    const auto name_at = msh.find("\"block 2: ") + 11;
+    const auto name_at = msh.find("\"block 2: ") + 10;
     const auto name = msh.substr(name_at, msh.find('"', name_at) - name_at);
     json["tetrahedra"] = Json{{"size_in", Json{{name, 0.7}}}, {"split", Json::array({"F1"})}};
     CHECK(counts("named")["tetrahedra_of_block"] == fine["tetrahedra_of_block"]);

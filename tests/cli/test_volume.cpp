@@ -214,10 +214,9 @@ TEST_CASE("cli: volume: a block that only rounding made has the exact volume 0",
     CHECK(contains(made.out, "doubles: 1 block that the exact surfaces do not enclose"));
     const auto blocks = Json::parse(folder.read("out/model.json"))["blocks"];
     REQUIRE(blocks.size() == 2);
-    for (const auto& block : blocks) {
-        CHECK(block["volume"] == 0.0); // null is not equal to it
-        CHECK(block["volume_written"] > 2);
-    }
+    CHECK_FALSE(blocks[0].contains("volume"));
+    CHECK(blocks[1]["volume"] == 0.0); // null is not equal to it
+    CHECK(blocks[1]["volume_written"] > 2);
 }
 
 TEST_CASE("cli: tables of relations and juxtapositions", "[cli]") {

@@ -8,10 +8,12 @@
 
 #include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/io/certify.hpp>
 #include <terrane/io/meshes/pvtp.hpp>
 #include <terrane/io/points/outline.hpp>
 #include <terrane/io/points/shape_outline.hpp>
 #include <terrane/io/reading.hpp>
+#include <terrane/io/results.hpp>
 #include <terrane/io/uncertainty_maps.hpp>
 
 #include "fixture.hpp"
@@ -199,6 +201,24 @@ std::vector<Stage> reading_json() {
         "read_inputs", [parsed] { return read_inputs(parsed); },
         [](const ProjectInputs& read) { return text_of(read.build.surfaces); }));
     stages.push_back(stage(
+        "boundary_of", [parsed] { return boundary_of(parsed.volume, parsed.unit); },
+        [](const std::vector<Surface>& made) { return text_of(made); }));
+    stages.push_back(stage(
+        "build_model", [parsed] { return build_model(parsed); },
+        [](const Built& built) { return text_of(*built.model->mesh); }));
+    auto certified = parsed;
+    certified.outputs.certificate = true;
+    certified.surfaces[0].objects.emplace_back("an object with a long name");
+    stages.push_back(stage(
+        "check_certifiable",
+        [certified] {
+            const auto checked = check_certifiable(certified);
+            const bool refused =
+                !checked && checked.error().code == ErrorCode::bad_option; // as it must
+            return refused ? Status(Done{}) : checked;
+        },
+        [](Done) { return std::string("refused"); }));
+    stages.push_back(stage(
         "read_column", [column] { return read_column(column); },
         [](const StratigraphicColumn& read) { return read.front().name; }));
     stages.push_back(stage(
@@ -212,6 +232,14 @@ std::vector<Stage> reading_json() {
     stages.push_back(stage(
         "read_uncertainty_maps", [uncertain] { return read_uncertainty_maps(uncertain); },
         [](const std::vector<std::optional<Surface>>& maps) { return text_of({*maps[1]}); }));
+    stages.push_back(stage(
+        "certify",
+        [&f, obj] {
+            CertifiedResult result = result_of(f.arranged);
+            result.inputs.push_back({obj, f.arranged.surfaces.size()});
+            return certify(result, "a certificate with a long name.json");
+        },
+        [](const std::string& text) { return text; }));
     stages.push_back(stage_of(
         "record_input", [] { return std::string("a name in the certificate, with memory"); },
         [obj](std::string name) { return record_input(obj, std::move(name), 1); },

@@ -8,6 +8,7 @@
 #include <terrane/algorithms/tiles/local_supersteps.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/meshes/pvtp_output.hpp>
+#include <terrane/io/results.hpp>
 #ifdef TERRANE_TESTS_PAGE
 #include <terrane/io/page/page.hpp>
 #endif
@@ -62,6 +63,44 @@ std::vector<Stage> writing_tetrahedra() {
     return stages;
 }
 
+/// Writes what a project asks for, and its certificates, into a new folder each time.
+std::vector<Stage> writing_results(const Fixture& f, const std::optional<LeakAdvice>& leaks) {
+    static const Project project = [] {
+        Project made;
+        made.surfaces.push_back({written("input of a certificate with a long name.obj",
+                                         needed(format_mesh(*Fixture::get().mesh, Format::obj)))});
+        made.outputs.surfaces = {"obj", "poly"};
+        made.outputs.blocks = "vtp";
+        made.outputs.certificate = true;
+        return made;
+    }();
+    static const Results results{project, f.model, nullptr, f.arranged.sealed, leaks};
+    const auto fresh = [] {
+        const fs::path folder = project.surfaces[0].file.parent_path() / "results of a project";
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+        return folder;
+    };
+    ProjectInputs read;
+    read.surfaces_of_entry.push_back(f.arranged.surfaces.size());
+    for (const Surface& s : f.arranged.surfaces) read.as_read.push_back({s.name + "2", s.role});
+    return {stage_of(
+                "write_results", fresh,
+                [](const fs::path& folder) { return write_results(results, folder); },
+                [](const std::vector<std::string>& names) { return names.back(); }),
+            stage_of(
+                "write_certificates",
+                [fresh] {
+                    const fs::path folder = fresh();
+                    needed(write_results(results, folder));
+                    return folder;
+                },
+                [&f, read](const fs::path& folder) {
+                    return write_certificates(results, read, f.arranged, folder);
+                },
+                [](const std::vector<WrittenCertificate>& made) { return made.back().name; })};
+}
+
 std::vector<Stage> writing_models() {
     const Fixture& f = Fixture::get();
     static const std::optional<LeakAdvice> leaks = needed(judge_leaks(f.arranged, f.model.borders));
@@ -75,6 +114,7 @@ std::vector<Stage> writing_models() {
             [&f, format = std::string(format)](const fs::path& path) {
                 return write_model_folder({f.model, f.arranged.sealed, leaks}, format, path);
             }));
+    for (Stage& made : writing_results(f, leaks)) stages.push_back(std::move(made));
     return stages;
 }
 
