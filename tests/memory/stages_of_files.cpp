@@ -232,12 +232,15 @@ std::vector<Stage> reading_json() {
     stages.push_back(stage(
         "read_uncertainty_maps", [uncertain] { return read_uncertainty_maps(uncertain); },
         [](const std::vector<std::optional<Surface>>& maps) { return text_of({*maps[1]}); }));
-    stages.push_back(stage(
+    stages.push_back(stage_of(
         "certify",
         [&f, obj] {
             CertifiedResult result = result_of(f.arranged);
             result.inputs.push_back({obj, f.arranged.surfaces.size()});
-            return certify(result, "a certificate with a long name.json");
+            return result;
+        },
+        [path = fs::path("a certificate with a long name.json")](const CertifiedResult& result) {
+            return certify(result, path);
         },
         [](const std::string& text) { return text; }));
     stages.push_back(stage_of(
