@@ -51,8 +51,8 @@ terrane_code terrane_build(const char* json, const char* folder, const terrane_s
             terrane::parse_project(needed_text(json, "json"), folder ? folder : "", "project");
         if (!project) return project.error();
         if (!surfaces) return handle_of(build_model(*project, run_of(run)));
-        return handle_of(build_model(*std::move(project), needed(surfaces, "surfaces").list,
-                                     run_of(run)));
+        return handle_of(
+            build_model(*std::move(project), needed(surfaces, "surfaces").list, run_of(run)));
     });
 }
 

@@ -30,4 +30,6 @@ int list_blocks() {
 
 } // namespace
 
-int main() { return list_blocks(); }
+int main() {
+    return list_blocks();
+}

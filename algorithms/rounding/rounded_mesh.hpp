@@ -51,20 +51,22 @@ struct RoundingReport {
     /// an input triangle is farther from its parts, except for what vanished; unit of the input.
     double surface_deviation = 0;
     double max_allowed = 0; ///< the limit of surface_deviation: max_move of the options
-    double vanished_length = 0; ///< points of slivers that became narrower than doubles, and vanished,
-                            ///< are at most so much farther from the mesh
-    double max_move = 0;    ///< no vertex is farther from its exact point
+    double vanished_length =
+        0;               ///< points of slivers that became narrower than doubles, and vanished,
+                         ///< are at most so much farther from the mesh
+    double max_move = 0; ///< no vertex is farther from its exact point
     bool arranged_again = false; ///< whether exact points are those in which surfaces cross after
                                  ///< they were moved, by at most surface_deviation
     double deviation = 0; ///< what a certificate states of all points, vanished slivers included:
-                          ///< >= surface_deviation + vanished_length, >= max_move of the same triangles
-    std::array<std::size_t, 32> moves{};   ///< vertices by move: [0] none, [k] from 10^(k - 24) on
-    std::size_t moved_input_vertices = 0;  ///< number of input vertices that moved
-    std::size_t merged_vertices = 0;       ///< number of points that were merged with another one
-    std::size_t collapsed_triangles = 0;   ///< number of triangles that lost their area
-    std::vector<VanishedRegions> vanished_regions; ///< surfaces with fewer regions than the exact ones
-    std::vector<std::uint32_t> vanished;   ///< input triangles without any part left, ascending
-    std::optional<PairCounts> pairs;       ///< what decided each pair of triangles, if counted
+        ///< >= surface_deviation + vanished_length, >= max_move of the same triangles
+    std::array<std::size_t, 32> moves{};  ///< vertices by move: [0] none, [k] from 10^(k - 24) on
+    std::size_t moved_input_vertices = 0; ///< number of input vertices that moved
+    std::size_t merged_vertices = 0;      ///< number of points that were merged with another one
+    std::size_t collapsed_triangles = 0;  ///< number of triangles that lost their area
+    std::vector<VanishedRegions>
+        vanished_regions;                ///< surfaces with fewer regions than the exact ones
+    std::vector<std::uint32_t> vanished; ///< input triangles without any part left, ascending
+    std::optional<PairCounts> pairs;     ///< what decided each pair of triangles, if counted
 };
 
 /// The mesh of doubles, with regions, parents and intersection edges, and the report.

@@ -207,7 +207,7 @@ Result<FilledBlocks> fill_blocks(const Model& model, const TetrahedraRequest& re
             if (auto done = finish(request, *split, filled.tetrahedra, filled.added_nodes); !done)
                 return done.error();
         if (violations.empty() && !request.outside)
-            filled.report.volumes[0] = {.equal = true}; // its tetrahedra are gone
+            filled.report.volumes[0] = {.equal = true};    // its tetrahedra are gone
         filled.report.shape = shape_of(filled.tetrahedra); // of those that are left
         for (const ModelBlock& block : model.structure.blocks)
             filled.block_names.push_back(block.name);

@@ -13,7 +13,7 @@
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t most_blocks = 50; ///< listed on the terminal
+constexpr std::size_t most_listed_blocks = 50; ///< listed on the terminal
 constexpr std::size_t most_leaks = 20;
 constexpr std::size_t most_dangling = 40; ///< surfaces
 
@@ -23,11 +23,12 @@ std::string blocks_text(const Inputs& inputs, const Model& model) {
     const std::size_t count = model.block_count();
     auto text = fmt::format("{}, volume {} in all\n", counted(count, "closed block"),
                             quantities.volume(model.exact_volumes[0], 9));
-    for (std::size_t b = 1; b <= std::min(count, most_blocks); ++b)
+    for (std::size_t b = 1; b <= std::min(count, most_listed_blocks); ++b)
         text += fmt::format(
             "  block {:<4} volume {:<16} {}\n", b, quantities.volume(model.exact_volumes[b], 9),
             blocks[b].interfaces.empty() ? "(too thin for doubles)" : blocks[b].name);
-    if (count > most_blocks) text += fmt::format("  and {} more\n", count - most_blocks);
+    if (count > most_listed_blocks)
+        text += fmt::format("  and {} more\n", count - most_listed_blocks);
     if (model.lost > 0)
         text +=
             fmt::format("doubles: {} too thin, and not written\n", counted(model.lost, "block"));
