@@ -149,7 +149,7 @@ void add_outside(Certificate& c, const Arguments& n) {
 
 /// Gives a coordinate of the boundary another value wherever it is: in the description of a prism,
 /// in the vertices of its sides, and in the doubles.
-void move_side(Certificate& c, const Arguments& n) {
+void move_boundary_side(Certificate& c, const Arguments& n) {
     VolumeClaim& volume = c.cut->volume;
     if (volume.boundary.empty()) return;
     const auto& vertices = volume.boundary[pick(n.a, volume.boundary.size())].vertices;
@@ -242,7 +242,7 @@ void exchange_parents(Certificate& c, const Arguments& n) {
 constexpr std::array<Change, 8> cut_changes{{
     {"triangles dropped or kept", change_dropped},
     {"triangle outside added to the doubles", add_outside},
-    {"side of the volume moved", move_side},
+    {"side of the volume moved", move_boundary_side},
     {"boundary turned over", turn_boundary},
     {"shape changed", change_shape},
     {"corners in another order", change_corners},

@@ -74,13 +74,14 @@ struct Horizons {
 
 /// What is over a place: a layer keeps the thickness from the harder ones, and lies on the upper
 /// one where they leave less room.
-struct Column {
+struct LayerColumn {
     std::vector<std::optional<Over>> own, right; ///< per layer: its surface; where it must be
     bool near_side = false;                      ///< rounding may decide which
 };
 
-Column column_at(const Horizons& horizons, const Point3& place, double width, double thickness) {
-    Column column;
+LayerColumn column_at(const Horizons& horizons, const Point3& place, double width,
+                      double thickness) {
+    LayerColumn column;
     for (const auto& list : horizons.triangles) {
         std::optional<Over> found;
         for (const Corners3& t : list) {
@@ -168,7 +169,7 @@ private:
     }
 
     std::string flaw_at(const Point3& place) const {
-        const Column column = column_at(horizons_, place, width_, thickness_);
+        const LayerColumn column = column_at(horizons_, place, width_, thickness_);
         if (column.near_side) return "";
         std::vector<std::size_t> times(column.own.size());
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
