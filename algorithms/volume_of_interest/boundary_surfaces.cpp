@@ -329,6 +329,10 @@ Result<std::vector<Surface>> rotated_box_boundary(const RotatedBox& box) {
             if (!(length > 0))
                 return Error{ErrorCode::bad_option, "the lengths of its edges must be positive",
                              "rotated box"};
+        for (const double degrees : {box.azimuth, box.plunge, box.roll})
+            if (!(std::fabs(degrees) <= 360))
+                return Error{ErrorCode::bad_option, "its angles must be from -360 to 360 degrees",
+                             "rotated box"};
         const auto axes = axes_of(box);
         const double low = box.is_corner ? 0 : -0.5, high = box.is_corner ? 1 : 0.5;
         const auto ring = [&](double level) {

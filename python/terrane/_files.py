@@ -16,9 +16,7 @@ from ._surface import Surface, as_surfaces, surface_of_parts
 
 
 def _paths(value: Any) -> List[str]:
-    """Return the files that a path, a pattern, or a list of these stands for."""
-    if isinstance(value, (list, tuple)):
-        return [path for item in value for path in _paths(item)]
+    """Return the files that a path or a pattern stands for."""
     if not isinstance(value, (str, bytes, os.PathLike)):
         raise TypeError(f"path is a path, or a list of paths, not {type(value).__name__}")
     path = os.fsdecode(value)
@@ -70,7 +68,7 @@ def read(path: Any, *, format: Optional[str] = None, depth: bool = False, max_ed
     options = (as_format(format), as_flag(depth, "depth"), as_number(max_edge, "max_edge", least=0),
                as_word(unit, "unit"))
     of = as_mapping(roles, "roles")
-    names = _paths(path)
+    names = [name for item in (path if isinstance(path, (list, tuple)) else [path]) for name in _paths(item)]
     _core.check_reading([os.path.basename(name).encode(errors="replace").decode() for name in names], *options[:3])
     surfaces = [surface_of_parts(parts) for name in names
                 for parts in _core.read(name, *options, how(threads, progress))]

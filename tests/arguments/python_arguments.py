@@ -48,14 +48,17 @@ NONSENSE = {
     "array of objects": np.array([object()]), "array": np.zeros((2, 2, 2)), "strings": np.array(["a"]), "function": print,
     "type": int, "infinite": (math.inf, -math.inf), "set": {1}, "path": pathlib.Path("/dev/null/nothing"),
     "own": terrane.IndexLists([0, 1], [0])}
+#: Values that have a meaning, with which the fixtures happen to give the same.
+SAME = {"zero": {"max_rounds"}, "set": {"holes"}, "true": {"isotropic", "bridge_faults", "keep_unverified"}}
 #: Limits that such a large number does not reach.
-LIMITS = {"max_move", "max_area", "max_deviation", "max_change", "time_limit", "max_triangles", "max_volume_change", "growth",
+LIMITS = {"extend", "min_volume", "distance", "max_move", "max_area", "max_deviation", "max_change", "time_limit", "max_triangles", "max_volume_change", "growth",
           "crease_angle", "curve_angle", "max_edge", "max_volume", "retries", "quality", "turn", "mesh_size", "rings",
           "layers_in_gaps", "thickness_share", "curve_length", "smallest", "gap_slope", "least_quality"}
 LARGE = {"huge", "large", "inf", "half"}
 #: Names of anything, which have no meaning that could be wrong, and how an ensemble is computed, which changes no result.
 NAMES = {"engine", "retries", "keep", "place", "name", "code", "sentence", "default", "helper", "gmsh_helper"}
-REFUSALS = (terrane.Error, TypeError, ValueError, OverflowError, KeyError, IndexError, OSError, ImportError)
+REFUSALS = (terrane.Error, TypeError, ValueError, OverflowError, KeyError, IndexError, OSError, ImportError,
+            RecursionError)  # by Python's own repr of lists in lists
 
 
 def parameters(call):
@@ -124,7 +127,7 @@ def print_of(value, depth=0):
     if not kind.__module__.startswith("terrane") or depth > 2:
         return kind.__name__ if kind.__module__.startswith("terrane") else repr(value)
     names = [n for n in dir(kind) if not n.startswith("_") and not callable(getattr(kind, n))]
-    return kind.__name__ + print_of({n: getattr(value, n) for n in names if n != "model"}, depth + 1)
+    return (repr(value) if kind.__repr__ is not object.__repr__ else kind.__name__) + print_of({n: getattr(value, n) for n in names if n != "model"}, depth + 1)
 
 
 def files_here(kept):
@@ -189,7 +192,7 @@ class Trial:
             return None
         if name == "progress" and callable(value):  # print is told of it
             return None
-        if (not_given(value) and not_given(usual)) or (name in LIMITS and label in LARGE) or name in NAMES:
+        if (not_given(value) and not_given(usual)) or (name in LIMITS and label in LARGE) or name in NAMES or name in SAME.get(label, ()):
             return None
         try:
             if type(value) is type(usual) and bool(value == usual) or bool(value) == usual:

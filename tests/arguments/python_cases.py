@@ -141,7 +141,7 @@ FUNCTIONS = {
     "closed": (lambda f: dict(surfaces=terrane.box(*BOX)), {}),
     "extend": (lambda f: dict(surfaces=f.short, boundary=terrane.box((0, 0, -2), (5, 5, 2)), limit=2), {}),
     "seal": (lambda f: dict(surfaces=f.short, distance=0.3), {"distance_of": None}),
-    "suggest_seal": (lambda f: dict(surfaces=f.short), {"box": BOX}),
+    "suggest_seal": (lambda f: dict(surfaces=f.short, box=BOX), {}),
     "improve": (lambda f: dict(mesh=f.model.mesh), {
         "edge_length": 2, "max_deviation": 1e-3, "edge_length_of": {"top": 0.3}, "passes": 1, "resolution": 0.2,
         "dissolve": None, "curve_length": 0.4, "turn": None, "layers_in_gaps": None, "smallest": None,
