@@ -51,6 +51,9 @@ struct RoundingReport {
     /// an input triangle is farther from its parts, except for what vanished; unit of the input.
     double surface_deviation = 0;
     double max_allowed = 0; ///< the limit of surface_deviation: max_move of the options
+    double sufficient_limit =
+        0; ///< of max_allowed, with which the mesh is conforming; 0: not looked for as
+           ///< it is, or max_move was given, or not found
     double vanished_length =
         0;               ///< points of slivers that became narrower than doubles, and vanished,
                          ///< are at most so much farther from the mesh

@@ -102,7 +102,7 @@ public:
 
     /// Returns the first rounding that is conforming, or the one before any was attempted.
     Result<RoundedMesh> operator()() {
-        const unsigned most = task_.options.max_rounds;
+        const unsigned most = task_.most_attempts;
         const auto done = attempt_moves(*this, task_.limit, most > rounds_ ? most - rounds_ : 0);
         if (!done) return done.error();
         return found_ ? std::move(*found_) : std::move(first_);
@@ -172,16 +172,15 @@ Result<std::optional<ClusterFrame>> MovedWhole::cluster_frame() {
     return ClusterFrame::of(inputs(), input_.chosen(), normals, tolerance);
 }
 
-Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& options,
-                              const Run& run) {
-    const Task task{options, options.max_move.value_or(default_max_move(a)), a.state->kept_planes,
-                    run};
+/// Rounds where the surfaces lie, then with a moved input.
+Result<RoundedMesh> round_once(const Arrangement& a, const Task& task) {
     // Arranging the input again would restore triangles that were removed from the arrangement.
     const bool may_move_input =
-        (a.state->whole || a.state->restrict_again) && options.max_rounds > 0;
+        (a.state->whole || a.state->restrict_again) && task.options.max_rounds > 0;
     const MovedInput unmoved;
-    Rounding where_it_lies(a, unmoved,
-                           may_move_input && a.state->whole ? Repairs::sparse : Repairs::all, task);
+    const auto first = task.repairs_places ? Repairs::possible : Repairs::sparse;
+    Rounding where_it_lies(a, unmoved, may_move_input && a.state->whole ? first : Repairs::all,
+                           task);
     auto rounded = where_it_lies();
     const auto is_unclean = [&] { return rounded && !rounded.value().report.clean; };
     if (is_unclean() && may_move_input) {
@@ -190,6 +189,53 @@ Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& optio
         rounded = MovedWhole(a, std::move(rounded).value(), std::move(in_contact), task)();
     }
     if (is_unclean() && where_it_lies.left()) rounded = Rounding(a, unmoved, Repairs::all, task)();
+    return rounded;
+}
+
+/// Returns the least limit, a power of two times that of the task, with which the mesh is conforming; 0: it is with
+/// none of those that were tried.
+Result<double> sufficient_limit(const Arrangement& a, Task task) {
+    const double limit = task.limit;
+    task.repairs_places = false; // so that it takes less time
+    const auto suffices = [&](int digits) -> Result<bool> {
+        task.limit = std::ldexp(limit, digits);
+        const auto rounded = round_once(a, task);
+        if (!rounded) return rounded.error();
+        return rounded->report.clean;
+    };
+    const int step = rounding_tuning.limit_digits;
+    for (int digits = step; digits <= 6 * step; digits += step) {
+        auto done = suffices(digits);
+        if (!done) return done.error();
+        if (!*done) continue;
+        int least = digits - step;
+        while (digits - least > 1) {
+            const int middle = least + (digits - least) / 2;
+            done = suffices(middle);
+            if (!done) return done.error();
+            (*done ? digits : least) = middle;
+        }
+        return std::ldexp(limit, digits);
+    }
+    return 0.0;
+}
+
+Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& options,
+                              const Run& run) {
+    Task task{options, options.max_move.value_or(default_max_move(a)), a.state->kept_planes, run};
+    auto rounded = round_once(a, task);
+    const auto is_unclean = [&] { return rounded && !rounded->report.clean; };
+    if (is_unclean() && options.max_rounds > 0) {
+        task.repairs_places = true;
+        task.most_attempts *= rounding_tuning.more_attempts;
+        auto again = round_once(a, task);
+        if (!again || again->report.clean) rounded = std::move(again);
+    }
+    if (is_unclean() && options.max_rounds > 0 && !options.max_move) {
+        const auto limit = sufficient_limit(a, task);
+        if (!limit) return limit.error();
+        rounded->report.sufficient_limit = *limit;
+    }
     if (!rounded) return rounded;
     const RoundingReport& report = rounded->report;
     if (!report.vanished.empty()) {

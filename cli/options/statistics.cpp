@@ -58,6 +58,7 @@ void add_statistics(Json& json, const RoundedMesh& rounded) {
     json["rounding"] = {{"iterations", r.rounds},
                         {"surface_deviation", r.surface_deviation},
                         {"max_allowed", r.max_allowed},
+                        {"sufficient_limit", r.sufficient_limit},
                         {"vanished_length", r.vanished_length},
                         {"max_move", r.max_move},
                         {"arranged_again", r.arranged_again},

@@ -112,6 +112,8 @@ std::string rounding_text(const RoundingReport& r) {
                                   "surface may move by more than {:.3g} to separate them\n",
                                   bad("NOT verified:"), at_least(r.contacts.size()),
                                   counted(r.contacts.size(), "pair"), r.max_allowed);
+    if (r.sufficient_limit > 0)
+        text += fmt::format("--max-move {} would do\n", r.sufficient_limit);
     return text + text_of(r.pairs);
 }
 

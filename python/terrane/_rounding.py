@@ -49,6 +49,7 @@ class RoundingReport(NamedTuple):
     contacts: List[Contact]
     surface_deviation: float
     max_allowed: float
+    sufficient_limit: float
     vanished_length: float
     max_move: float
     arranged_again: bool

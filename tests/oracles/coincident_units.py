@@ -15,7 +15,7 @@ decimals  rounded to three decimals
 moved     each vertex moved by up to 1, 1e2, 1e4 or 1e6 spacings of the doubles
 Each may be shifted to map coordinates of millions of metres (utm).
 
-Each model must end in a conforming mesh within the default limit of moves, or with the limit named that would do, within which
+Each model must end in a conforming mesh, as `terrane check` says of the file, within the default limit of moves, or with the limit named that would do, within which
 it must then end conforming. Prints a line for each model that does not, and a table; status 1 if there is one.
 """
 import argparse
@@ -131,9 +131,11 @@ def run(args, path, folder, more=()):
     stats = folder / "stats.json"
     stats.unlink(missing_ok=True)
     begin = time.perf_counter()
-    made = subprocess.run([args.terrane, "arrange", path, "-o", folder / "out.vtp", "--stats", stats, "--threads", str(args.threads),
+    made = subprocess.run([args.terrane, "arrange", path, "-o", folder / "out.obj", "--stats", stats, "--threads", str(args.threads),
                            *args.options.split(), *more], capture_output=True, text=True)
     seconds = time.perf_counter() - begin
+    if made.returncode == 0:
+        made.returncode = subprocess.run([args.terrane, "check", folder / "out.obj"], capture_output=True).returncode * 100
     return made, json.loads(stats.read_text()) if stats.exists() else {}, seconds
 
 

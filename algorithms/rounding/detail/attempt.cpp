@@ -119,6 +119,7 @@ void Rounding::repair(std::vector<CandidatePair>& pairs) {
                           options_.max_rounds,
                           hopeless_from(arrangement_.triangles.size()),
                           arrangement_.state->whole,
+                          task_.repairs_places,
                           tests_all()};
     Repair repair(state_, task, run_);
     repair(pairs);

@@ -34,6 +34,8 @@ struct Task {
     double limit;           ///< of surface_deviation
     const KeptPlanes& kept; ///< as given, in no frame
     const Run& run;
+    bool repairs_places = false;                 ///< see RepairTask
+    unsigned most_attempts = options.max_rounds; ///< with moved inputs
 };
 
 /// How many contacts a rounding repairs at most.

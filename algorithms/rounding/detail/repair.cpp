@@ -13,6 +13,7 @@
 #include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/rounding/detail/neighbouring_doubles.hpp>
 #include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
+#include <terrane/algorithms/rounding/detail/places.hpp>
 #include <terrane/algorithms/rounding/detail/tuning.hpp>
 
 namespace terrane::rounding::detail {
@@ -76,7 +77,21 @@ std::vector<CandidatePair> Repair::contacts() {
     return find_contacts(state_, task_.tests_all, is_improper, quiet_);
 }
 
+std::optional<SnapGrid> Repair::grid(int digits) const {
+    return grid_of_digits(state_.points, digits, task_.limit - deviation(), task_.kept,
+                          largest_elsewhere());
+}
+
 void Repair::operator()(std::vector<CandidatePair>& pairs) {
+    in_rounds(pairs);
+    const bool are_few = pairs.size() < crowded_from(state_.all_triangles());
+    if (!task_.repairs_places || pairs.empty() || !are_few || is_stuck()) return;
+    pairs = repair_places(state_, task_, std::move(pairs), run_);
+    has_snapped_ = true;
+    ++rounds_;
+}
+
+void Repair::in_rounds(std::vector<CandidatePair>& pairs) {
     std::vector<int> grids(rounding_tuning.fine_digits.begin(), rounding_tuning.fine_digits.end());
     if (!task_.is_whole)
         grids.insert(grids.end(), rounding_tuning.coarse_digits.begin(),
@@ -84,8 +99,7 @@ void Repair::operator()(std::vector<CandidatePair>& pairs) {
     for (auto digits = grids.begin(); digits != grids.end();) {
         if (pairs.size() <= rounding_tuning.few) search_nearby(pairs);
         if (pairs.empty() || rounds_ == task_.max_rounds || is_stuck()) return;
-        const auto grid = grid_of_digits(state_.points, *digits, task_.limit - deviation(),
-                                         task_.kept, largest_elsewhere());
+        const auto grid = this->grid(*digits);
         if (!grid) return;
         ++rounds_;
         const RoundingState before = state_;
@@ -100,6 +114,17 @@ void Repair::operator()(std::vector<CandidatePair>& pairs) {
         if (task_.is_whole && rounding_tuning.shrinking * pairs.size() > count) return;
         if (task_.is_whole || pairs.size() == count) ++digits;
     }
+}
+
+bool Repair::on_grid(const SnapGrid& grid) {
+    auto pairs = contacts();
+    const std::size_t most = 2 * pairs.size() + rounding_tuning.sampled;
+    for (unsigned round = 0; round < rounding_tuning.place_rounds && !pairs.empty(); ++round) {
+        if (grid.reach() > task_.limit - deviation() || !snap_round(pairs, grid)) return false;
+        pairs = contacts();
+        if (is_stuck() || deviation() > task_.limit || pairs.size() > most) return false;
+    }
+    return pairs.empty() && !is_stuck();
 }
 
 /// Moves few vertices to doubles nearby, as one round, if that leaves fewer contacts.

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct RepairTask {
     unsigned max_rounds = 0;      ///< of moving and snapping
     std::size_t hopeless = 0;     ///< least number of contacts that are not divided
     bool is_whole = true;         ///< see Repair::operator()
+    bool repairs_places = false;  ///< whether places are repaired one by one at last
     bool tests_all = false;       ///< whether searches test all pairs
     const Elsewhere* elsewhere{}; ///< null: the state has the whole mesh
 };
@@ -67,6 +69,11 @@ public:
     /// Therefore a part of one gets coarser grids, too, each as long as it removes contacts.
     void operator()(std::vector<CandidatePair>& pairs);
 
+    /// Returns the grid of so many digits, or a coarsest finer one that the limit allows.
+    [[nodiscard]] std::optional<SnapGrid> grid(int digits) const;
+    /// Snaps what is in contact to a grid, round after round. Returns whether nothing is in contact then.
+    bool on_grid(const SnapGrid& grid);
+
     /// Merges equal points and drops triangles without area, as RoundingState::tidy does. Returns
     /// false, and does nothing, if what it needs is missing.
     bool tidy();
@@ -83,6 +90,7 @@ public:
     [[nodiscard]] bool has_snapped() const { return has_snapped_; }
 
 private:
+    void in_rounds(std::vector<CandidatePair>& pairs);
     void search_nearby(std::vector<CandidatePair>& pairs);
     bool snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid);
     bool snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid);

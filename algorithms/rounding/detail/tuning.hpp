@@ -23,7 +23,9 @@ namespace terrane::rounding::detail {
 ///     (coplanar_half_turned), this happens at once, because fine rounds would only multiply them.
 /// (3) For a part of an arrangement (restricted.hpp) that is the last resort: what was removed would
 ///     be decided again. It gets all grids in place first, each as long as it removes contacts.
-/// (4) No grid moves a point farther than surfaces may move. By default that is 1024 spacings of
+/// (4) If all that fails, it is done once more, and what is left at the end of each repair is repaired place by
+///     place (places.hpp), so that one that can't be repaired does not keep others from it.
+/// (5) No grid moves a point farther than surfaces may move. By default that is 1024 spacings of
 ///     the doubles, which nearly coplanar surfaces need: snapped to a grid of 512 spacings, most of
 ///     their parts are so far from each other that rounding to doubles does not make them cross.
 struct RoundingTuning : Constants {
@@ -35,6 +37,20 @@ struct RoundingTuning : Constants {
         add<int>({"coarse_digits_1", "coarse_digits_2", "coarse_digits_3", "coarse_digits_4",
                   "coarse_digits_5", "coarse_digits_6"},
                  {9, 16, 20, 24, 28, 32});
+    /// Grids for a place that is repaired by itself, in this order, as far as the limit of moves allows.
+    std::array<int, 12> place_digits =
+        add<int>({"place_digits_1", "place_digits_2", "place_digits_3", "place_digits_4",
+                  "place_digits_5", "place_digits_6", "place_digits_7", "place_digits_8",
+                  "place_digits_9", "place_digits_10", "place_digits_11", "place_digits_12"},
+                 {4, 6, 8, 9, 10, 12, 14, 16, 18, 20, 24, 28});
+    /// Rounds on each of them.
+    unsigned place_rounds = add("place_rounds", 4);
+    /// How often all places that are left are repaired again, and how often what a place needs around it grows.
+    unsigned place_repeats = add("place_repeats", 8);
+    /// So many times as many attempts with moved inputs are made if all have failed before.
+    unsigned more_attempts = add("more_attempts", 3);
+    /// Digits that the limit of moves gets at first, and more each time, when one is looked for that would do.
+    int limit_digits = add("limit_digits", 4);
     /// The largest move allowed by default, as digits of a grid.
     int allowed_digits = add("allowed_digits", 10);
     /// Inputs are decimals only if the spacing of doubles is less than this share of that of the
