@@ -13,11 +13,9 @@
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/structure/stated_blocks.hpp>
-#include <terrane/io/gocad/gocad.hpp>
+#include <terrane/algorithms/structure/block_names.hpp>
+#include <terrane/algorithms/volumes/point_location.hpp>
 #include <terrane/io/grids/grid.hpp>
-#include <terrane/io/meshes/cell_array.hpp>
-#include <terrane/io/meshes/poly.hpp>
 
 namespace terrane {
 
@@ -96,9 +94,6 @@ Result<std::vector<Surface>> read_surfaces(const std::filesystem::path& path,
 /// read_surfaces.
 Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::string_view source,
                                             Format format, const ReadOptions& options = {});
-
-/// Reads a GOCAD model with its parts and regions. Errors: those of read_surfaces.
-Result<GocadModel> read_model(const std::filesystem::path& path);
 
 /// Reads the blocks that a file states, by its surfaces in the order of read_surfaces(): those of
 /// the first model of a GOCAD file but the outside, "Universe". There are none in other formats, in

@@ -11,11 +11,13 @@
 
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/model/known_arrange_within.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/project/detail/kept_results.hpp>
 #include <terrane/algorithms/project/detail/loosening.hpp>
 #include <terrane/algorithms/project/detail/refinement.hpp>
+#include <terrane/algorithms/project/known_build.hpp>
 
 namespace terrane {
 namespace {
@@ -51,10 +53,10 @@ Error flaw_of(const Preprocessed& done) {
 /// Runs the stages of one call of build().
 class Builder {
 public:
-    Builder(const Project& project, BuildInput input, const Run& run, const BuildObserver& observer,
-            const StageStore& store) :
+    Builder(const Project& project, BuildInput input, KnownTriangles* known, const Run& run,
+            const BuildObserver& observer, const StageStore& store) :
         project_(project),
-        input_(std::move(input)), run_(run), observer_(observer), store_(store) {}
+        input_(std::move(input)), known_(known), run_(run), observer_(observer), store_(store) {}
 
     Result<Built> operator()() {
         if (auto sound = check_column(project_.column, infos_of(input_.surfaces)); !sound)
@@ -107,7 +109,6 @@ private:
 
     Status arrange_surfaces() {
         ArrangeWithinOptions options{
-            .arrange = {.known = input_.known},
             .rounding = {.check = project_.check, .max_move = project_.max_move},
             .seal = project_.seal.value_or(0),
             .seal_automatic = project_.seal == 0.0,
@@ -120,8 +121,11 @@ private:
             if (!rules) return at_key(project_, "seal_of." + name, rules.error());
             options.seal_rules.insert(options.seal_rules.end(), rules->begin(), rules->end());
         }
+        auto &surfaces = input_.surfaces, &boundary = input_.boundary;
         auto arranged =
-            arrange_within(std::move(input_.surfaces), std::move(input_.boundary), options, run_);
+            known_ != nullptr
+                ? arrange_within(std::move(surfaces), std::move(boundary), options, *known_, run_)
+                : arrange_within(std::move(surfaces), std::move(boundary), options, run_);
         if (!arranged) return arranged.error();
         built_.arranged = std::move(*arranged);
         built_.labels = unique_labels(infos_of(built_.arranged.surfaces));
@@ -347,6 +351,7 @@ private:
 
     const Project& project_;
     BuildInput input_;
+    KnownTriangles* const known_; ///< of other versions of the model; nullptr: there are none
     const Run& run_;
     const BuildObserver& observer_;
     const StageStore& store_;
@@ -381,7 +386,14 @@ TetrahedraRequest request_of(const Project& project) {
 Result<Built> build(const Project& project, BuildInput input, const Run& run,
                     const BuildObserver& observer, const StageStore& store) {
     return guarded("for the model", "build", [&]() -> Result<Built> {
-        return Builder(project, std::move(input), run, observer, store)();
+        return Builder(project, std::move(input), nullptr, run, observer, store)();
+    });
+}
+
+Result<Built> build(const Project& project, BuildInput input, KnownTriangles& known,
+                    const Run& run) {
+    return guarded("for the model", "build", [&]() -> Result<Built> {
+        return Builder(project, std::move(input), &known, run, {}, {})();
     });
 }
 

@@ -13,8 +13,8 @@
 
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
-#include <terrane/algorithms/quality/deviation.hpp>
-#include <terrane/algorithms/quality/improve_measured.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
+#include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/fields.hpp>
 #include <terrane/cli/reports/improve_report.hpp>

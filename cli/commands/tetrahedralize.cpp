@@ -14,8 +14,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/tetgen/fill_blocks.hpp>
-#include <terrane/algorithms/tetgen/tetgen_helper.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/commands/file_options.hpp>
 #include <terrane/cli/options/choices.hpp>

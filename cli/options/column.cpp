@@ -4,7 +4,7 @@
 #include <utility>
 
 #include <terrane/algorithms/mesh/labels.hpp>
-#include <terrane/io/column.hpp>
+#include <terrane/io/project.hpp>
 
 namespace terrane::cli {
 

@@ -13,7 +13,7 @@
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/max_move.hpp>
 #include <terrane/cli/reports/merge_report.hpp>

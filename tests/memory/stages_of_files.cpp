@@ -7,7 +7,6 @@
 #include <cstdint>
 
 #include <terrane/algorithms/verify/verify.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
 #include <terrane/io/certify.hpp>
 #include <terrane/io/meshes/pvtp.hpp>
 #include <terrane/io/points/outline.hpp>
