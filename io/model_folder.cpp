@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/io/meshes/cell_array.hpp>
 #include <terrane/io/results.hpp>
 
 #include <algorithm>

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/quality/improve.hpp>
 
+#include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
@@ -9,15 +12,11 @@
 
 namespace terrane {
 
-double least_deviation(double largest_coordinate) {
-    const StandardArithmetic guard;
-    using quality::detail::ReferenceSurface;
-    return quality::detail::constants.least_bound *
-           ReferenceSurface::rounding_at(largest_coordinate);
-}
+namespace {
 
+/// Estimates the number of triangles from areas and wanted lengths alone: without curvature, and without
+/// what intersections add.
 double expected_triangles(std::span<const Surface> surfaces, const ImproveOptions& options) {
-    const StandardArithmetic guard;
     double sum = 0;
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
         const bool is_exception =
@@ -35,6 +34,36 @@ double expected_triangles(std::span<const Surface> surfaces, const ImproveOption
         sum += area / (std::sqrt(3.0) / 4 * wanted * wanted);
     }
     return sum;
+}
+
+double largest_coordinate(std::span<const Surface> surfaces) {
+    double largest = 0;
+    for (const Surface& s : surfaces)
+        for (const Point3& p : s.vertices)
+            largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    return largest;
+}
+
+} // namespace
+
+Status check_improvable(std::span<const Surface> surfaces, const ImproveOptions& options) {
+    const StandardArithmetic guard;
+    const double least =
+        quality::detail::constants.least_bound *
+        quality::detail::ReferenceSurface::rounding_at(largest_coordinate(surfaces));
+    if (options.max_deviation > 0 && options.max_deviation < least)
+        return Error{
+            ErrorCode::bad_option,
+            fmt::format("is too small for coordinates of this size; the least is {:.3g}", least),
+            "max_deviation"};
+    const double count = expected_triangles(surfaces, options);
+    if (count > options.max_triangles)
+        return Error{ErrorCode::bad_option,
+                     fmt::format("about {:.3g} triangles are to be expected, more than the limit "
+                                 "of {:.3g}; ask for longer edges or raise the limit",
+                                 count, options.max_triangles),
+                     "max_triangles"};
+    return Done{};
 }
 
 } // namespace terrane

@@ -28,6 +28,9 @@ Status check_files_beside(const CLI::App& command, const std::vector<Output>& ou
 /// Returns the files that the command reads, without those that it is asked to replace.
 std::vector<std::filesystem::path> files_to_keep(const CLI::App& command);
 
+/// Makes a command read each number as the nearest double, as files are read.
+void round_numbers_once(CLI::App& command);
+
 /// Refuses values of options that are no number where a number is needed: nothing, nan, infinity, which
 /// is also what is too large for a double, hexadecimal numbers, and whole ones that begin with 0.
 /// Errors: bad_option with the option.

@@ -9,6 +9,7 @@
 
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
+#include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>
 
 namespace terrane::python {
@@ -29,6 +30,9 @@ struct ModelHandle {
     StratigraphicColumn column{};               ///< by which blocks are named
 };
 using ModelPointer = std::shared_ptr<ModelHandle>;
+
+/// Takes the model out of what was built.
+Result<ModelPointer> model_of(Built& built, bool judges_leaks, const Run& run);
 
 /// A list of (unit, surface, age, erosive).
 StratigraphicColumn to_column(const py::sequence& units);
