@@ -10,6 +10,7 @@
 #include <terrane/algorithms/core/fields.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/reconstruction/holes/filling.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
 #include <terrane/algorithms/reconstruction/kriging/variogram.hpp>
 

@@ -11,6 +11,7 @@
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/reconstruction/holes/filling.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
 
 namespace terrane {
