@@ -76,7 +76,7 @@ if(package AND NOT SANITIZE)
   cmake_path(GET package PARENT_PATH folder)
   cmake_path(GET folder PARENT_PATH folder)
   run(${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${folder}/pkgconfig sh -c
-      "cc blocks.c $(pkg-config --cflags --libs terrane_c) -Wl,-rpath,${folder} -o blocks")
+      "cd ${WORK}/readme && cc blocks.c $(pkg-config --cflags --libs terrane_c) -Wl,-rpath,${folder} -o blocks")
   run_of_readme(${WORK}/readme/blocks)
 endif()
 # The installed programs find each other after the installation is moved.
