@@ -97,7 +97,7 @@ Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::stri
 
 /// Reads the blocks that a file states, by its surfaces in the order of read_surfaces(): those of
 /// the first model of a GOCAD file but the outside, "Universe". There are none in other formats, in
-/// standard input, and where read_model() fails. Cost: that of reading a file with a model again.
+/// standard input, and where the model cannot be read. Cost: that of reading a file with a model again.
 std::vector<StatedBlock> read_stated_blocks(const std::filesystem::path& path,
                                             std::optional<Format> format = std::nullopt);
 
