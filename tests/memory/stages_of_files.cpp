@@ -14,6 +14,7 @@
 #include <terrane/io/points/shape_outline.hpp>
 #include <terrane/io/reading.hpp>
 #include <terrane/io/results.hpp>
+#include <terrane/io/structure_json.hpp>
 #include <terrane/io/uncertainty_maps.hpp>
 
 #include "fixture.hpp"
