@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include <terrane/algorithms/arrangement/digest.hpp>
-#include <terrane/algorithms/model/small_blocks.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/capi/detail/call.hpp>

@@ -14,7 +14,7 @@
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/certify.hpp>
 #include <terrane/io/files.hpp>
-#include <terrane/io/model_folder.hpp>
+#include <terrane/io/results.hpp>
 #include <terrane/io/text/utf8.hpp>
 
 namespace terrane::capi::detail {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/regions/regions.hpp>

@@ -15,7 +15,7 @@
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>
-#include <terrane/io/model_folder.hpp>
+#include <terrane/io/results.hpp>
 #include <terrane/io/structure_json.hpp>
 
 using namespace terrane::capi::detail;

@@ -8,7 +8,6 @@
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>
 #include <terrane/io/project.hpp>
-#include <terrane/io/project_inputs.hpp>
 
 namespace terrane::capi::detail {
 namespace {

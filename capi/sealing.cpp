@@ -7,9 +7,8 @@
 #include <utility>
 
 #include <terrane/algorithms/model/arrange_within.hpp>
-#include <terrane/algorithms/model/small_blocks.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
-#include <terrane/algorithms/volume_of_interest/extension.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>

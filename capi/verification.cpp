@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <terrane/algorithms/verify/verify.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>

@@ -16,7 +16,7 @@
 
 #include <terrane/algorithms/verify/detail/digest.hpp>
 #include <terrane/algorithms/verify/detail/kinds.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 
 #include "bytes.hpp"
 #include "forge_changes.hpp"

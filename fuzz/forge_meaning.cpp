@@ -10,7 +10,7 @@
 
 #include <gmpxx.h>
 
-#include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 

@@ -10,7 +10,7 @@
 
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 
 #include "forge_subjects.hpp"
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 
 namespace terrane::fuzz {
 

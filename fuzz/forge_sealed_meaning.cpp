@@ -14,7 +14,6 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/arrangement/digest.hpp>
 
 #include "forge_geometry.hpp"
 #include "forge_meaning.hpp"

@@ -11,11 +11,11 @@
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/quality/improve_measured.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
-#include <terrane/algorithms/tetgen/fill_blocks.hpp>
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/io/block_certificate.hpp>
 #include <terrane/io/certificate.hpp>
 #include <terrane/io/files.hpp>

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 #include "forge_changes.hpp"

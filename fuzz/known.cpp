@@ -80,7 +80,7 @@ std::string flaw(std::span<const Surface> surfaces) {
     const Model first(surfaces.begin(), surfaces.end());
     KnownTriangles known;
     const auto flaw_of = [&](const Model& model) -> std::string {
-        const auto with = arrange(model, {.known = &known}), without = arrange(model);
+        const auto with = arrange(model, {}, known), without = arrange(model);
         if (!with) return with.error().message();
         if (!without) return without.error().message();
         return test_support::difference(*with, *without);

@@ -17,6 +17,7 @@
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/io/gocad/gocad.hpp>
 #include <terrane/io/points/outline.hpp>
 
 #include "report.hpp"

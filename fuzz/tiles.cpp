@@ -16,7 +16,7 @@
 #include "support/differences.hpp"
 #include "support/pieces_joined.hpp"
 
-#include <terrane/algorithms/arrangement/digest.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/tiles/local_supersteps.hpp>

@@ -40,7 +40,7 @@
 //       "deviation": "1.1e-16",      upper bound of the distances of triangles to their parents and
 //                                    of parents to their triangles; the verifier computes its own
 //       "vanished": [t, ...] },      input triangles with area that have no part left, ascending
-//     "digest": "sha256:..." }       of the exact part; digest.hpp defines it
+//     "digest": "sha256:..." }       of the exact part; arrangement.hpp defines it
 //
 // Each object has these keys and no others. Numbers are whole and without sign.
 // Input vertices and triangles are counted from 0 through all surfaces of all files. JSON cannot
@@ -104,7 +104,7 @@ std::string certified_format(Format format, bool ascii = false);
 
 /// A volume of interest, as it was asked for.
 struct VolumeRecord {
-    std::string shape = "prism"; ///< "prism", "hexahedron" or "surface": see verify_certificate.hpp
+    std::string shape = "prism"; ///< "prism", "hexahedron" or "surface": see verify.hpp
     std::vector<std::array<double, 2>> corners{}; ///< of a prism: its polygon, in order
     std::vector<double> between{};                ///< of a prism: its two heights, the lower first
     std::vector<InputRecord> files{};             ///< of a surface

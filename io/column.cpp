@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/io/column.hpp>
+#include <terrane/io/project.hpp>
 
 #include <array>
 #include <new>

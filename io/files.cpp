@@ -9,6 +9,7 @@
 #include <terrane/algorithms/tetrahedra/edge_nodes.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/file_set.hpp>
+#include <terrane/io/gocad/gocad.hpp>
 #include <terrane/io/gocad/gocad_curves.hpp>
 #include <terrane/io/grids/cps3.hpp>
 #include <terrane/io/grids/esri.hpp>
@@ -17,6 +18,7 @@
 #include <terrane/io/grids/irap.hpp>
 #include <terrane/io/grids/zmap.hpp>
 #include <terrane/io/meshes/abaqus.hpp>
+#include <terrane/io/meshes/cell_array.hpp>
 #include <terrane/io/meshes/exodus.hpp>
 #include <terrane/io/meshes/geos.hpp>
 #include <terrane/io/meshes/gmsh.hpp>
@@ -32,6 +34,7 @@
 #include <terrane/io/meshes/vtp_reader.hpp>
 #include <terrane/io/points/points.hpp>
 #include <terrane/io/points/sticks.hpp>
+#include <terrane/io/reading.hpp>
 #include <terrane/io/surfaces/dxf.hpp>
 #include <terrane/io/surfaces/obj.hpp>
 #include <terrane/io/surfaces/off.hpp>

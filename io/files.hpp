@@ -13,11 +13,9 @@
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/structure/stated_blocks.hpp>
-#include <terrane/io/gocad/gocad.hpp>
+#include <terrane/algorithms/structure/block_names.hpp>
+#include <terrane/algorithms/volumes/point_location.hpp>
 #include <terrane/io/grids/grid.hpp>
-#include <terrane/io/meshes/cell_array.hpp>
-#include <terrane/io/meshes/poly.hpp>
 
 namespace terrane {
 
@@ -97,12 +95,9 @@ Result<std::vector<Surface>> read_surfaces(const std::filesystem::path& path,
 Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::string_view source,
                                             Format format, const ReadOptions& options = {});
 
-/// Reads a GOCAD model with its parts and regions. Errors: those of read_surfaces.
-Result<GocadModel> read_model(const std::filesystem::path& path);
-
 /// Reads the blocks that a file states, by its surfaces in the order of read_surfaces(): those of
 /// the first model of a GOCAD file but the outside, "Universe". There are none in other formats, in
-/// standard input, and where read_model() fails. Cost: that of reading a file with a model again.
+/// standard input, and where the model cannot be read. Cost: that of reading a file with a model again.
 std::vector<StatedBlock> read_stated_blocks(const std::filesystem::path& path,
                                             std::optional<Format> format = std::nullopt);
 

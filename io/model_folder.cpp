@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/io/model_folder.hpp>
+#include <terrane/io/meshes/cell_array.hpp>
+#include <terrane/io/results.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +13,7 @@
 
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
-#include <terrane/algorithms/structure/structure_meshes.hpp>
+#include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 #include <terrane/io/atomic/file_set.hpp>

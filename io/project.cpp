@@ -14,7 +14,7 @@
 #include <terrane/io/detail/project_keys.hpp>
 #include <terrane/io/detail/uncertainty_keys.hpp>
 #include <terrane/io/files.hpp>
-#include <terrane/io/model_folder.hpp>
+#include <terrane/io/results.hpp>
 #include <terrane/io/text/names.hpp>
 
 namespace terrane {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/io/project_inputs.hpp>
+#include <terrane/io/project.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -10,7 +10,7 @@
 
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/text/units.hpp>
 

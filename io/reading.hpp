@@ -2,13 +2,18 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/io/gocad/gocad.hpp>
 
 namespace terrane {
+
+/// Reads a GOCAD model with its parts and regions. Errors: those of read_surfaces.
+Result<GocadModel> read_model(const std::filesystem::path& path);
 
 /// Refuses what a caller says of files of these formats if it is about none of them: `depth` of files that are neither
 /// grids nor points, `max_edge` of files that are not points. `option_names` are those two options, as the caller knows them.

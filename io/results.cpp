@@ -9,12 +9,11 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/guarded.hpp>
-#include <terrane/algorithms/volumes/block_points.hpp>
+#include <terrane/algorithms/volumes/point_location.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/certify.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/gocad/gocad_model.hpp>
-#include <terrane/io/model_folder.hpp>
 
 namespace terrane {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Writes the files that a project asks for.
+// Writes the files that a project asks for, and the folder of a model.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,13 +12,52 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
-#include <terrane/algorithms/model/leak_advice.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/project/project.hpp>
-#include <terrane/algorithms/tetgen/fill_blocks.hpp>
-#include <terrane/io/project_inputs.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
+#include <terrane/io/project.hpp>
 
 namespace terrane {
+
+// The folder of files that a model is written to, as `terrane volume` makes it.
+
+/// A model with its sealing and its leaks; by reference: the values must outlive it.
+struct ModelReports {
+    const Model& model;                      ///< the model to write
+    const std::optional<SealReport>& sealed; ///< the report of sealing; none: not sealed
+    const std::optional<LeakAdvice>& leaks;  ///< leaks that were judged; none: they were not
+};
+
+/// A file of the folder of a model.
+struct ModelFile {
+    std::filesystem::path path; ///< relative to the folder
+    std::string format;         ///< "json", "vtp", or that of blocks and interfaces
+};
+
+/// The format of blocks and interfaces that writes a VTP file of each, or, where they are more than
+/// most_single_parts, all blocks to blocks.vtp and all interfaces to interfaces.vtp.
+inline constexpr const char* automatic_parts = "auto";
+inline constexpr std::size_t most_single_parts = 1000;
+
+/// Lists the files that say what a model is: model.json, result.vtp, and those of blocks and
+/// interfaces in `part_format`. model.vtm, which only names others, is not among them.
+std::vector<ModelFile> model_files(const Model& model, const std::string& part_format);
+
+/// Lists the names of the formats of blocks and interfaces.
+std::vector<std::string> part_formats();
+/// Tells whether a certificate can be about blocks and interfaces in this format.
+bool is_certified(const std::string& part_format);
+
+/// Writes model.json (with the reports of sealing and leaks), result.vtp, and the blocks and
+/// interfaces in `part_format` into an empty folder that exists; as VTP also model.vtm, which has
+/// all these files under the names of their contents. Errors: those of write_mesh; interrupted.
+Status write_model_files(const ModelReports& reports, const std::string& part_format,
+                         const std::filesystem::path& folder, const Run& run = {});
+
+/// Does the same into a folder that does not exist, or is empty, and appears when it is complete.
+/// Errors: as above; unknown_format; cannot_open if the folder cannot be made.
+Status write_model_folder(const ModelReports& reports, const std::string& part_format,
+                          const std::filesystem::path& folder, const Run& run = {});
 
 /// What was built of a project, by reference.
 struct Results {

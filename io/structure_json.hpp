@@ -44,9 +44,9 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/model/leak_advice.hpp>
+#include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
-#include <terrane/algorithms/structure/free_borders.hpp>
+#include <terrane/algorithms/structure/relations.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 
 namespace terrane {

@@ -34,7 +34,6 @@
 
 #include <terrane/kernel/assertion.hpp>
 #include <terrane/kernel/ball_filter.hpp>
-#include <terrane/kernel/construction.hpp>
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/point.hpp>
 #include <terrane/kernel/polynomials.hpp>

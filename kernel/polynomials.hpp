@@ -6,7 +6,6 @@
 // dropped, because only the sign matters.
 #pragma once
 
-#include <terrane/kernel/construction.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane::polynomial {

@@ -20,7 +20,6 @@
 
 #include <optional>
 
-#include <terrane/kernel/construction.hpp>
 #include <terrane/kernel/point.hpp>
 #include <terrane/kernel/sign.hpp>
 

@@ -31,7 +31,6 @@
 #include <limits>
 #include <optional>
 
-#include <terrane/kernel/construction.hpp>
 #include <terrane/kernel/point.hpp>
 #include <terrane/kernel/sign.hpp>
 #ifdef TERRANE_SHADOW

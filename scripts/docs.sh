@@ -13,7 +13,7 @@ command -v mkdocs >/dev/null || {
 }
 mkdocs build --strict --quiet
 if command -v doxygen >/dev/null; then
-    doxygen scripts/Doxyfile # warnings are errors
+    scripts/doxygen.sh out # warnings are errors
     rm -rf out/site/api
     mv out/api out/site/api
 else

@@ -38,10 +38,9 @@ def sources(root: Path):
 
 
 def public_headers(root: Path):
-    """The headers that are installed; terrane.hpp, which includes the others, is none of sources()."""
-    listed = root / "scripts/cmake/public_headers.cmake"
-    lines = listed.read_text() if listed.exists() else ""
-    return [h for h in re.findall(r"^ +([a-z0-9_/]+\.hpp)", lines, re.M) if h != "terrane.hpp"]
+    """The headers that are installed, but terrane.hpp and advanced.hpp, which include them."""
+    tiers = [root / name for name in ("terrane.hpp", "advanced.hpp")]
+    return [h for tier in tiers if tier.exists() for h in INCLUDE.findall(tier.read_text()) if h != "terrane.hpp"]
 
 
 def folder_of(path: Path) -> str:

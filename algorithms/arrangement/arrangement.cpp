@@ -277,13 +277,13 @@ void count_statistics(ArrangeStatistics& all, const Candidates& candidates,
 
 /// Keeps patches and candidates for the next arrangement. Keeps nothing if the search or the test left
 /// pairs out.
-void keep_known(const ArrangeOptions& options, const Soup& soup, const InjectivePatches& patches,
+void keep_known(KnownTriangles* known, const Soup& soup, const InjectivePatches& patches,
                 const Retriangulation& division, const LeftOut& left_out, Candidates candidates) {
-    if (options.known == nullptr || left_out.any_crowded || !left_out.pencils.of.empty() ||
+    if (known == nullptr || left_out.any_crowded || !left_out.pencils.of.empty() ||
         !division.pools.empty())
         return;
     const auto points = division.points.inputs();
-    options.known->keep({points.begin(), points.end()}, soup, patches, std::move(candidates));
+    known->keep({points.begin(), points.end()}, soup, patches, std::move(candidates));
 }
 
 /// Makes one mesh of the triangles after division, with what later stages ask of it.
@@ -322,7 +322,8 @@ void assemble(Arrangement& a, Soup soup, InjectivePatches patches, Retriangulati
 }
 
 Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
-                                    const ArrangeOptions& options, const Run& run) {
+                                    const ArrangeOptions& options, KnownTriangles* kept,
+                                    const Run& run) {
     const auto report = [&](double share) {
         if (run.progress) run.progress("arrange", share);
     };
@@ -334,7 +335,7 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     Soup soup = merge_with_repeated(surfaces, run);
     const Search search = method_used(options.search, soup.triangles.size());
     std::unique_ptr<KnownInSoup> known;
-    if (options.known != nullptr && search == Search::bvh) known = options.known->find_in(soup);
+    if (kept != nullptr && search == Search::bvh) known = kept->find_in(soup);
     soup.edges = known ? known->edges(run) : group_edges(soup.triangles, soup.points.size(), run);
     if (set_repeated_aside(soup, run) && known) known->find_again();
     InjectivePatches patches =
@@ -356,18 +357,17 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
 
     // (c) contacts, (d) equal points, (e) triangulation of the faces with contacts
     auto& outcomes = candidates.tested.outcomes;
-    if (options.known != nullptr && outcomes.empty())
+    if (kept != nullptr && outcomes.empty())
         outcomes.assign(candidates.pairs.size(), TestedPairs::untested);
     a.statistics.known = outcomes.size() - static_cast<std::size_t>(
                                                std::ranges::count(outcomes, TestedPairs::untested));
-    Retriangulation division =
-        retriangulate(std::move(soup.points), soup.triangles, candidates.pairs, left_out.pencils,
-                      part_of_stage(run, "arrange", 0.3, 0.85),
-                      options.known != nullptr ? &candidates.tested : nullptr);
+    Retriangulation division = retriangulate(
+        std::move(soup.points), soup.triangles, candidates.pairs, left_out.pencils,
+        part_of_stage(run, "arrange", 0.3, 0.85), kept != nullptr ? &candidates.tested : nullptr);
     if (run.stop.stop_requested()) return interrupted();
     count_statistics(a.statistics, candidates, division);
     a.statistics.search = search;
-    keep_known(options, soup, patches, division, left_out, std::move(candidates));
+    keep_known(kept, soup, patches, division, left_out, std::move(candidates));
 
     // (f) one mesh
     step.next("assemble");
@@ -378,6 +378,20 @@ Result<Arrangement> arrange_checked(std::span<const Surface> surfaces,
     assert_invariants(a);
     report(1);
     return a;
+}
+
+Result<Arrangement> arrange_knowing(std::span<const Surface> surfaces,
+                                    const ArrangeOptions& options, KnownTriangles* known,
+                                    const Run& run) {
+    return guarded("for the arrangement", "arrange", [&]() -> Result<Arrangement> {
+        if (const auto valid = validate(surfaces, run); !valid) return valid.error();
+        // Within one arena the threads stay awake from stage to stage.
+        Result<Arrangement> arranged = Error{};
+        const StageTimer timer(run, "arrange");
+        const Run inner = timer.inside();
+        with_threads(run, [&] { arranged = arrange_checked(surfaces, options, known, inner); });
+        return arranged;
+    });
 }
 
 } // namespace
@@ -414,15 +428,12 @@ std::span<const Triangle> Arrangement::input_corners() const {
 
 Result<Arrangement> arrange(std::span<const Surface> surfaces, const ArrangeOptions& options,
                             const Run& run) {
-    return guarded("for the arrangement", "arrange", [&]() -> Result<Arrangement> {
-        if (const auto valid = validate(surfaces, run); !valid) return valid.error();
-        // Within one arena the threads stay awake from stage to stage.
-        Result<Arrangement> arranged = Error{};
-        const StageTimer timer(run, "arrange");
-        const Run inner = timer.inside();
-        with_threads(run, [&] { arranged = arrange_checked(surfaces, options, inner); });
-        return arranged;
-    });
+    return arrange_knowing(surfaces, options, nullptr, run);
+}
+
+Result<Arrangement> arrange(std::span<const Surface> surfaces, const ArrangeOptions& options,
+                            KnownTriangles& known, const Run& run) {
+    return arrange_knowing(surfaces, options, &known, run);
 }
 
 } // namespace terrane

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/arrangement/input_triangles.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
 
 #include <algorithm>
 

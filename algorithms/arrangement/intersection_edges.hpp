@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <terrane/algorithms/arrangement/input_triangles.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/adjacency.hpp>

@@ -18,6 +18,7 @@
 #include <span>
 #include <vector>
 
+#include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
@@ -89,5 +90,10 @@ private:
     std::mutex mutex_;
     std::unique_ptr<const KeptTriangles> kept_;
 };
+
+/// Arranges surfaces and takes over what `known` has of the same triangles. The result is that of
+/// arrange() without it; statistics.known says how many pairs needed no test.
+Result<Arrangement> arrange(std::span<const Surface> surfaces, const ArrangeOptions& options,
+                            KnownTriangles& known, const Run& run = {});
 
 } // namespace terrane

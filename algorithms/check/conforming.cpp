@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/check/check.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/check/count_pairs.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>

@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include <terrane/algorithms/check/pair_check.hpp>
+#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/search/search.hpp>

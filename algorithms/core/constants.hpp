@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include <terrane/algorithms/core/named_constant.hpp>
+#include <terrane/algorithms/core/fields.hpp>
 
 namespace terrane {
 

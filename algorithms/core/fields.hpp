@@ -2,6 +2,7 @@
 //
 // Describes the fields of a struct of options, once. Options of the program, keys of project files,
 // keywords of Python, members of C structs, the checks of values and the reference come from it.
+// Constants that decide a result and are not options are named, too.
 //
 // A struct takes part by a static function describe(visit, options), which calls visit(Field, member)
 // for its members in their order; `options` is one of them, and may be constant.
@@ -63,5 +64,11 @@ std::optional<std::string> flaw_of_fields(const Options& options) {
         options);
     return flaw;
 }
+
+/// A constant that decides the result of a stage and is not an option.
+struct NamedConstant {
+    std::string_view name; ///< as its stage declares it
+    double value = 0;      ///< in the unit that its stage states
+};
 
 } // namespace terrane

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/core/stage_times.hpp>
+#include <terrane/algorithms/core/run.hpp>
 
 namespace terrane {
 

@@ -17,7 +17,7 @@
 #include <terrane/algorithms/mesh/adjacency.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/kernel/construction.hpp>
+#include <terrane/kernel/point.hpp>
 #include <terrane/kernel/sign.hpp>
 
 namespace terrane {

@@ -12,7 +12,6 @@
 #include <span>
 
 #include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/kernel/construction.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane {
@@ -77,7 +76,7 @@ enum class Filters { all, none };
 std::optional<Contact> improper_contact(std::span<const Point3> points, const Triangle& first,
                                         const Triangle& second, Filters filters = Filters::all);
 
-// The following functions return constructions in canonical form (see construction.hpp). Lines and
+// The following functions return constructions in canonical form (see Construction). Lines and
 // planes are given by vertex indices.
 Construction line_plane(std::array<std::uint32_t, 2> line, Triangle plane);
 Construction three_planes(Triangle first, Triangle second, Triangle third);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include <terrane/kernel/construction.hpp>
+#include <terrane/kernel/point.hpp>
 
 namespace terrane {
 

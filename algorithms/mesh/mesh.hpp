@@ -3,7 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include <terrane/algorithms/core/index_lists.hpp>
@@ -56,6 +59,39 @@ struct TetrahedralMesh {
     std::uint32_t block_count = 0; ///< with the outside
     std::string mesher{};          ///< the program that made it: "TetGen" or "Gmsh"
     std::string failure{};         ///< why another mesher, asked before, made none; or empty
+};
+
+/// A named array with one value per cell, for the formats that have such arrays (VTP, VTU).
+struct CellArray {
+    std::string name; ///< "volume", "quality", ...
+    std::variant<std::vector<std::int32_t>, std::vector<double>> values; ///< one per cell
+};
+
+/// A mesh that nobody can change any more; copies share it. It is used like a pointer, and passed
+/// where a const Mesh& is wanted. It is never null.
+class SharedMesh {
+public:
+    /// An empty mesh.
+    SharedMesh() : mesh_(std::make_shared<const Mesh>()) {}
+    /// Takes a mesh, which nobody can change from then on.
+    SharedMesh(Mesh mesh) :
+        // NOLINT: implicit on purpose
+        mesh_(std::make_shared<const Mesh>(std::move(mesh))) {}
+    /// Shares the mesh. There is no move, which would leave a null pointer.
+    SharedMesh(const SharedMesh&) = default;
+    /// Shares the mesh.
+    SharedMesh& operator=(const SharedMesh&) = default;
+    ~SharedMesh() = default;
+
+    /// The mesh.
+    [[nodiscard]] const Mesh& operator*() const { return *mesh_; }
+    /// A member of the mesh.
+    [[nodiscard]] const Mesh* operator->() const { return mesh_.get(); }
+    /// The mesh.
+    operator const Mesh&() const { return *mesh_; } // NOLINT: implicit on purpose
+
+private:
+    std::shared_ptr<const Mesh> mesh_;
 };
 
 } // namespace terrane

@@ -10,8 +10,10 @@
 #include <string_view>
 #include <utility>
 
-#include <terrane/algorithms/arrangement/known_triangles.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/model/known_arrange_within.hpp>
+#include <terrane/algorithms/sealing/known_sealing.hpp>
+#include <terrane/algorithms/volume_of_interest/known_extension.hpp>
 
 namespace terrane {
 namespace {
@@ -21,10 +23,10 @@ void announce(const Run& run, std::string_view stage) {
 }
 
 Status extend(std::span<const std::uint32_t> boundary, const ArrangeWithinOptions& options,
-              const Run& run, Arranged& arranged) {
+              KnownTriangles& known, const Run& run, Arranged& arranged) {
     announce(run, "extend");
     auto extended = extend_to_boundary(std::move(arranged.surfaces), boundary,
-                                       {options.extend, options.arrange}, run);
+                                       {options.extend, options.arrange}, known, run);
     if (!extended) return extended.error();
     arranged.surfaces = std::move(extended->surfaces);
     arranged.extended = std::move(extended->borders);
@@ -38,15 +40,16 @@ bool seals(const ArrangeWithinOptions& options) {
            });
 }
 
-Result<Arrangement> arrange_or_seal(const ArrangeWithinOptions& options, const Run& run,
-                                    Arranged& arranged) {
+Result<Arrangement> arrange_or_seal(const ArrangeWithinOptions& options, KnownTriangles* known,
+                                    const Run& run, Arranged& arranged) {
     if (!seals(options)) {
         announce(run, "arrange");
-        return arrange(arranged.surfaces, options.arrange, run);
+        return known != nullptr ? arrange(arranged.surfaces, options.arrange, *known, run)
+                                : arrange(arranged.surfaces, options.arrange, run);
     }
     announce(run, "seal");
     auto sealed = seal(std::move(arranged.surfaces),
-                       {options.seal, options.arrange, options.seal_rules}, run);
+                       {options.seal, options.arrange, options.seal_rules}, *known, run);
     if (!sealed) return sealed.error();
     arranged.surfaces = std::move(sealed->surfaces);
     arranged.sealed = SealReport{.distance = options.seal,
@@ -85,11 +88,15 @@ constexpr double widest_gap = 0.2;
 /// seen.
 constexpr double break_beyond = 4;
 
-} // namespace
+Result<Arranged> arrange_exactly(std::vector<Surface> surfaces, std::vector<Surface> boundary,
+                                 ArrangeWithinOptions options, KnownTriangles* known,
+                                 const Run& run);
 
-Result<SealChoice> choose_seal(const std::vector<Surface>& surfaces,
+/// Does what choose_seal() does.
+Result<SealChoice> seal_chosen(const std::vector<Surface>& surfaces,
                                const std::vector<Surface>& boundary,
-                               const ArrangeWithinOptions& options, const Run& run) {
+                               const ArrangeWithinOptions& options, KnownTriangles* known,
+                               const Run& run) {
     return guarded("for the widths of gaps", "seal", [&]() -> Result<SealChoice> {
         ArrangeWithinOptions unsealed = options;
         unsealed.seal = unsealed.min_volume = 0;
@@ -97,10 +104,68 @@ Result<SealChoice> choose_seal(const std::vector<Surface>& surfaces,
         unsealed.seal_rules.clear();
         const double edge_length = median_edge_length(surfaces);
         if (!(edge_length > 0)) return SealChoice{};
-        const auto arranged = arrange_exactly_within(surfaces, boundary, unsealed, run);
+        const auto arranged = arrange_exactly(surfaces, boundary, unsealed, known, run);
         if (!arranged) return arranged.error();
         return choose_seal(arranged->exact, edge_length, run);
     });
+}
+
+Result<Arranged> arrange_exactly(std::vector<Surface> surfaces, std::vector<Surface> boundary,
+                                 ArrangeWithinOptions options, KnownTriangles* known,
+                                 const Run& run) {
+    return guarded("for the arrangement", "arrange", [&]() -> Result<Arranged> {
+        KnownTriangles own; // of the surfaces, which all arrangements below have in common
+        const bool arranges_again = options.seal_automatic || options.extend != 0 || seals(options);
+        if (arranges_again && known == nullptr) known = &own;
+        Arranged arranged;
+        if (options.seal_automatic) {
+            auto choice = seal_chosen(surfaces, boundary, options, known, run);
+            if (!choice) return choice.error();
+            options.seal = choice->distance;
+            arranged.choice = std::move(*choice);
+        }
+        std::vector<std::uint32_t> sides(boundary.size()); // indices of the boundary's surfaces
+        std::iota(sides.begin(), sides.end(), static_cast<std::uint32_t>(surfaces.size()));
+        arranged.boundary_count = boundary.size();
+        arranged.surfaces = std::move(surfaces);
+        std::move(boundary.begin(), boundary.end(), std::back_inserter(arranged.surfaces));
+        if (options.extend != 0 || seals(options))
+            for (std::size_t s = 0; s + sides.size() < arranged.surfaces.size(); ++s)
+                arranged.growth.push_back({arranged.surfaces[s].triangles.size()});
+        if (options.extend != 0)
+            if (auto done = extend(sides, options, *known, run, arranged); !done)
+                return done.error();
+        for (std::size_t s = 0; s < arranged.growth.size(); ++s)
+            arranged.growth[s].extended = arranged.surfaces[s].triangles.size();
+        auto exact = arrange_or_seal(options, known, run, arranged);
+        if (!exact) return exact.error();
+        arranged.exact = std::move(*exact);
+        if (auto done = restrict_to(sides, options, run, arranged); !done) return done.error();
+        return arranged;
+    });
+}
+
+Result<Arranged> arranged_and_rounded(std::vector<Surface> surfaces, std::vector<Surface> boundary,
+                                      const ArrangeWithinOptions& options, KnownTriangles* known,
+                                      const Run& run) {
+    return guarded("for the arrangement", "arrange", [&]() -> Result<Arranged> {
+        auto arranged =
+            arrange_exactly(std::move(surfaces), std::move(boundary), options, known, run);
+        if (!arranged) return arranged;
+        announce(run, "round");
+        auto rounded = round_to_doubles(arranged->exact, options.rounding, run);
+        if (!rounded) return rounded.error();
+        arranged->rounded = std::move(*rounded);
+        return arranged;
+    });
+}
+
+} // namespace
+
+Result<SealChoice> choose_seal(const std::vector<Surface>& surfaces,
+                               const std::vector<Surface>& boundary,
+                               const ArrangeWithinOptions& options, const Run& run) {
+    return seal_chosen(surfaces, boundary, options, nullptr, run);
 }
 
 Result<SealChoice> choose_seal(const Arrangement& arrangement, double edge_length, const Run& run) {
@@ -126,50 +191,18 @@ std::vector<NamedConstant> seal_choice_constants() {
 Result<Arranged> arrange_exactly_within(std::vector<Surface> surfaces,
                                         std::vector<Surface> boundary,
                                         const ArrangeWithinOptions& options, const Run& run) {
-    return guarded("for the arrangement", "arrange", [&]() -> Result<Arranged> {
-        ArrangeWithinOptions chosen = options;
-        KnownTriangles known; // of the surfaces, which all arrangements below have in common
-        const bool arranges_again = chosen.seal_automatic || chosen.extend != 0 || seals(chosen);
-        if (arranges_again && chosen.arrange.known == nullptr) chosen.arrange.known = &known;
-        Arranged arranged;
-        if (options.seal_automatic) {
-            auto choice = choose_seal(surfaces, boundary, chosen, run);
-            if (!choice) return choice.error();
-            chosen.seal = choice->distance;
-            arranged.choice = std::move(*choice);
-        }
-        std::vector<std::uint32_t> sides(boundary.size()); // indices of the boundary's surfaces
-        std::iota(sides.begin(), sides.end(), static_cast<std::uint32_t>(surfaces.size()));
-        arranged.boundary_count = boundary.size();
-        arranged.surfaces = std::move(surfaces);
-        std::move(boundary.begin(), boundary.end(), std::back_inserter(arranged.surfaces));
-        if (chosen.extend != 0 || seals(chosen))
-            for (std::size_t s = 0; s + sides.size() < arranged.surfaces.size(); ++s)
-                arranged.growth.push_back({arranged.surfaces[s].triangles.size()});
-        if (chosen.extend != 0)
-            if (auto done = extend(sides, chosen, run, arranged); !done) return done.error();
-        for (std::size_t s = 0; s < arranged.growth.size(); ++s)
-            arranged.growth[s].extended = arranged.surfaces[s].triangles.size();
-        auto exact = arrange_or_seal(chosen, run, arranged);
-        if (!exact) return exact.error();
-        arranged.exact = std::move(*exact);
-        if (auto done = restrict_to(sides, chosen, run, arranged); !done) return done.error();
-        return arranged;
-    });
+    return arrange_exactly(std::move(surfaces), std::move(boundary), options, nullptr, run);
 }
 
 Result<Arranged> arrange_within(std::vector<Surface> surfaces, std::vector<Surface> boundary,
                                 const ArrangeWithinOptions& options, const Run& run) {
-    return guarded("for the arrangement", "arrange", [&]() -> Result<Arranged> {
-        auto arranged =
-            arrange_exactly_within(std::move(surfaces), std::move(boundary), options, run);
-        if (!arranged) return arranged;
-        announce(run, "round");
-        auto rounded = round_to_doubles(arranged->exact, options.rounding, run);
-        if (!rounded) return rounded.error();
-        arranged->rounded = std::move(*rounded);
-        return arranged;
-    });
+    return arranged_and_rounded(std::move(surfaces), std::move(boundary), options, nullptr, run);
+}
+
+Result<Arranged> arrange_within(std::vector<Surface> surfaces, std::vector<Surface> boundary,
+                                const ArrangeWithinOptions& options, KnownTriangles& known,
+                                const Run& run) {
+    return arranged_and_rounded(std::move(surfaces), std::move(boundary), options, &known, run);
 }
 
 } // namespace terrane

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/model/leak_advice.hpp>
+#include <terrane/algorithms/model/model.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -8,7 +8,7 @@
 
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
-#include <terrane/algorithms/quality/deviation.hpp>
+#include <terrane/algorithms/quality/quality.hpp>
 
 namespace terrane {
 namespace {

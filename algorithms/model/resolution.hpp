@@ -12,7 +12,6 @@
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
-#include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/simplification/simplify.hpp>
 

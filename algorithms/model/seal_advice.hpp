@@ -8,12 +8,12 @@
 #include <span>
 #include <vector>
 
-#include <terrane/algorithms/core/named_constant.hpp>
+#include <terrane/algorithms/core/fields.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
-#include <terrane/algorithms/sealing/gaps.hpp>
+#include <terrane/algorithms/sealing/sealing.hpp>
 
 namespace terrane {
 

@@ -20,7 +20,7 @@
 #include <terrane/algorithms/optimisation/detail/proposals.hpp>
 #include <terrane/algorithms/optimisation/detail/remeshing.hpp>
 #include <terrane/algorithms/optimisation/detail/work.hpp>
-#include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
+#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 
 namespace terrane {
 

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include <terrane/algorithms/core/fields.hpp>
 #include <terrane/algorithms/core/id.hpp>
-#include <terrane/algorithms/core/named_constant.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 
 namespace terrane {

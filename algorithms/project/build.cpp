@@ -13,11 +13,13 @@
 
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/model/known_arrange_within.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/project/detail/kept_results.hpp>
 #include <terrane/algorithms/project/detail/loosening.hpp>
 #include <terrane/algorithms/project/detail/refinement.hpp>
+#include <terrane/algorithms/project/known_build.hpp>
 
 namespace terrane {
 namespace {
@@ -57,10 +59,10 @@ Error flaw_of(const Preprocessed& done) {
 /// Runs the stages of one call of build().
 class Builder {
 public:
-    Builder(const Project& project, BuildInput input, const Run& run, const BuildObserver& observer,
-            const StageStore& store) :
+    Builder(const Project& project, BuildInput input, KnownTriangles* known, const Run& run,
+            const BuildObserver& observer, const StageStore& store) :
         project_(project),
-        input_(std::move(input)), run_(run), observer_(observer), store_(store) {}
+        input_(std::move(input)), known_(known), run_(run), observer_(observer), store_(store) {}
 
     Result<Built> operator()() {
         for (const Status& sound :
@@ -122,9 +124,11 @@ private:
     Status arrange_surfaces() {
         auto options = arranging_of(project_, input_.surfaces);
         if (!options) return options.error();
-        options->arrange.known = input_.known;
+        auto &surfaces = input_.surfaces, &boundary = input_.boundary;
         auto arranged =
-            arrange_within(std::move(input_.surfaces), std::move(input_.boundary), *options, run_);
+            known_ != nullptr
+                ? arrange_within(std::move(surfaces), std::move(boundary), *options, *known_, run_)
+                : arrange_within(std::move(surfaces), std::move(boundary), *options, run_);
         if (!arranged) return arranged.error();
         built_.arranged = std::move(*arranged);
         built_.labels = unique_labels(infos_of(built_.arranged.surfaces));
@@ -382,6 +386,7 @@ private:
 
     const Project& project_;
     BuildInput input_;
+    KnownTriangles* const known_; ///< of other versions of the model; nullptr: there are none
     const Run& run_;
     const BuildObserver& observer_;
     const StageStore& store_;
@@ -450,7 +455,14 @@ TetrahedraRequest request_of(const Project& project) {
 Result<Built> build(const Project& project, BuildInput input, const Run& run,
                     const BuildObserver& observer, const StageStore& store) {
     return guarded("for the model", "build", [&]() -> Result<Built> {
-        return Builder(project, std::move(input), run, observer, store)();
+        return Builder(project, std::move(input), nullptr, run, observer, store)();
+    });
+}
+
+Result<Built> build(const Project& project, BuildInput input, KnownTriangles& known,
+                    const Run& run) {
+    return guarded("for the model", "build", [&]() -> Result<Built> {
+        return Builder(project, std::move(input), &known, run, {}, {})();
     });
 }
 

@@ -5,7 +5,7 @@
 // and improved, blocks found and filled with tetrahedra; each optional step happens if the project
 // asks for it. The caller reads and writes the files:
 //
-//   // io/project.hpp, io/project_inputs.hpp
+//   // io/project.hpp
 //   const auto project = terrane::read_project("project.json");
 //   auto inputs = terrane::read_inputs(*project);
 //   const auto built = terrane::build(*project, std::move(inputs->build));
@@ -23,24 +23,46 @@
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/layers/layers.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/project/preprocess.hpp>
 #include <terrane/algorithms/project/project.hpp>
-#include <terrane/algorithms/quality/improve_measured.hpp>
-#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
+#include <terrane/algorithms/reconstruction/fill.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 
 namespace terrane {
+
+// Preprocesses the surfaces of a project before they are arranged: fills holes, then puts horizons
+// in order.
+
+/// The reports of preprocess().
+struct Preprocessed {
+    std::optional<FillWork> filled{};   ///< where the project has "fill"
+    std::vector<NewContact> contacts{}; ///< of fillings with other triangles of their surface
+    std::vector<Layer> order{};         ///< the layers of the project, from the top down
+    std::optional<Layered> layered{};   ///< their stack, if filling succeeded
+
+    /// Tells whether the surfaces can be used: no wanted hole stays open, no filling meets other
+    /// triangles, and the stack of layers is conforming and in order.
+    [[nodiscard]] bool good() const;
+};
+
+/// Fills the holes and orders the layers of a project. Replaced surfaces keep their names and
+/// roles. A triangle in which layers coincide belongs to each of them. If filling fails, layers
+/// stay unchanged. Errors: bad_option, with the key, for a name that no surface has or that two
+/// entries share; those of find_border_loops, fill_holes and stack_layers.
+Result<Preprocessed> preprocess(const Project& project, std::vector<Surface>& surfaces,
+                                const Run& run = {});
 
 /// The surfaces in the files of a project.
 struct BuildInput {
     std::vector<Surface> surfaces{}; ///< with the names and roles that the project gives them
     std::vector<Surface> boundary{}; ///< of the volume of interest; empty: there is none
     std::vector<StatedBlock>
-        stated_blocks{};             ///< that the files state, by the surfaces; without use
-                                     ///< where layers are put in order
-    KnownTriangles* known = nullptr; ///< see ArrangeOptions::known
+        stated_blocks{}; ///< that the files state, by the surfaces; without use
+                         ///< where layers are put in order
 };
 
 /// The result of one round that makes triangles smaller where tetrahedra are bad.

@@ -13,16 +13,17 @@
 #include <variant>
 #include <vector>
 
-#include <terrane/algorithms/check/pair_check.hpp>
+#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/algorithms/quality/improve_options.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/search/method.hpp>
-#include <terrane/algorithms/structure/column.hpp>
+#include <terrane/algorithms/simplification/simplify.hpp>
+#include <terrane/algorithms/structure/block_names.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 namespace terrane {
 

@@ -17,7 +17,7 @@
 #include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/features.hpp>
 #include <terrane/algorithms/quality/detail/reference_surface.hpp>
-#include <terrane/algorithms/quality/deviation.hpp>
+#include <terrane/algorithms/quality/quality.hpp>
 
 namespace terrane {
 namespace {

@@ -4,7 +4,7 @@
 // polygons, each of which is mostly near a single triangle of the other surface. Such a polygon
 // needs no further division, however small the distance is, since the distance from one triangle is
 // a convex function: it is largest at a corner of the polygon.
-#include <terrane/algorithms/quality/deviation.hpp>
+#include <terrane/algorithms/quality/quality.hpp>
 
 #include <algorithm>
 #include <array>

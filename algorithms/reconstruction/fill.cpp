@@ -10,6 +10,8 @@
 #include <terrane/algorithms/core/is_external.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/reconstruction/holes/expected_points.hpp>
+#include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
+#include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 #include <terrane/algorithms/reconstruction/rbf/rbf_join.hpp>
 
 namespace terrane {
@@ -92,14 +94,6 @@ bool only_this_hole(ErrorCode code) {
 }
 
 } // namespace
-
-std::optional<VariogramModel> variogram_model_named(std::string_view name) {
-    for (const auto model :
-         {VariogramModel::spherical, VariogramModel::exponential, VariogramModel::gaussian,
-          VariogramModel::power, VariogramModel::matern})
-        if (name_of(model) == name) return model;
-    return std::nullopt;
-}
 
 Result<FillWork> find_holes(std::span<const Surface> surfaces, std::span<const FillTask> tasks,
                             const Run& run) {

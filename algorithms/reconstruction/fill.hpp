@@ -23,10 +23,7 @@
 #include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
-#include <terrane/algorithms/reconstruction/holes/filling.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
-#include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
-#include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 
 namespace terrane {
 
@@ -36,21 +33,18 @@ enum class FillMethod : std::uint8_t {
     rbf,     ///< any surface
 };
 
-/// The variogram model of this name ("spherical", ...); none for any other word, such as "auto".
-std::optional<VariogramModel> variogram_model_named(std::string_view name);
-
 /// How the holes of a surface are filled. Lengths in the unit of the surface; describe() says what
 /// each member does.
 struct FillOptions {
-    FillMethod method = FillMethod::kriging;    ///< of all holes of the surface
-    std::optional<VariogramModel> model{};      ///< of kriging; none: the one that fits best
-    double max_area = HUGE_VAL;                 ///< see describe(), squared unit
-    double mesh_size = 0;                       ///< see describe()
-    std::size_t rings = KrigingOptions{}.rings; ///< see describe()
-    double gap_slope = GapRule{}.slope;         ///< see describe(), GapRule::slope
-    bool isotropic = false;                     ///< see describe()
-    bool bridge_faults = false;                 ///< see describe()
-    std::optional<double> smoothing{};          ///< RbfOptions::smoothing
+    FillMethod method = FillMethod::kriging; ///< of all holes of the surface
+    std::optional<VariogramModel> model{};   ///< of kriging; none: the one that fits best
+    double max_area = HUGE_VAL;              ///< see describe(), squared unit
+    double mesh_size = 0;                    ///< see describe()
+    std::size_t rings = 5;                   ///< see describe()
+    double gap_slope = GapRule{}.slope;      ///< see describe(), GapRule::slope
+    bool isotropic = false;                  ///< see describe()
+    bool bridge_faults = false;              ///< see describe()
+    std::optional<double> smoothing{};       ///< RbfOptions::smoothing
 
     /// Describes the options, see Field.
     static void describe(const auto& visit, auto& o) {

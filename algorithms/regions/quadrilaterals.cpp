@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/regions/quadrilaterals.hpp>
+#include <terrane/algorithms/regions/regions.hpp>
 
 #include <algorithm>
 #include <optional>

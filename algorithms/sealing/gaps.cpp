@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/sealing/gaps.hpp>
+#include <terrane/algorithms/sealing/sealing.hpp>
 
 #include <algorithm>
 #include <array>

@@ -15,7 +15,6 @@
 #include <utility>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
-#include <terrane/algorithms/arrangement/known_triangles.hpp>
 #include <terrane/algorithms/arrangement/restricted.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
@@ -31,6 +30,7 @@
 #include <terrane/algorithms/sealing/detail/overshoots.hpp>
 #include <terrane/algorithms/sealing/detail/seal_distances.hpp>
 #include <terrane/algorithms/sealing/extension_faces.hpp>
+#include <terrane/algorithms/sealing/known_sealing.hpp>
 
 namespace terrane {
 
@@ -85,11 +85,11 @@ Result<Arrangement> judged_again(Arrangement a, const std::vector<ExtensionTrian
 
 class Sealing {
 public:
-    Sealing(std::vector<Surface> surfaces, const SealOptions& options, const Run& run) :
-        surfaces_(std::move(surfaces)), arrange_(options.arrange),
-        distances_(options.distance, options.rules), run_(run) {
-        if (arrange_.known == nullptr) arrange_.known = &known_;
-    }
+    Sealing(std::vector<Surface> surfaces, const SealOptions& options, KnownTriangles& known,
+            const Run& run) :
+        surfaces_(std::move(surfaces)),
+        arrange_(options.arrange), known_(known), distances_(options.distance, options.rules),
+        run_(run) {}
 
     Result<Sealed> operator()() {
         if (auto done = update(); !done) return done.error();
@@ -122,7 +122,7 @@ private:
     /// Arranges the surfaces with their strips and decides what is kept.
     Status update() {
         measured_.reset();
-        auto a = arrange(with(strips_), arrange_, run_);
+        auto a = arrange(with(strips_), arrange_, known_, run_);
         if (!a) return a.error();
         whole_ = std::move(a).value();
         judged_ = judge(whole_, strips_, distances_);
@@ -347,8 +347,8 @@ private:
     }
 
     const std::vector<Surface> surfaces_; ///< those of the input
-    KnownTriangles known_; ///< of the surfaces, which all arrangements have in common
-    ArrangeOptions arrange_;
+    const ArrangeOptions arrange_;
+    KnownTriangles& known_; ///< of the surfaces, which all arrangements have in common
     const SealDistances distances_;
     const Run& run_;
     std::vector<ExtensionTriangle> strips_;
@@ -398,12 +398,18 @@ Status check_distances(std::size_t surfaces, const SealOptions& options) {
 } // namespace
 
 Result<Sealed> seal(std::vector<Surface> surfaces, const SealOptions& options, const Run& run) {
+    KnownTriangles known;
+    return seal(std::move(surfaces), options, known, run);
+}
+
+Result<Sealed> seal(std::vector<Surface> surfaces, const SealOptions& options,
+                    KnownTriangles& known, const Run& run) {
     return guarded("for sealing", "sealing", [&]() -> Result<Sealed> {
         if (const auto sound = check_distances(surfaces.size(), options); !sound)
             return sound.error();
         const StageTimer timer(run, "seal");
         const Run inner = timer.inside();
-        return Sealing(std::move(surfaces), options, inner)();
+        return Sealing(std::move(surfaces), options, known, inner)();
     });
 }
 

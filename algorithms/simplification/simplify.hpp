@@ -38,12 +38,12 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/check/conforming.hpp>
-#include <terrane/algorithms/core/named_constant.hpp>
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/core/fields.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/algorithms/quality/deviation.hpp>
+#include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 
 namespace terrane {
@@ -55,6 +55,26 @@ struct SimplifyOptions {
     double edge_length = 0;     ///< of the triangles that are made first; 0: six resolutions
     bool dissolve = false;      ///< blocks thinner than the resolution, on average, may go
     RoundingOptions rounding{}; ///< of each arrangement
+};
+
+/// The resolution of a model.
+struct Resolution {
+    double length = 0;     ///< see describe(), in the unit of the mesh
+    bool dissolve = false; ///< see SimplifyOptions
+
+    /// Describes the options of improvement at a resolution, see Field.
+    static void describe(const auto& visit, auto& o) {
+        visit(
+            Field("resolution", "R",
+                  "Experimental. Joins places that are nearer than this first, where it can: "
+                  "corners, short curves, narrow strips, thin gaps, sharp wedges. No surface moves "
+                  "by more, both steps together",
+                  "nothing is joined", {}, true),
+            o.length);
+        visit(Field("dissolve", "", "Lets blocks go that are thinner than `resolution` on average",
+                    "those that stay are listed", {}, true),
+              o.dissolve);
+    }
 };
 
 /// Why a near place was left alone.

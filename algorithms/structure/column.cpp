@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/structure/column.hpp>
+#include <terrane/algorithms/structure/block_names.hpp>
 
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/structure/free_borders.hpp>
+#include <terrane/algorithms/structure/relations.hpp>
 
 #include <algorithm>
 #include <climits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/structure/stated_blocks.hpp>
+#include <terrane/algorithms/structure/block_names.hpp>
 
 #include <algorithm>
 #include <cstddef>

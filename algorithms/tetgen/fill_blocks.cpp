@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -23,7 +23,6 @@
 #include <terrane/algorithms/tetgen/detail/shapes.hpp>
 #include <terrane/algorithms/tetgen/detail/sizes.hpp>
 #include <terrane/algorithms/tetgen/detail/ways.hpp>
-#include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/algorithms/tetrahedra/sharpest_angle.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
+#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 
 namespace terrane {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
+#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 
 #include <algorithm>
 #include <cmath>

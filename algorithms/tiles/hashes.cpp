@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Hashes that the digest consists of (arrangement/digest.hpp).
+// Hashes that the digest consists of (arrangement/arrangement.hpp).
 #include <algorithm>
 
 #include <terrane/algorithms/tiles/detail/hashes.hpp>

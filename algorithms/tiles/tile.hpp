@@ -15,7 +15,6 @@
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/tiles/grid.hpp>
-#include <terrane/kernel/construction.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane::tiles {

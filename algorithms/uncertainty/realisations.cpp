@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/arrangement/known_triangles.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/project/known_build.hpp>
 #include <terrane/algorithms/uncertainty/detail/fault_plane.hpp>
 #include <terrane/algorithms/uncertainty/detail/fault_slip.hpp>
 #include <terrane/algorithms/uncertainty/detail/map_values.hpp>
@@ -249,7 +249,6 @@ Result<Realisations> Realisations::prepare(Project project, BuildInput input,
 
 BuildInput Realisations::input_of(std::uint64_t seed, std::uint64_t number) const {
     BuildInput moved = state_->input;
-    moved.known = &state_->known;
     if (number == 0 || state_->movers.empty()) return moved;
     std::vector<std::vector<Point3>> own;
     for (const Surface& s : moved.surfaces) own.emplace_back(s.vertices.size());
@@ -264,6 +263,10 @@ BuildInput Realisations::input_of(std::uint64_t seed, std::uint64_t number) cons
             p = {p.x + by.x, p.y + by.y, p.z + by.z};
         }
     return moved;
+}
+
+Result<Built> Realisations::build(std::uint64_t seed, std::uint64_t number, const Run& run) const {
+    return terrane::build(project(), input_of(seed, number), state_->known, run);
 }
 
 } // namespace terrane

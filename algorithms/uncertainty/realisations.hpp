@@ -44,8 +44,11 @@ public:
 
     /// Returns the project of every realisation: holes are filled already, and nothing is uncertain.
     [[nodiscard]] const Project& project() const;
-    /// Returns the input of build() for a realisation. It must not outlive this object.
+    /// Returns the input of build() for a realisation.
     [[nodiscard]] BuildInput input_of(std::uint64_t seed, std::uint64_t number) const;
+    /// Builds a realisation. What surfaces that do not move have in common is found once.
+    [[nodiscard]] Result<Built> build(std::uint64_t seed, std::uint64_t number,
+                                      const Run& run = {}) const;
 
 private:
     struct State;

@@ -24,7 +24,7 @@ enum class Rule : std::uint8_t {
                   ///< it: a child lies outside of it, or the areas do not add up
     R7_intersection_edges, ///< an intersection edge is not listed, or another edge is
     R8_set_aside,          ///< a degenerate or duplicate triangle is not listed, or another one is
-    // R9 and the following rules judge a certificate: see verify_certificate.hpp.
+    // R9 and the following rules judge a certificate: see verify.hpp.
     R9_inputs,            ///< an input file is not the one that the certificate describes
     R10_rounded_indices,  ///< in the mesh of doubles: as R1, or a number is not finite
     R11_conforming,       ///< the doubles are stated to be conforming and are not, or the reverse

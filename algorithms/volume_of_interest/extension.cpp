@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/volume_of_interest/extension.hpp>
+#include <terrane/algorithms/volume_of_interest/known_extension.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 #include <algorithm>
 #include <array>
@@ -18,7 +19,6 @@
 #include <terrane/algorithms/sealing/border_extension.hpp>
 #include <terrane/algorithms/sealing/extension_faces.hpp>
 #include <terrane/algorithms/volume_of_interest/detail/constants.hpp>
-#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 namespace terrane {
 
@@ -168,9 +168,10 @@ bool ends_here(UpwardWitness upward, const Arrangement& a, TriangleId t, InputTr
 Result<std::vector<bool>> find_reached(std::vector<Surface> surfaces,
                                        std::span<const ExtensionTriangle> strips,
                                        std::size_t pieces, std::span<const std::uint32_t> boundary,
-                                       const ExtendOptions& options, const Run& run) {
+                                       const ExtendOptions& options, KnownTriangles& known,
+                                       const Run& run) {
     append_strips(surfaces, strips);
-    const auto a = arrange(surfaces, options.arrange, run);
+    const auto a = arrange(surfaces, options.arrange, known, run);
     if (!a) return a.error();
     const auto where = locate(a.value(), boundary, run);
     if (!where) return where.error();
@@ -237,8 +238,8 @@ std::vector<ExtendedBorder> list(const Arrangement& inside, std::span<const Bord
 }
 
 Result<Extended> extend(std::vector<Surface> surfaces, std::span<const std::uint32_t> boundary,
-                        const ExtendOptions& options, const Run& run) {
-    auto a = arrange(surfaces, options.arrange, run);
+                        const ExtendOptions& options, KnownTriangles& known, const Run& run) {
+    auto a = arrange(surfaces, options.arrange, known, run);
     if (!a) return a.error();
     const auto cut = cut_to_volume(std::move(a).value(), boundary, run);
     if (!cut) return cut.error();
@@ -246,7 +247,8 @@ Result<Extended> extend(std::vector<Surface> surfaces, std::span<const std::uint
     const auto edges = borders_inside(inside);
     if (edges.empty()) return Extended{std::move(surfaces), {}};
     auto strips = strips_beyond(inside, edges, options.limit);
-    const auto reached = find_reached(surfaces, strips, edges.size(), boundary, options, run);
+    const auto reached =
+        find_reached(surfaces, strips, edges.size(), boundary, options, known, run);
     if (!reached) return reached.error();
     std::erase_if(strips, [&](const ExtensionTriangle& t) { return !reached.value()[t.piece]; });
     drop_lone_fans(strips);
@@ -259,11 +261,19 @@ Result<Extended> extend(std::vector<Surface> surfaces, std::span<const std::uint
 Result<Extended> extend_to_boundary(std::vector<Surface> surfaces,
                                     std::span<const std::uint32_t> boundary,
                                     const ExtendOptions& options, const Run& run) {
+    KnownTriangles known;
+    return extend_to_boundary(std::move(surfaces), boundary, options, known, run);
+}
+
+Result<Extended> extend_to_boundary(std::vector<Surface> surfaces,
+                                    std::span<const std::uint32_t> boundary,
+                                    const ExtendOptions& options, KnownTriangles& known,
+                                    const Run& run) {
     return guarded("to extend surfaces", "extend", [&]() -> Result<Extended> {
         if (!(options.limit > 0) || !std::isfinite(options.limit))
             return Error{ErrorCode::bad_option, "the limit must be positive", "extend"};
         const StageTimer timer(run, "extend");
-        return extend(std::move(surfaces), boundary, options, timer.inside());
+        return extend(std::move(surfaces), boundary, options, known, timer.inside());
     });
 }
 

@@ -16,7 +16,6 @@
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/check/check.hpp>
-#include <terrane/algorithms/check/conforming.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/layers/layers.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -29,7 +28,7 @@
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/simplification/simplify.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
-#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/capi/arrangement.h>

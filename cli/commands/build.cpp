@@ -10,7 +10,7 @@
 
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/project/build.hpp>
-#include <terrane/algorithms/tetgen/tetgen_helper.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/cli/commands/build_help.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/commands/file_options.hpp>
@@ -24,7 +24,6 @@
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 #include <terrane/io/project.hpp>
-#include <terrane/io/project_inputs.hpp>
 #include <terrane/io/results.hpp>
 
 namespace terrane::cli {

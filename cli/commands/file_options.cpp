@@ -23,7 +23,7 @@
 #include <terrane/io/atomic/file_set.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/meshes/pvtp.hpp>
-#include <terrane/io/project_inputs.hpp>
+#include <terrane/io/project.hpp>
 
 namespace terrane::cli {
 

@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/tetgen/tetgen_helper.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/commands/file_options.hpp>
 #include <terrane/cli/options/choices.hpp>

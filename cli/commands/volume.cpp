@@ -15,7 +15,7 @@
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 #include <terrane/io/gocad/gocad_model.hpp>
-#include <terrane/io/model_folder.hpp>
+#include <terrane/io/results.hpp>
 
 namespace terrane::cli {
 namespace {

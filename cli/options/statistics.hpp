@@ -7,7 +7,7 @@
 #include <string>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/core/named_constant.hpp>
+#include <terrane/algorithms/core/fields.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/io/text/json.hpp>

@@ -17,7 +17,7 @@
 #include <terrane/cli/session/quantities.hpp>
 #include <terrane/cli/session/text_width.hpp>
 #include <terrane/io/points/outline.hpp>
-#include <terrane/io/project_inputs.hpp>
+#include <terrane/io/project.hpp>
 
 namespace terrane::cli {
 namespace {

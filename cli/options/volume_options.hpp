@@ -10,7 +10,6 @@
 #include <CLI/CLI.hpp>
 
 #include <terrane/algorithms/project/project.hpp>
-#include <terrane/algorithms/volume_of_interest/extension.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
@@ -45,7 +44,7 @@ Status check_volume_options(const VolumeOptions& options);
 /// reading a polygon.
 Result<ProjectVolume> volume_of(const VolumeOptions& options);
 
-/// Makes its boundary. Precondition: wanted(). Errors: those of the makers (boundary_surfaces.hpp) and
+/// Makes its boundary. Precondition: wanted(). Errors: those of the makers (volume_of_interest.hpp) and
 /// of reading files; bad_option.
 Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& session);
 

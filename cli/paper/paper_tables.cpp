@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include <terrane/algorithms/arrangement/soup.hpp>
-#include <terrane/algorithms/core/stage_times.hpp>
+#include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/core/stopwatch.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>

@@ -7,7 +7,7 @@
 
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/cli/options/volume_options.hpp>
 #include <terrane/cli/reports/merge_report.hpp>
 #include <terrane/cli/reports/pair_report.hpp>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <terrane/algorithms/quality/improve_measured.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/cli/options/statistics.hpp>
 
 namespace terrane::cli {

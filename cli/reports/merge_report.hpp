@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include <terrane/algorithms/model/small_blocks.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
 

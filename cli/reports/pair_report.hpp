@@ -8,7 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <terrane/algorithms/check/pair_check.hpp>
+#include <terrane/algorithms/check/check.hpp>
 #include <terrane/cli/options/files.hpp>
 
 namespace terrane::cli {

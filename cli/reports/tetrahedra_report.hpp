@@ -6,7 +6,7 @@
 #include <string>
 
 #include <terrane/algorithms/project/build.hpp>
-#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/cli/options/statistics.hpp>
 

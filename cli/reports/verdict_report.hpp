@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/cli/session/console.hpp>
 
 namespace terrane::cli {

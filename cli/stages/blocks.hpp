@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <terrane/algorithms/model/leak_advice.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/session/session.hpp>

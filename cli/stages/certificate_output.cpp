@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/certificate.hpp>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/reports/verdict_report.hpp>
 

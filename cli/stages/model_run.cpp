@@ -17,7 +17,7 @@
 #include <terrane/cli/stages/page_output.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/certify.hpp>
-#include <terrane/io/column.hpp>
+#include <terrane/io/project.hpp>
 
 namespace terrane::cli {
 namespace {

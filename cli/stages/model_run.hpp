@@ -12,7 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <terrane/algorithms/model/leak_advice.hpp>
+#include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>

@@ -16,6 +16,7 @@
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/reports/tile_report.hpp>
 #include <terrane/cli/stages/tile_volumes.hpp>
+#include <terrane/io/meshes/cell_array.hpp>
 #include <terrane/io/meshes/pvtp_output.hpp>
 
 namespace terrane::cli {

@@ -4,9 +4,7 @@
 #include <cstdio>
 #include <vector>
 
-#include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/rounding/rounding.hpp>
-#include <terrane/io/files.hpp>
+#include <terrane/advanced.hpp>
 
 namespace {
 

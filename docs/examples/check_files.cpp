@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <terrane/algorithms/check/check.hpp>
-#include <terrane/io/files.hpp>
+#include <terrane/terrane.hpp>
 
 int main(int argc, char** argv) {
     std::vector<terrane::Surface> surfaces;

@@ -5,12 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/rounding/rounding.hpp>
-#include <terrane/algorithms/tetgen/tetrahedra.hpp>
-#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
-#include <terrane/algorithms/volumes/volumes.hpp>
-#include <terrane/io/files.hpp>
+#include <terrane/advanced.hpp>
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <string_view>
 
-#include <terrane/algorithms/structure/column.hpp>
+#include <terrane/algorithms/structure/block_names.hpp>
 #include <terrane/io/detail/json_reader.hpp>
 
 namespace terrane::detail {

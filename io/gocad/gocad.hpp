@@ -11,7 +11,7 @@
 #include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/structure/stated_blocks.hpp>
+#include <terrane/algorithms/structure/block_names.hpp>
 
 namespace terrane {
 

@@ -4,17 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <string>
-#include <variant>
 #include <vector>
 
-namespace terrane {
+#include <terrane/algorithms/mesh/mesh.hpp>
 
-/// A named array with one value per cell, for the formats that have such arrays (VTP, VTU).
-struct CellArray {
-    std::string name; ///< "volume", "quality", ...
-    std::variant<std::vector<std::int32_t>, std::vector<double>> values; ///< one per cell
-};
+namespace terrane {
 
 /// Returns the arrays volume_front and volume_back. of_sides: per triangle, see Volumes.
 std::vector<CellArray> volume_cells(std::span<const std::array<std::uint32_t, 2>> of_sides);

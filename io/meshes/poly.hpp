@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include <terrane/algorithms/mesh/block_point.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/volumes/point_location.hpp>
 
 namespace terrane {
 

@@ -13,6 +13,7 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/tiles/pieces.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/meshes/cell_array.hpp>
 #include <terrane/io/meshes/detail/vtk_data.hpp>
 #include <terrane/io/meshes/detail/vtk_writer.hpp>
 #include <terrane/io/text/names.hpp>

@@ -13,7 +13,7 @@
 #include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
-#include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
+#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 
 namespace terrane::page {
 namespace {

@@ -11,7 +11,6 @@
 
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
-#include <terrane/algorithms/model/leak_advice.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/io/page/json.hpp>

@@ -14,12 +14,11 @@
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
-#include <terrane/algorithms/mesh/shared_mesh.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
-#include <terrane/algorithms/model/leak_advice.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
-#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/io/page/arrays.hpp>
 #include <terrane/io/page/findings.hpp>
 #include <terrane/io/page/json.hpp>

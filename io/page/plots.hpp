@@ -5,9 +5,9 @@
 
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/quality/improve_measured.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
-#include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
+#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/io/page/json.hpp>
 
 namespace terrane::page {

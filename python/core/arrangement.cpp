@@ -4,11 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include <terrane/algorithms/arrangement/digest.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/search/method.hpp>
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
-#include <terrane/algorithms/volume_of_interest/extension.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 #include "handles.hpp"

@@ -9,7 +9,7 @@
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/project/project.hpp>
-#include <terrane/io/project_inputs.hpp>
+#include <terrane/io/project.hpp>
 
 #include "model_handle.hpp"
 #include "tetrahedra_handle.hpp"
@@ -27,8 +27,8 @@ struct BuiltHandle {
         certified{}; ///< what certificates are about; nullptr: none are wanted
 };
 
-/// Builds a project from its surfaces. `judges_leaks`: whether it is found which gaps separate blocks.
-Result<BuiltHandle> built_of(const Project& project, BuildInput input, bool judges_leaks,
+/// Keeps what was made of a project. `judges_leaks`: whether it is found which gaps separate blocks.
+Result<BuiltHandle> built_of(const Project& project, Result<Built> made, bool judges_leaks,
                              const Run& run);
 
 } // namespace terrane::python

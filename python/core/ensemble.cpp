@@ -10,7 +10,6 @@
 #include <terrane/algorithms/uncertainty/realisations.hpp>
 #include <terrane/io/page/html.hpp>
 #include <terrane/io/project.hpp>
-#include <terrane/io/project_inputs.hpp>
 #include <terrane/io/uncertainty_maps.hpp>
 
 #include "built_handle.hpp"
@@ -56,7 +55,7 @@ std::shared_ptr<BuiltHandle> realised(const EnsemblePointer& ensemble, std::uint
                                       std::uint64_t number, const HowToRun& how) {
     return std::make_shared<BuiltHandle>(run_stage(how, [ensemble, seed, number](const Run& run) {
         const Realisations& all = ensemble->realisations;
-        return built_of(all.project(), all.input_of(seed, number), false, run);
+        return built_of(all.project(), all.build(seed, number, run), false, run);
     }));
 }
 

@@ -12,8 +12,8 @@
 #include <pybind11/pybind11.h>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/check/conforming.hpp>
-#include <terrane/algorithms/mesh/shared_mesh.hpp>
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 

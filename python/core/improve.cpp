@@ -6,9 +6,8 @@
 
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
-#include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
-#include <terrane/algorithms/quality/improve_measured.hpp>
+#include <terrane/algorithms/quality/quality.hpp>
 
 #include "fields.hpp"
 #include "handles.hpp"

@@ -6,10 +6,10 @@
 
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/project/build.hpp>
-#include <terrane/algorithms/quality/improve_measured.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/structure/relations.hpp>
-#include <terrane/algorithms/structure/structure_meshes.hpp>
-#include <terrane/io/model_folder.hpp>
+#include <terrane/algorithms/structure/structure.hpp>
+#include <terrane/io/results.hpp>
 
 #include "fields.hpp"
 #include "handles.hpp"

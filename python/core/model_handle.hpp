@@ -8,10 +8,9 @@
 #include <pybind11/pybind11.h>
 
 #include <terrane/algorithms/model/arrange_within.hpp>
-#include <terrane/algorithms/model/leak_advice.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/project/build.hpp>
-#include <terrane/algorithms/structure/column.hpp>
+#include <terrane/algorithms/structure/block_names.hpp>
 
 namespace terrane::python {
 

@@ -9,7 +9,6 @@
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 #include <terrane/io/project.hpp>
-#include <terrane/io/project_inputs.hpp>
 #include <terrane/io/results.hpp>
 
 #include "built_handle.hpp"
@@ -49,7 +48,8 @@ std::shared_ptr<BuiltHandle> build_text(const py::bytes& text, const py::object&
         run_stage(how, [project](const Run& run) -> Result<BuiltHandle> {
             auto inputs = read_inputs(project, run);
             if (!inputs) return inputs.error();
-            auto built = built_of(project, std::move(inputs->build), true, run);
+            auto built =
+                built_of(project, build(project, std::move(inputs->build), run), true, run);
             if (built) built->read = *std::move(inputs);
             return built;
         }));
@@ -57,9 +57,8 @@ std::shared_ptr<BuiltHandle> build_text(const py::bytes& text, const py::object&
 
 } // namespace
 
-Result<BuiltHandle> built_of(const Project& project, BuildInput input, bool judges_leaks,
+Result<BuiltHandle> built_of(const Project& project, Result<Built> made, bool judges_leaks,
                              const Run& run) {
-    auto made = build(project, std::move(input), run);
     if (!made) return made.error();
     auto model = model_of(*made, judges_leaks, run);
     if (!model) return model.error();

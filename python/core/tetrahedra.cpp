@@ -6,8 +6,7 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/validation.hpp>
-#include <terrane/algorithms/tetgen/fill_blocks.hpp>
-#include <terrane/algorithms/tetgen/tetgen_helper.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/algorithms/tetrahedra/split_nodes.hpp>
 #include <terrane/io/files.hpp>

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 
 namespace terrane::python {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <terrane/algorithms/verify/stoppable.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/files.hpp>
 

@@ -5,8 +5,7 @@
 
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/structure/build_structure.hpp>
-#include <terrane/algorithms/structure/structure_meshes.hpp>
-#include <terrane/algorithms/volumes/block_points.hpp>
+#include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/volumes/point_location.hpp>
 
 #include "handles.hpp"

@@ -1,103 +1,15 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# Lists the public headers, which are installed, by library. They include only each other
-# (tests/test_include_order.cpp) and no header of a library that users would have to install.
-set(terrane_headers
-    terrane.hpp
-    kernel/construction.hpp
-    kernel/point.hpp
-    kernel/predicate_counts.hpp
-    algorithms/core/fields.hpp
-    algorithms/core/id.hpp
-    algorithms/core/index_lists.hpp
-    algorithms/core/named_constant.hpp
-    algorithms/core/process_memory.hpp
-    algorithms/core/result.hpp
-    algorithms/core/run.hpp
-    algorithms/core/stage_times.hpp
-    algorithms/mesh/mesh.hpp
-    algorithms/mesh/block_point.hpp
-    algorithms/mesh/shared_mesh.hpp
-    algorithms/mesh/surface.hpp
-    algorithms/plausibility/plausibility.hpp
-    algorithms/search/method.hpp
-    algorithms/intersection/contact_kind.hpp
-    algorithms/arrangement/arrangement.hpp
-    algorithms/arrangement/digest.hpp
-    algorithms/arrangement/input_triangles.hpp
-    algorithms/check/check.hpp
-    algorithms/check/conforming.hpp
-    algorithms/check/pair_check.hpp
-    algorithms/regions/quadrilaterals.hpp
-    algorithms/regions/regions.hpp
-    algorithms/rounding/rounded_mesh.hpp
-    algorithms/rounding/rounding.hpp
-    algorithms/volumes/point_location.hpp
-    algorithms/volumes/block_points.hpp
-    algorithms/volumes/volumes.hpp
-    algorithms/structure/block_names.hpp
-    algorithms/structure/column.hpp
-    algorithms/structure/free_borders.hpp
-    algorithms/structure/relations.hpp
-    algorithms/structure/stated_blocks.hpp
-    algorithms/structure/structure.hpp
-    algorithms/structure/structure_meshes.hpp
-    algorithms/layers/layers.hpp
-    algorithms/quality/deviation.hpp
-    algorithms/quality/improve.hpp
-    algorithms/quality/improve_options.hpp
-    algorithms/quality/improve_measured.hpp
-    algorithms/quality/improved.hpp
-    algorithms/quality/quality.hpp
-    algorithms/simplification/simplify.hpp
-    algorithms/reconstruction/holes/filling.hpp
-    algorithms/reconstruction/holes/holes.hpp
-    algorithms/reconstruction/kriging/fill_kriging.hpp
-    algorithms/reconstruction/kriging/variogram.hpp
-    algorithms/reconstruction/rbf/rbf.hpp
-    algorithms/reconstruction/fill.hpp
-    algorithms/sealing/gaps.hpp
-    algorithms/sealing/sealing.hpp
-    algorithms/volume_of_interest/boundary_surfaces.hpp
-    algorithms/volume_of_interest/extension.hpp
-    algorithms/volume_of_interest/volume_of_interest.hpp
-    algorithms/model/arrange_within.hpp
-    algorithms/model/leak_advice.hpp
-    algorithms/model/model.hpp
-    algorithms/model/resolution.hpp
-    algorithms/model/model_doubts.hpp
-    algorithms/model/seal_advice.hpp
-    algorithms/model/seal_rules.hpp
-    algorithms/model/small_blocks.hpp
-    algorithms/tetrahedra/check_tetrahedra.hpp
-    algorithms/tetrahedra/split_nodes.hpp
-    algorithms/tetrahedra/tetrahedra_shape.hpp
-    algorithms/optimisation/optimise.hpp
-    algorithms/tetgen/fill_blocks.hpp
-    algorithms/tetgen/tetgen_helper.hpp
-    algorithms/tetgen/tetrahedra.hpp
-    algorithms/project/build.hpp
-    algorithms/project/preprocess.hpp
-    algorithms/project/project.hpp
-    io/certificate.hpp
-    io/column.hpp
-    io/exact_text.hpp
-    io/files.hpp
-    io/gocad/gocad.hpp
-    io/gocad/gocad_model.hpp
-    io/grids/grid.hpp
-    io/meshes/cell_array.hpp
-    io/meshes/poly.hpp
-    io/model_folder.hpp
-    io/project.hpp
-    io/project_inputs.hpp
-    io/structure_json.hpp)
-set(verify_headers
-    algorithms/verify/block_claims.hpp
-    algorithms/verify/certificate.hpp
-    algorithms/verify/changed_claims.hpp
-    algorithms/verify/verdict.hpp
-    algorithms/verify/verify.hpp
-    algorithms/verify/verify_certificate.hpp)
+# The public headers, which are installed, by library: terrane.hpp, advanced.hpp and what they include.
+# tests/test_include_order.cpp says what these may include.
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS terrane.hpp advanced.hpp)
+file(STRINGS terrane.hpp terrane_headers REGEX "^#include <terrane/")
+file(STRINGS advanced.hpp advanced_headers REGEX "^#include <terrane/")
+list(APPEND terrane_headers ${advanced_headers})
+list(TRANSFORM terrane_headers REPLACE "^#include <terrane/(.*)>$" "\\1")
+set(verify_headers ${terrane_headers})
+list(FILTER verify_headers INCLUDE REGEX "^algorithms/verify/")
+list(FILTER terrane_headers EXCLUDE REGEX "^algorithms/verify/")
+list(APPEND terrane_headers advanced.hpp)
 # The C interface. terrane.h includes the others.
 set(terrane_c_headers
     terrane.h

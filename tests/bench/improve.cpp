@@ -29,8 +29,8 @@
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/quality/detail/features.hpp>
-#include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
+#include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/io/files.hpp>
 

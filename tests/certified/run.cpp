@@ -16,9 +16,8 @@
 #include <nlohmann/json.hpp>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/arrangement/digest.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/certificate.hpp>
 #include <terrane/io/files.hpp>

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include <terrane/terrane.hpp>
+#include <terrane/advanced.hpp>
 
 #include <terrane/algorithms/sealing/border_extension.hpp>
 #include <terrane/algorithms/volumes/complex.hpp>

@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <terrane/algorithms/verify/verify.hpp>
-#include <terrane/terrane.hpp>
+#include <terrane/advanced.hpp>
 
 #if defined(CGAL_VERSION_NR) || defined(BOOST_VERSION) || defined(__GNU_MP_VERSION)
 #error "an installed header includes CGAL, Boost or GMP"

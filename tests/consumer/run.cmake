@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # cmake -DBUILD=... -DSOURCE=... -DWORK=... -DTETGEN=... -DCOMPILER=... -DSANITIZE=... -P run.cmake
 # Installs the build tree into WORK/prefix; then configures, builds and runs the consumer against it, with the
-# library's compiler and, if installed, with the other one of gcc and clang.
+# library's compiler and, if installed, with the other one of gcc and clang. It has all C and C++ of the documentation.
+# Then it does what README.md says: the programs there print what it shows.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed)
   if(failed)
@@ -15,7 +16,7 @@ endfunction()
 # includes it would list oneapi/tbb as well.)
 function(judge_dependencies build)
   execute_process(COMMAND ninja -C ${build} -t deps OUTPUT_VARIABLE files RESULT_VARIABLE failed)
-  if(failed OR NOT files MATCHES "prefix/include/terrane/terrane.hpp")
+  if(failed OR NOT files MATCHES "prefix/include/terrane/advanced.hpp")
     message(FATAL_ERROR "ninja does not say what the consumer was compiled from: ${files}")
   endif()
   string(REGEX MATCHALL "[^\n]*(CGAL|boost|[Ee]igen3?/|gmp(xx)?\\.h|mpfr\\.h|oneapi/tbb|fmt/|nlohmann|nettle|tetgen\\.h)[^\n]*"
@@ -43,15 +44,41 @@ file(GLOB licences ${WORK}/prefix/share/doc/*/LICENSES/LGPL-3.0-or-later.txt)
 if(NOT licences)
   message(FATAL_ERROR "the text of the licence is not installed")
 endif()
+run(/usr/bin/python3 -B ${SOURCE}/snippets.py ${WORK})
 foreach(compiler IN LISTS compilers)
   cmake_path(GET compiler FILENAME name)
   set(build ${WORK}/build-${name})
   run(${CMAKE_COMMAND} -S ${SOURCE} -B ${build} -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
-      -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${compiler} -DWITH_TETGEN=${TETGEN} ${flags})
+      -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${compiler} -DWITH_TETGEN=${TETGEN} -DSNIPPETS=${WORK}/snippets
+      ${flags})
   run(${CMAKE_COMMAND} --build ${build})
   judge_dependencies(${build})
   run(${build}/consumer)
 endforeach()
+
+# Runs a program of README.md, which is next to the three files that it reads.
+function(run_of_readme program)
+  execute_process(COMMAND ${program} WORKING_DIRECTORY ${SOURCE}/../../docs/data OUTPUT_VARIABLE printed
+                  COMMAND_ERROR_IS_FATAL ANY)
+  file(READ ${SOURCE}/../../README.md readme)
+  string(FIND "${readme}" "```text\n${printed}```" place)
+  if(place EQUAL -1)
+    message(FATAL_ERROR "README.md does not show that ${program} prints\n${printed}")
+  endif()
+endfunction()
+
+run(${CMAKE_COMMAND} -S ${WORK}/readme -B ${WORK}/readme/build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
+    -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${COMPILER} ${flags})
+run(${CMAKE_COMMAND} --build ${WORK}/readme/build)
+run_of_readme(${WORK}/readme/build/blocks)
+file(GLOB_RECURSE package ${WORK}/prefix/lib/*/terrane_c.pc)
+if(package AND NOT SANITIZE)
+  cmake_path(GET package PARENT_PATH folder)
+  cmake_path(GET folder PARENT_PATH folder)
+  run(${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${folder}/pkgconfig sh -c
+      "cd ${WORK}/readme && cc blocks.c $(pkg-config --cflags --libs terrane_c) -Wl,-rpath,${folder} -o blocks")
+  run_of_readme(${WORK}/readme/blocks)
+endif()
 # The installed programs find each other after the installation is moved.
 file(RENAME ${WORK}/prefix ${WORK}/moved)
 file(GLOB program ${WORK}/moved/bin/terrane)

@@ -5,7 +5,7 @@ import unicodedata
 from dataclasses import dataclass, field
 
 FENCE = re.compile(r"^(\s*)(`{3,}|~{3,})\s*([\w+-]*)")
-DIRECTIVE = re.compile(r"^\s*<!--\s*(file|not run|needs|source):\s*(.*?)\s*-->\s*$")
+DIRECTIVE = re.compile(r"^\s*<!--\s*(file|given|not run|needs|source):\s*(.*?)\s*-->\s*$")
 HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*\s*$")
 LINK = re.compile(r"!?\[(?:[^\[\]]|\[[^\[\]]*\])*\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")
 LINK_DEFINITION = re.compile(r"^\s{0,3}\[[^\]]+\]:\s+<?(\S+?)>?(?:\s|$)")
@@ -24,7 +24,7 @@ class Block:
     language: str
     line: int
     lines: list
-    directive: str = ""  # "file", "source", "not run" or empty: from a comment right before the block
+    directive: str = ""  # "file", "given", "source", "not run" or empty: from a comment right before the block
     argument: str = ""
 
 

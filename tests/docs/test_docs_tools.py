@@ -235,10 +235,10 @@ class Guarantees(unittest.TestCase):
             self.assertEqual(check_guarantees.check(root), (3, []))
             page.write_text("## G1 It works\n\n- Tests: `b: ...`.\n")
             self.assertIn("b: ...", check_guarantees.check(root)[1][0])
-            readme.write_text("| G2 | works | nothing |\n" + "\n" * 119)
+            readme.write_text("| G2 | works | nothing |\n" + "\n" * 159)
             self.assertEqual(len(check_guarantees.check(root)[1]), 3)
             readme.write_text(readme.read_text() + "\n")
-            self.assertIn("120 lines", check_guarantees.check(root)[1][0])
+            self.assertIn("160 lines", check_guarantees.check(root)[1][0])
 
 
 class Licences(unittest.TestCase):

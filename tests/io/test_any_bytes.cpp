@@ -12,6 +12,7 @@
 
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/io/gocad/gocad.hpp>
 #include <terrane/io/surfaces/obj.hpp>
 #include <terrane/io/surfaces/off.hpp>
 #include <terrane/io/surfaces/ply.hpp>

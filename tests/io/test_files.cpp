@@ -11,6 +11,7 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/io/reading.hpp>
 
 #include "support/files.hpp"
 #include "support/samples.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <catch2/catch.hpp>
 
+#include <terrane/io/gocad/gocad.hpp>
 #include <terrane/io/surfaces/obj.hpp>
 #include <terrane/io/surfaces/off.hpp>
 #include <terrane/io/surfaces/ply.hpp>

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <terrane/terrane.hpp>
+#include <terrane/advanced.hpp>
 
 #include "support/files.hpp"
 

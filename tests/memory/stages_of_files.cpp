@@ -7,13 +7,14 @@
 #include <cstdint>
 
 #include <terrane/algorithms/verify/verify.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
 #include <terrane/io/certify.hpp>
+#include <terrane/io/gocad/gocad_model.hpp>
 #include <terrane/io/meshes/pvtp.hpp>
 #include <terrane/io/points/outline.hpp>
 #include <terrane/io/points/shape_outline.hpp>
 #include <terrane/io/reading.hpp>
 #include <terrane/io/results.hpp>
+#include <terrane/io/structure_json.hpp>
 #include <terrane/io/uncertainty_maps.hpp>
 
 #include "fixture.hpp"

@@ -36,8 +36,8 @@ std::vector<Stage> arranging() {
         "arrange, known triangles",
         [&f]() -> Result<Arrangement> {
             KnownTriangles known;
-            if (auto first = arrange(f.surfaces, {.known = &known}); !first) return first;
-            return arrange(f.surfaces, {.known = &known});
+            if (auto first = arrange(f.surfaces, {}, known); !first) return first;
+            return arrange(f.surfaces, {}, known);
         },
         as_text));
     stages.push_back(stage(

@@ -4,6 +4,8 @@
 #include <array>
 #include <optional>
 
+#include <terrane/algorithms/model/seal_advice.hpp>
+#include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/quality/improve_back.hpp>
 #include <terrane/algorithms/tetrahedra/edge_nodes.hpp>
 

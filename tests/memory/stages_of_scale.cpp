@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/tiles/local_supersteps.hpp>
 #include <terrane/algorithms/tiles/names_in_tiles.hpp>
 #include <terrane/algorithms/tiles/tiled_arrangement.hpp>

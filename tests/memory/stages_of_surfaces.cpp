@@ -5,6 +5,8 @@
 
 #include <terrane/algorithms/layers/order_check.hpp>
 #include <terrane/algorithms/reconstruction/joining/join.hpp>
+#include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
+#include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 #include <terrane/algorithms/reconstruction/rbf/rbf_join.hpp>
 #include <terrane/algorithms/triangulation/point_surface.hpp>
 

@@ -9,7 +9,7 @@
 
 #include <pthread.h>
 
-#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 
 #include "fixture.hpp"
 #include "stage.hpp"

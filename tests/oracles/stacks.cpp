@@ -30,7 +30,7 @@
 
 #include "oracles/clipped.hpp"
 #include <terrane/algorithms/layers/layers.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/io/certificate.hpp>
 #include <terrane/io/files.hpp>
 

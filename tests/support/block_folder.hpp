@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/structure/structure_meshes.hpp>
+#include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/structure_json.hpp>
 

@@ -10,7 +10,7 @@
 #include <catch2/catch.hpp>
 #include <gmpxx.h>
 
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 namespace test_support {
 

@@ -12,7 +12,7 @@
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/core/sha256.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/io/certificate.hpp>
 #include <terrane/io/files.hpp>
 

@@ -17,7 +17,7 @@
 #include <gmpxx.h>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
+#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace test_support {

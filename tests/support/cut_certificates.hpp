@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <terrane/algorithms/model/arrange_within.hpp>
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 #include "support/forged.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/io/block_certificate.hpp>
 #include <terrane/io/meshes/gmsh.hpp>
 #include <terrane/io/meshes/gmsh22.hpp>

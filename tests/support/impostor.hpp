@@ -17,7 +17,7 @@
 
 #include <terrane/algorithms/tetgen/detail/process.hpp>
 #include <terrane/algorithms/tetgen/detail/protocol.hpp>
-#include <terrane/algorithms/tetgen/tetgen_helper.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 
 namespace impostor {
 

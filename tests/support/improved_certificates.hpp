@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <terrane/algorithms/quality/improve_measured.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
 
 #include "support/forged.hpp"
 

@@ -15,7 +15,6 @@
 
 #include <gmpxx.h>
 
-#include <terrane/kernel/construction.hpp>
 #include <terrane/kernel/point.hpp>
 #include <terrane/kernel/sign.hpp>
 

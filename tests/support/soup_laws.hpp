@@ -6,13 +6,13 @@
 
 #include "support/metamorphic.hpp"
 
-#include <terrane/algorithms/arrangement/digest.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/verify/detail/digest.hpp>
 #include <terrane/algorithms/verify/detail/distance.hpp>
 #include <terrane/algorithms/verify/detail/rational.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <terrane/kernel/construction.hpp>
+#include <terrane/kernel/point.hpp>
 #include <terrane/kernel/point_store.hpp>
 
 namespace terrane::intersection::detail {

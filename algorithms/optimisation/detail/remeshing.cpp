@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <terrane/algorithms/optimisation/detail/constants.hpp>
-#include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
+#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 
 namespace terrane::optimisation::detail {
 

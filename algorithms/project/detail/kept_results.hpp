@@ -9,12 +9,12 @@
 #include <string>
 #include <string_view>
 
-#include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/quality/improve_measured.hpp>
-#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 
 namespace terrane::project::detail {
 

@@ -17,7 +17,7 @@
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/quality/sliding_vertices.hpp>
 #include <terrane/algorithms/tetrahedra/bad_tetrahedra.hpp>
-#include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
+#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 
 namespace terrane::project::detail {
 namespace {

@@ -11,8 +11,8 @@
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/project/build.hpp>
-#include <terrane/algorithms/quality/improve_measured.hpp>
-#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 
 namespace terrane::project::detail {
 

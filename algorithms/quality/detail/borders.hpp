@@ -15,7 +15,7 @@
 #include <vector>
 
 #include <terrane/algorithms/quality/detail/working_mesh.hpp>
-#include <terrane/kernel/construction.hpp>
+#include <terrane/kernel/point.hpp>
 
 namespace terrane::quality::detail {
 

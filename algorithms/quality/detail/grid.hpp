@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <terrane/algorithms/search/search.hpp>
-#include <terrane/kernel/construction.hpp>
+#include <terrane/kernel/point.hpp>
 
 namespace terrane::quality::detail {
 

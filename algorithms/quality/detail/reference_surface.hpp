@@ -27,7 +27,7 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/quality/detail/constants.hpp>
 #include <terrane/algorithms/quality/detail/features.hpp>
-#include <terrane/kernel/construction.hpp>
+#include <terrane/kernel/point.hpp>
 
 namespace terrane::quality::detail {
 

@@ -10,8 +10,7 @@
 #include <terrane/algorithms/quality/detail/least_quality.hpp>
 #include <terrane/algorithms/quality/detail/operations.hpp>
 #include <terrane/algorithms/quality/detail/sizes.hpp>
-#include <terrane/algorithms/quality/improve_options.hpp>
-#include <terrane/algorithms/quality/improved.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
 
 namespace terrane::quality::detail {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <terrane/algorithms/quality/detail/features.hpp>
-#include <terrane/algorithms/quality/improve_options.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
 
 namespace terrane::quality::detail {
 

@@ -7,10 +7,13 @@
 // alone. The classification uses measures in floating point, by the rules stated with LoopKind.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
-#include <terrane/algorithms/core/named_constant.hpp>
+#include <terrane/algorithms/core/fields.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
@@ -61,5 +64,34 @@ Result<std::vector<BorderLoop>> find_border_loops(const Surface& surface, const 
 
 /// Lists the constants that decide the result and are not options.
 std::vector<NamedConstant> hole_constants();
+
+/// The shapes of variograms, by which kriging fills; the formulas are at Variogram.
+enum class VariogramModel : std::uint8_t { spherical, exponential, gaussian, power, matern };
+
+/// Names the model: "spherical", ...
+std::string_view name_of(VariogramModel model);
+
+/// The variogram model of this name ("spherical", ...); none for any other word, such as "auto".
+std::optional<VariogramModel> variogram_model_named(std::string_view name);
+
+/// Describes a filling and how far it can be trusted. Lengths are in the unit of the surface.
+struct FillReport {
+    std::size_t data = 0;         ///< points of the surface used as data
+    std::size_t interpolated = 0; ///< vertices that the surface did not have
+    double area = 0;              ///< of the triangles
+    double expected_error = 0;    ///< root mean square of Filling::expected_error over the
+                                  ///< interpolated vertices; NaN if the method predicts none
+    double validated_error = 0;   ///< root mean square error at data that were left out and
+                                  ///< predicted from the others; NaN if not computed
+    std::string model;            ///< the fitted model and its parameters, in a sentence
+    std::vector<std::array<double, 2>>
+        variogram{}; ///< of kriging, without the trend: mean distance, half the mean squared
+                     ///< difference of heights; ascending; empty: there is none
+    std::vector<std::array<double, 2>> variogram_model{}; ///< the fitted one, likewise
+    std::vector<std::array<double, 2>>
+        left_out{}; ///< height of a datum, and as the data outside of its block predict it, for
+                    ///< validated_error; empty: none were left out. Heights are along z, or, of a
+                    ///< surface that is no graph z = f(x, y), along the mean normal of the border
+};
 
 } // namespace terrane

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include <terrane/algorithms/core/named_constant.hpp>
+#include <terrane/algorithms/core/fields.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/reconstruction/holes/filling.hpp>

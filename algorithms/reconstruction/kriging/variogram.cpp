@@ -236,6 +236,12 @@ std::string_view name_of(VariogramModel model) {
     return "power";
 }
 
+std::optional<VariogramModel> variogram_model_named(std::string_view name) {
+    for (const auto model : all_models)
+        if (name_of(model) == name) return model;
+    return std::nullopt;
+}
+
 double Variogram::distance(double dx, double dy) const {
     if (ratio == 1) return length_in_plane(dx, dy);
     const double c = std::cos(radians(angle)), s = std::sin(radians(angle));

@@ -14,15 +14,10 @@
 #include <string_view>
 #include <vector>
 
+#include <terrane/algorithms/reconstruction/holes/holes.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane {
-
-/// The shapes of variograms; the formulas are at Variogram.
-enum class VariogramModel : std::uint8_t { spherical, exponential, gaussian, power, matern };
-
-/// Names the model: "spherical", ...
-std::string_view name_of(VariogramModel model);
 
 /// Half the mean squared difference of two heights at distance h > 0, for range r; 0 at h = 0:
 ///   spherical    nugget + sill (3/2 h/r - 1/2 (h/r)^3), and nugget + sill from r on

@@ -24,7 +24,7 @@
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
 #include <terrane/algorithms/rounding/detail/tuning.hpp>
-#include <terrane/algorithms/rounding/rounded_mesh.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
 
 namespace terrane::rounding::detail {
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/index_lists.hpp>
-#include <terrane/algorithms/rounding/rounded_mesh.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/search/search.hpp>
 
 namespace terrane::rounding::detail {

@@ -11,7 +11,7 @@
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
-#include <terrane/algorithms/rounding/rounded_mesh.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
 
 namespace terrane::rounding::detail {
 

@@ -16,7 +16,7 @@
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/mesh/point_table.hpp>
 #include <terrane/algorithms/rounding/detail/decimal_frame.hpp>
-#include <terrane/algorithms/rounding/rounded_mesh.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
 
 namespace terrane::rounding::detail {
 

@@ -10,7 +10,7 @@
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
-#include <terrane/algorithms/rounding/rounded_mesh.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
 
 namespace terrane::rounding::detail {
 

@@ -12,7 +12,7 @@
 
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/structure/block_contacts.hpp>
-#include <terrane/algorithms/structure/column.hpp>
+#include <terrane/algorithms/structure/block_names.hpp>
 
 namespace terrane::structure::detail {
 

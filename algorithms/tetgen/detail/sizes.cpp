@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/volumes/block_points.hpp>
+#include <terrane/algorithms/volumes/point_location.hpp>
 
 namespace terrane::tetgen::detail {
 namespace {

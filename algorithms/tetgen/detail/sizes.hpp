@@ -17,9 +17,9 @@
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
-#include <terrane/algorithms/mesh/block_point.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
+#include <terrane/algorithms/volumes/point_location.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane::tetgen::detail {

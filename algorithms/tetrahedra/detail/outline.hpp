@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 
-#include <terrane/kernel/construction.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane::tetrahedra::detail {

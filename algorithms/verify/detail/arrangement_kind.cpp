@@ -12,7 +12,6 @@
 #include <terrane/algorithms/verify/detail/digest.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 #include <terrane/algorithms/verify/verify.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
 
 namespace terrane::verifier {
 

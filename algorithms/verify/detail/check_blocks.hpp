@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <terrane/algorithms/verify/block_claims.hpp>
+#include <terrane/algorithms/verify/certificate.hpp>
 #include <terrane/algorithms/verify/detail/blocks.hpp>
 #include <terrane/algorithms/verify/detail/tetrahedra.hpp>
 

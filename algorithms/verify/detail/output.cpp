@@ -11,7 +11,7 @@
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/verify/detail/kinds.hpp>
 #include <terrane/algorithms/verify/detail/sha256.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 
 namespace terrane {
 

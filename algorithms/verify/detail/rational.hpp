@@ -11,7 +11,6 @@
 
 #include <gmpxx.h>
 
-#include <terrane/kernel/construction.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane::verifier {

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include <terrane/algorithms/verify/block_claims.hpp>
+#include <terrane/algorithms/verify/certificate.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 #include <terrane/algorithms/verify/detail/rational.hpp>
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-#include <terrane/algorithms/verify/block_claims.hpp>
+#include <terrane/algorithms/verify/certificate.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 
 namespace terrane::verifier {

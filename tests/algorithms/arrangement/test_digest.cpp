@@ -4,7 +4,7 @@
 #include "support/certified_inputs.hpp"
 #include "support/claim.hpp"
 
-#include <terrane/algorithms/arrangement/digest.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/core/sha256.hpp>
 #include <terrane/algorithms/verify/detail/digest.hpp>
 

@@ -146,7 +146,7 @@ void require_same(const Arrangement& a, const Arrangement& b) {
 
 Arrangement arranged_with(KnownTriangles& known, const std::vector<Surface>& model,
                           const Run& run = {}) {
-    auto a = arrange(model, {.known = &known}, run);
+    auto a = arrange(model, {}, known, run);
     REQUIRE(a);
     return std::move(a).value();
 }
@@ -424,7 +424,7 @@ TEST_CASE("known triangles: several threads may use one object", "[arrangement][
     for (auto& triangles : found)
         threads.emplace_back([&] {
             for (int k = 0; k < 5; ++k) {
-                const auto a = arrange(model, {.known = &known}, Run{.threads = 1});
+                const auto a = arrange(model, {}, known, Run{.threads = 1});
                 triangles = a ? a.value().triangles : std::vector<Triangle>{};
                 if (triangles != anew.triangles) return;
             }
@@ -442,6 +442,6 @@ TEST_CASE("known triangles: a stopped arrangement keeps nothing", "[arrangement]
     stop.request_stop();
     Run run;
     run.stop = stop.get_token();
-    CHECK(arrange(model, {.known = &known}, run).error().code == ErrorCode::interrupted);
+    CHECK(arrange(model, {}, known, run).error().code == ErrorCode::interrupted);
     require_same(arranged_with(known, model), arranged_anew(model));
 }

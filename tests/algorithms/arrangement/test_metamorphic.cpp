@@ -5,7 +5,7 @@
 #include "support/metamorphic.hpp"
 #include "support/rounded.hpp"
 
-#include <terrane/algorithms/arrangement/digest.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/verify/detail/digest.hpp>
 

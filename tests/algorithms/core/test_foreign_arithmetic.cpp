@@ -22,21 +22,21 @@
 
 #include "support/paths.hpp"
 #include "support/shapes.hpp"
-#include <terrane/algorithms/arrangement/digest.hpp>
+#include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/layers/layers.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/project/build.hpp>
-#include <terrane/algorithms/quality/improve_measured.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
 #include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
 #include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
-#include <terrane/algorithms/verify/verify_certificate.hpp>
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/io/certificate.hpp>
 #include <terrane/io/exact_text.hpp>
 #include <terrane/io/files.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Checks that the constants of the stages can be listed for reports.
-#include <terrane/algorithms/core/named_constant.hpp>
+#include <terrane/algorithms/core/fields.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +21,7 @@
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/triangulation/point_surface.hpp>
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
-#include <terrane/algorithms/volume_of_interest/extension.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 using namespace terrane;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Checks what stages tell of their times: paths, nesting, threads.
-#include <terrane/algorithms/core/stage_times.hpp>
+#include <terrane/algorithms/core/run.hpp>
 
 #include <array>
 #include <string>

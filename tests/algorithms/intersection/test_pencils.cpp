@@ -7,7 +7,7 @@
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
-#include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/intersection/pencils.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 

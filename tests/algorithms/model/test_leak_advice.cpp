@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/model/leak_advice.hpp>
+#include <terrane/algorithms/model/model.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,6 @@
 #include <catch2/catch.hpp>
 
 #include "support/solids.hpp"
-#include <terrane/algorithms/model/model.hpp>
 
 using namespace terrane;
 using namespace test_support;

@@ -12,7 +12,7 @@
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #ifdef TERRANE_HAS_TETGEN
-#include <terrane/algorithms/tetgen/fill_blocks.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #endif
 
 using namespace terrane;

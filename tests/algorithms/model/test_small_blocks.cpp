@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Tests what merging small blocks removes, and what it must leave alone.
-#include <terrane/algorithms/model/small_blocks.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,6 @@
 #include "support/shapes.hpp"
 #include "support/solids.hpp"
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
-#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 

@@ -13,7 +13,7 @@
 #include <set>
 #include <vector>
 
-#include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
+#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane {

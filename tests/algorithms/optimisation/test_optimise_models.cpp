@@ -14,7 +14,7 @@
 #include <gmpxx.h>
 
 #include <terrane/algorithms/optimisation/optimise.hpp>
-#include <terrane/algorithms/tetrahedra/tetrahedra_shape.hpp>
+#include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/algorithms/verify/detail/tetrahedra.hpp>
 
 namespace optimised_models_test {

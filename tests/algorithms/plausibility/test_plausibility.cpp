@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <terrane/algorithms/plausibility/plausibility.hpp>
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 using namespace terrane;
 

@@ -14,7 +14,7 @@
 
 #include "support/effort.hpp"
 #include "support/work_count.hpp"
-#include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/project/detail/kept_results.hpp>
 

@@ -13,10 +13,9 @@
 
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
-#include <terrane/algorithms/quality/deviation.hpp>
 #include <terrane/algorithms/quality/improve_back.hpp>
-#include <terrane/algorithms/quality/improve_measured.hpp>
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/algorithms/quality/quality.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 #include "support/improve_cases.hpp"
 #include "support/paths.hpp"

@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include <terrane/algorithms/mesh/submesh.hpp>
-#include <terrane/algorithms/quality/deviation.hpp>
+#include <terrane/algorithms/quality/quality.hpp>
 
 #include "support/improve_cases.hpp"
 #include "support/points.hpp"

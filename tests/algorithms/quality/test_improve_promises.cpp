@@ -15,8 +15,7 @@
 #include <catch2/catch.hpp>
 
 #include <terrane/algorithms/mesh/submesh.hpp>
-#include <terrane/algorithms/quality/deviation.hpp>
-#include <terrane/algorithms/quality/improve_measured.hpp>
+#include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/io/files.hpp>
 
 #include "support/improve_cases.hpp"

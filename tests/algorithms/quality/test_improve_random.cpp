@@ -13,7 +13,7 @@
 #include <catch2/catch.hpp>
 
 #include <terrane/algorithms/check/check.hpp>
-#include <terrane/algorithms/quality/deviation.hpp>
+#include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 

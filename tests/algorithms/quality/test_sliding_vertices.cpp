@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include <terrane/algorithms/check/conforming.hpp>
-#include <terrane/algorithms/quality/improve_measured.hpp>
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/quality/sliding_vertices.hpp>
 
 using namespace terrane;

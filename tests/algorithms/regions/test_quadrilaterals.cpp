@@ -2,7 +2,7 @@
 //
 // Divides a horizon of a seismic survey, a grid of quadrilaterals with gaps, by a fault and a
 // contact.
-#include <terrane/algorithms/regions/quadrilaterals.hpp>
+#include <terrane/algorithms/regions/regions.hpp>
 
 #include <algorithm>
 #include <array>

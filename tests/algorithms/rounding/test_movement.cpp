@@ -13,7 +13,7 @@
 #include <terrane/algorithms/rounding/detail/reports.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -4,8 +4,7 @@
 #include "support/shapes.hpp"
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
-#include <terrane/algorithms/check/conforming.hpp>
-#include <terrane/algorithms/check/pair_check.hpp>
+#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/rounding/detail/pair_decisions.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/verify/verify.hpp>

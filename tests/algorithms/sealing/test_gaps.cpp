@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Tests the widths of gaps, their natural breaks, and the distance that is chosen.
-#include <terrane/algorithms/sealing/gaps.hpp>
+#include <terrane/algorithms/sealing/sealing.hpp>
 
 #include <cmath>
 #include <random>

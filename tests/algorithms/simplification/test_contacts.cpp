@@ -14,7 +14,7 @@
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/simplification/detail/traced_mesh.hpp>
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 namespace contacts_test {
 

@@ -27,7 +27,7 @@
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/simplification/detail/pockets.hpp>
 #include <terrane/algorithms/simplification/detail/traced_mesh.hpp>
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 using namespace terrane;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/structure/block_names.hpp>
-#include <terrane/algorithms/structure/stated_blocks.hpp>
 
 #include <algorithm>
 #include <set>

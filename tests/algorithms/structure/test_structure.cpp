@@ -16,7 +16,6 @@
 #include "support/rounded.hpp"
 #include "support/solids.hpp"
 #include <terrane/algorithms/rounding/rounding.hpp>
-#include <terrane/algorithms/structure/structure_meshes.hpp>
 #include <terrane/io/files.hpp>
 
 using namespace terrane;

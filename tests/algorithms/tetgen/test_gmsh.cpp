@@ -8,7 +8,6 @@
 
 #include <catch2/catch.hpp>
 
-#include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/io/files.hpp>

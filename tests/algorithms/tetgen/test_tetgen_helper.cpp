@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Tests where TetGen's helper program is looked for.
-#include <terrane/algorithms/tetgen/tetgen_helper.hpp>
+#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 
 #include <array>
 #include <cstdlib>
@@ -9,8 +9,6 @@
 #include <string>
 
 #include <catch2/catch.hpp>
-
-#include <terrane/algorithms/tetgen/tetrahedra.hpp>
 
 #include "support/impostor.hpp"
 

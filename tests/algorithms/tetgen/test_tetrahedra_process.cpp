@@ -19,7 +19,6 @@
 #include <catch2/catch.hpp>
 
 #include <terrane/algorithms/tetgen/detail/process.hpp>
-#include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 
 #include "support/read.hpp"
 #include "support/rounded.hpp"

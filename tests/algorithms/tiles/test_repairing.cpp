@@ -6,7 +6,6 @@
 #include "support/paths.hpp"
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/arrangement/digest.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/search/search.hpp>
 #include <terrane/algorithms/tiles/local_supersteps.hpp>

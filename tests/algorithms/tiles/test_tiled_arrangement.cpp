@@ -7,7 +7,6 @@
 #include "support/in_tiles.hpp"
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/arrangement/digest.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/tiles/local_supersteps.hpp>
 #include <terrane/algorithms/tiles/pieces.hpp>

@@ -11,6 +11,8 @@
 
 #include <terrane/algorithms/uncertainty/realisations.hpp>
 
+#include "support/shapes.hpp"
+
 using namespace terrane;
 
 namespace {
@@ -194,6 +196,38 @@ TEST_CASE("realisations: groups move alike, names apart, and a map scales the fi
     CHECK(deviation(*scaled, [](const auto& s) { return s[0].vertices[1].z; }) ==
           Approx(10).epsilon(tolerance));
     CHECK(scaled->input_of(1, 1).surfaces[0].vertices[0].z == 0);
+}
+
+TEST_CASE("realisations: what does not move is found once for all", "[uncertainty]") {
+    Project project;
+    project.uncertainty = {entry("base")};
+    project.uncertainty[0].shift = 0.01;
+    std::vector<Surface> surfaces;
+    for (const std::string name : {"top", "base"})
+        surfaces.push_back(test_support::grid(
+            6, 6,
+            [&](double x, double y) {
+                return Point3{x, y, name == "top" ? 0.1 : -2.0};
+            },
+            name));
+    surfaces.push_back(test_support::grid(
+        6, 6,
+        [](double x, double y) {
+            return Point3{x, 2.5, y - 3.3};
+        },
+        "F"));
+    const auto all = Realisations::prepare(project, {.surfaces = surfaces}, {});
+    REQUIRE(all);
+    for (const std::uint64_t number : {1, 2, 3}) {
+        const auto made = all->build(7, number);
+        const auto alone = build(all->project(), all->input_of(7, number));
+        REQUIRE(made);
+        REQUIRE(alone);
+        CHECK((made->arranged.exact.statistics.known > 0) == (number > 1));
+        CHECK(alone->arranged.exact.statistics.known == 0);
+        CHECK(made->model->mesh->vertices == alone->model->mesh->vertices);
+        CHECK(made->model->mesh->triangles == alone->model->mesh->triangles);
+    }
 }
 
 TEST_CASE("realisations: what cannot move as stated is an error with its key", "[uncertainty]") {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Checks boundaries of volumes of interest against exact volumes.
-#include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/volume_of_interest/extension.hpp>
+#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 #include <cmath>
 #include <numeric>
@@ -10,7 +10,6 @@
 
 #include "support/solids.hpp"
 #include <terrane/algorithms/rounding/rounding.hpp>
-#include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 using namespace terrane;

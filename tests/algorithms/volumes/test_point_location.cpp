@@ -14,7 +14,6 @@
 #include "support/read.hpp"
 #include "support/rounded.hpp"
 #include "support/solids.hpp"
-#include <terrane/algorithms/volumes/block_points.hpp>
 
 using namespace terrane;
 using namespace test_support;

@@ -23,6 +23,7 @@
 #include "support/volume_oracle.hpp"
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/io/reading.hpp>
 
 using namespace terrane;
 using namespace test_support;

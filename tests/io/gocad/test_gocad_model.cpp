@@ -14,6 +14,7 @@
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/io/gocad/gocad.hpp>
 #include <terrane/io/gocad/gocad_curves.hpp>
 #include <terrane/io/gocad/gocad_model.hpp>
 

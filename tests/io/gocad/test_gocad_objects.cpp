@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include <terrane/io/files.hpp>
+#include <terrane/io/reading.hpp>
 
 #include "support/paths.hpp"
 #include "support/samples.hpp"

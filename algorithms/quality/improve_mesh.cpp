@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/check/conforming.hpp>
+#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/is_external.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
