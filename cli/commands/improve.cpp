@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
@@ -75,15 +76,15 @@ Status judge(const Inputs& inputs, const ImproveOptions& options) {
             largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     if (options.max_deviation > 0 && options.max_deviation < least_deviation(largest))
         return Error{ErrorCode::bad_option,
-                     fmt::format("is too small for coordinates of this size; the least is {:.3g}",
+                     fmt::format("is too small for coordinates of this size; the least is {}",
                                  least_deviation(largest)),
                      "--max-deviation"};
     const double count = expected_triangles(inputs.surfaces, options);
     if (count > options.max_triangles)
         return Error{ErrorCode::bad_option,
-                     fmt::format("about {:.3g} triangles are to be expected, more than the limit "
-                                 "of {:.3g}; ask for longer edges or raise --max-triangles",
-                                 count, options.max_triangles),
+                     fmt::format("about {} triangles are to be expected, more than the limit "
+                                 "of {}; ask for longer edges or raise --max-triangles",
+                                 figure(count, 3), figure(options.max_triangles)),
                      "--edge-length"};
     return Done{};
 }

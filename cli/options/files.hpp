@@ -15,6 +15,7 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/cli/session/quantities.hpp>
 #include <terrane/cli/session/session.hpp>
 #include <terrane/io/files.hpp>
 
@@ -77,17 +78,20 @@ struct Inputs {
     std::vector<std::size_t> surfaces_of_file; ///< per input: number of surfaces read from it
     std::vector<StatedBlock> stated_blocks;    ///< that files state, by the surfaces
     std::string unit;                ///< of all coordinates, where files state one; else empty
+    double extent = 0;               ///< longest side of the box of a surface
     std::vector<std::string> labels; ///< per surface: its name, made unique, on one line
     std::size_t vertices = 0, triangles = 0;
     bool statistics_wanted = false; ///< whether --stats is given
     bool strict = false;            ///< warnings about them are errors
+
+    [[nodiscard]] Quantities quantities() const { return Quantities(unit, extent); }
 };
 
 /// Reads all inputs. Errors: those of read_surfaces; interrupted; unsupported if 32 bits can't
 /// count all vertices or triangles.
 Result<Inputs> read_inputs(const FileOptions& options, Session& session);
 
-/// Sets the labels and the unit of the inputs by their surfaces.
+/// Sets the labels, the unit and the extent of the inputs by their surfaces.
 void describe(std::span<const Surface> surfaces, Inputs& inputs);
 
 /// Returns a short name of the inputs: "basin.ts", "basin.ts and 3 more files".

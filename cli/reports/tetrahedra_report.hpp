@@ -12,9 +12,6 @@
 
 namespace terrane::cli {
 
-/// Reports the verdict, the volumes and both histograms, whose empty classes are left out.
-std::string report_text(const TetrahedraReport& report);
-
 /// Lists the violations, a line per kind.
 std::string violations_text(const TetrahedraReport& report);
 

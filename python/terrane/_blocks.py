@@ -120,10 +120,10 @@ class Volumes(Result):
         return cls(_core.Volumes(state[0], state[1]), state[2])
 
     def _line(self) -> str:
-        return f"{counted(len(self), 'block')}, {self.measures[0]:.6g} in all"
+        return f"{counted(len(self), 'block')}, {_core.figure(self.measures[0])} in all"
 
     def _numbers(self) -> Dict[str, Any]:
-        return {"blocks": len(self), "volume": f"{self.measures[0]:.6g}"}
+        return {"blocks": len(self), "volume": _core.figure(self.measures[0])}
 
     def _shape(self) -> Tuple[Any, Any]:
         return self._source.vertices, self._source.triangles

@@ -139,7 +139,7 @@ def _one(arguments: Any, folder: str, interrupts: "_Interrupts") -> int:
         _fail(arguments, f"realisation {arguments.only} can't be built: {values['reason']}")
         return _NEGATIVE
     for block in [] if arguments.quiet else values["blocks"]:
-        _print(f"  {block['name']}: {block['volume']:.6g}")
+        _print(f"  {block['name']}: {_core.figure(block['volume'])}")
     return 0
 
 
@@ -150,7 +150,7 @@ def _text_of(made: Ensemble) -> str:
     rows: List[Tuple[str, ...]] = [("block", "P90", "P50", "P10", "split", "gone", "merged")]
     for name, block in made.blocks.items():
         volume = block.measures["volume"]
-        rows.append((_visible(name), *(f"{volume[p]:.6g}" for p in ("p90", "p50", "p10")),
+        rows.append((_visible(name), *(_core.figure(volume[p]) for p in ("p90", "p50", "p10")),
                      *(str(block.states[s]) for s in ("split", "vanished", "merged"))))
     widths = [max(len(r[i]) for r in rows) for i in range(len(rows[0]))]
     for row in rows:

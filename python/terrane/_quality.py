@@ -136,7 +136,7 @@ class Improved(Result):
 
     def _line(self) -> str:
         largest = float(np.max(self.bounds)) if len(self.bounds) else 0.0
-        return f"{len(self.mesh.triangles)} triangles, within {largest:.3g} of the mesh before"
+        return f"{len(self.mesh.triangles)} triangles, within {_core.figure(largest, 3)} of the mesh before"
 
     def _numbers(self) -> Dict[str, Any]:
         return {**self.mesh._numbers(), "splits": self.report["splits"],

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/plausibility/detail/examination.hpp>
 #include <terrane/algorithms/plausibility/detail/thresholds.hpp>
 
@@ -96,8 +97,8 @@ void check_float32(Examination& e) {
         Doubt::float32, coarse,
         fmt::format(
             "the coordinates of {} were stored with 24 bits (float32): at their size they are "
-            "multiples of {:.3g}",
-            e.names(coarse), widest),
+            "multiples of {}",
+            e.names(coarse), figure(widest, 3)),
         "Points that should lie on a plane or on another surface are that far off it, which gives "
         "slivers and gaps",
         "Export doubles or text, or subtract a common origin before storing; --seal closes the "
