@@ -27,6 +27,7 @@
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/tiles/supersteps.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane::tiles {
 
@@ -63,8 +64,7 @@ struct TiledReport {
     std::string digest{};                  ///< if it is wanted
     std::optional<RepairInTiles> repair{}; ///< if the nearest doubles were not conforming, but are
                                            ///< repaired
-    /// As Volumes::measures, once they are found (volumes_in_tiles.hpp).
-    std::optional<std::vector<double>> volumes{};
+    std::optional<Volumes> volumes{}; ///< without sides, once they are found (volumes_in_tiles.hpp)
     std::vector<std::string> volume_names{}; ///< likewise (names_in_tiles.hpp); [0] is "outside"
     Work largest{};                          ///< of each count the largest of any tile
     Work total{}; ///< of each count the sum over all tiles; memory: as largest

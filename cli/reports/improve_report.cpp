@@ -99,8 +99,8 @@ std::string volumes_text(const Improved& improved, const Quantities& quantities)
         [](const VolumeChange& a, const VolumeChange& b) { return a.percent() > b.percent(); });
     auto text =
         fmt::format("volumes: {}, {} before, {} after{}\n", counted(changes.size(), "block"),
-                    quantities.volume(improved.volumes_before.measures[0], digits),
-                    quantities.volume(improved.volumes.measures[0], digits),
+                    quantities.volume(improved.volumes_before.total, digits),
+                    quantities.volume(improved.volumes.total, digits),
                     changes.size() > few ? "; those that changed most:" : "");
     if (changes.size() > few) changes.resize(few);
     for (const VolumeChange& c : changes)

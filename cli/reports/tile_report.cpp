@@ -81,21 +81,21 @@ std::string rounding_text(const TiledReport& r, const RoundingReport* whole) {
 }
 
 /// Lists the blocks from 1 on, as there is nothing to say of the outside.
-Json volumes_json(const std::vector<double>& measures, const std::vector<std::string>& names) {
-    return {{"all", measures[0]},
-            {"blocks", std::vector(measures.begin() + 1, measures.end())},
+Json volumes_json(const Volumes& volumes, const std::vector<std::string>& names) {
+    return {{"all", volumes.total},
+            {"blocks", std::vector(volumes.measures.begin() + 1, volumes.measures.end())},
             {"names", std::vector(names.begin() + 1, names.end())}};
 }
 
-std::string volumes_text(const std::vector<double>& measures,
-                         const std::vector<std::string>& names) {
+std::string volumes_text(const Volumes& volumes, const std::vector<std::string>& names) {
     constexpr std::size_t most = 50; // listed on the terminal
-    auto text = fmt::format("{}, volume {} in all\n", counted(measures.size() - 1, "closed block"),
-                            figure(measures[0]));
-    for (std::size_t v = 1; v <= std::min(measures.size() - 1, most); ++v)
-        text += fmt::format("  block {:<4} volume {:<16} {}\n", v, figure(measures[v]), names.at(v));
-    if (measures.size() - 1 > most)
-        text += fmt::format("  and {} more\n", measures.size() - 1 - most);
+    const std::size_t count = volumes.block_count();
+    auto text = fmt::format("{}, volume {} in all\n", counted(count, "closed block"),
+                            figure(volumes.total));
+    for (std::size_t v = 1; v <= std::min(count, most); ++v)
+        text += fmt::format("  block {:<4} volume {:<16} {}\n", v, figure(volumes.measures[v]),
+                            names.at(v));
+    if (count > most) text += fmt::format("  and {} more\n", count - most);
     return text;
 }
 

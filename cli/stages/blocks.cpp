@@ -22,7 +22,7 @@ std::string blocks_text(const Inputs& inputs, const Model& model) {
     const auto& blocks = model.structure.blocks;
     const std::size_t count = model.block_count();
     auto text = fmt::format("{}, volume {} in all\n", counted(count, "closed block"),
-                            quantities.volume(model.exact_volumes[0]));
+                            quantities.volume(model.total_volume));
     for (std::size_t b = 1; b <= std::min(count, most_listed_blocks); ++b)
         text += fmt::format(
             "  block {:<4} volume {:<16} {}\n", b, quantities.volume(model.exact_volumes[b]),
@@ -138,7 +138,7 @@ void add_statistics(Json& json, const Model& model) {
     for (std::size_t b = 1; b < model.exact_volumes.size(); ++b)
         volumes.push_back(model.exact_volumes[b]);
     const Structure& s = model.structure;
-    json["volumes"] = {{"all", model.exact_volumes[0]},
+    json["volumes"] = {{"all", model.total_volume},
                        {"blocks", volumes},
                        {"too_thin", model.lost},
                        {"made_by_rounding", model.made},

@@ -298,7 +298,7 @@ class Model(Parts):
     def _numbers(self) -> Dict[str, Any]:
         return {"blocks": len(self.blocks), "surfaces": len(self._core.mesh.surfaces),
                 "triangles": len(self.mesh.triangles), "leaks": len(self.leaks),
-                "volume": _core.figure(self._core.exact_volumes[0])}
+                "volume": _core.figure(self._core.total_volume)}
 
     def _repr_html_(self) -> str:
         return card("Model", self._numbers(), self.mesh.vertices, self.mesh.triangles,

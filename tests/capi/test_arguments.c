@@ -72,6 +72,7 @@ static void test_getters(void* h) {
     CHECK(terrane_model_structure(h) == NULL && terrane_model_lost(h) == 0 &&
           terrane_model_made(h) == 0);
     NOTHING(terrane_model_exact_volumes(h, &n));
+    CHECK(terrane_volumes_total(h) == 0 && terrane_model_total_volume(h) == 0);
     NOTHING(terrane_holes_array(h, &n));
     NO_LISTS(terrane_holes_borders(h, &lists));
     CHECK(terrane_holes_refusal(h, 0) == NULL && terrane_holes_model(h, 0) == NULL);

@@ -36,7 +36,7 @@ static void fields(auto& archive, Is<TetrahedralMesh> auto& m) {
 }
 
 static void fields(auto& archive, Is<Volumes> auto& v) {
-    archive(v.of_sides, v.measures);
+    archive(v.of_sides, v.measures, v.total);
 }
 
 static void fields(auto& archive, Is<Spread> auto& s) {

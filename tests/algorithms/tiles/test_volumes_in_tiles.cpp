@@ -38,10 +38,10 @@ struct Gathered {
 
 Gathered gathered(Supersteps& tiles, const TiledReport& report) {
     Gathered all;
-    const auto measures = find_volumes_in_tiles(tiles);
-    if (!measures) FAIL(measures.error().sentence);
+    auto volumes = find_volumes_in_tiles(tiles);
+    if (!volumes) FAIL(volumes.error().sentence);
     all.mesh = test_support::joined(tiles, report);
-    all.volumes.measures = *measures;
+    all.volumes = *std::move(volumes);
     all.volumes.of_sides.resize(report.triangles);
     REQUIRE(tiles.visit([&](Tile& b) -> Status {
         const TilePiece piece = piece_of(b);
@@ -66,6 +66,7 @@ std::optional<std::size_t> judge(const std::vector<Surface>& surfaces, std::size
     REQUIRE(expected);
     REQUIRE(found.volumes.of_sides == expected->of_sides);
     REQUIRE(found.volumes.measures == expected->measures);
+    REQUIRE(found.volumes.total == expected->total);
     const auto names = name_volumes_in_tiles(tiles);
     REQUIRE(names);
     std::vector<std::string> names_of_whole;
