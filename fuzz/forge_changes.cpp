@@ -15,7 +15,7 @@ namespace terrane::fuzz {
 
 namespace {
 
-/// The exact part. What is dropped of it stays dropped when the triangles get other numbers.
+/// The exact part. A dropped triangle stays dropped when the triangles get other numbers.
 class ExactPart {
 public:
     explicit ExactPart(Certificate& c) :

@@ -30,7 +30,7 @@ namespace {
 
 using namespace tiles;
 
-/// What one process finds.
+/// The findings of one process.
 struct Whole {
     const Arrangement& exact;
     std::string digest;

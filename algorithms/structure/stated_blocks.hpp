@@ -35,7 +35,7 @@ struct StatedBlock {
 /// instance for a block of several stated ones. Of several such ones it is the one whose borders
 /// have the most in common with the boundary of the block, the first among equals. Files differ in
 /// what the front of a border is, so that sides do not count. A hundredth of the area is left to
-/// gaps and to what rounding made of the file. Cost: linear.
+/// gaps and to the effect of rounding on the file. Cost: linear.
 std::vector<std::uint32_t> match_blocks(const Arrangement& arrangement, const Volumes& volumes,
                                         std::span<const StatedBlock> stated);
 

@@ -311,7 +311,7 @@ public:
         mesh_(mesh),
         volumes_(volumes), domain_(domain), input_(input), scale_(scale), run_(run) {}
 
-    /// Returns the first result that holds; none if there is none. An error ends the work.
+    /// Returns the first result that holds, if there is one. An error ends the work.
     Result<std::optional<TetrahedralMesh>> operator()(const std::vector<Way>& ways,
                                                       const std::filesystem::path& helper) {
         std::optional<Error> first;

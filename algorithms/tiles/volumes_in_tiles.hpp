@@ -17,8 +17,9 @@
 namespace terrane::tiles {
 
 /// Finds the volumes of the nearest doubles after arrange_in_tiles(), which must have reported a
-/// conforming mesh. Returns them without sides in all processes; piece_of() then tells the volumes beside each
-/// triangle. Errors: internal if triangles overlap, so that the mesh is not conforming.
+/// conforming mesh. Returns them without sides in all processes; piece_of() then tells the volumes on
+/// both sides of each triangle. Errors: internal if triangles overlap, so that the mesh is not
+/// conforming.
 Result<Volumes> find_volumes_in_tiles(Supersteps& tiles);
 
 } // namespace terrane::tiles

@@ -142,7 +142,7 @@ std::vector<FillTask> tasks_of(const FillCommand& command, const Inputs& inputs)
     return tasks;
 }
 
-/// What became of the chosen holes.
+/// The outcome of the chosen holes.
 struct FillOutcome {
     bool written = false; ///< otherwise new triangles meet others improperly
     bool whole = false;   ///< no chosen hole stayed open

@@ -59,7 +59,7 @@ struct Output {
 
 enum class OutputKind { surfaces, tetrahedra };
 
-/// Makes a bad_option error: `sentence` says what is wrong with the call, `place` is the option or
+/// Makes a bad_option error: `sentence` names the flaw of the call, `place` is the option or
 /// file.
 Error usage(std::string sentence, std::string place = {});
 
@@ -107,7 +107,7 @@ Result<std::vector<std::filesystem::path>> write_output(const TetrahedralMesh& m
 /// Returns a clause that names what an output lacks although its format could hold it: the regions
 /// of a model in a .ml file. It is empty for an output that lacks nothing.
 std::string left_out_of(const Output& output);
-/// Says that an output is written, and what is not in it; empty for standard output.
+/// Says that an output is written, and names the parts not in it; empty for standard output.
 std::string wrote(const Output& output);
 
 /// Returns the stream for the summary: standard error if a file goes to standard output.

@@ -65,7 +65,7 @@ Result<CertifiedResult> certified_arrangement(const std::vector<std::string>& fi
                                               const Arranged& arranged);
 /// Gives the surfaces of the inputs the roles that they have in their files.
 void set_read_roles(const std::vector<Role>& roles, Arranged& arranged);
-/// Returns the files that were written. What went to a standard stream, which can't be read again,
+/// Returns the files that were written. Output to a standard stream, which can't be read again,
 /// is made once more.
 Result<std::vector<ResultFile>> certified_outputs(const std::vector<Output>& outputs,
                                                   const Mesh& mesh, bool ascii);

@@ -19,7 +19,7 @@ namespace terrane::cli {
 Result<Layered> layer_inputs(const Inputs& inputs, const std::vector<Layer>& order,
                              const LayerOptions& options, Session& session, Json& statistics);
 
-/// Reports what was replaced and, where that is so, that the stack is conforming and in order.
+/// Reports the replaced parts and, where that is so, that the stack is conforming and in order.
 /// `step_width` is that of Layered.
 std::string text_of(const Inputs& inputs, std::span<const LayerReport> reports,
                     const RoundingReport& rounding, std::optional<double> step_width);

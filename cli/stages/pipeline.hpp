@@ -39,7 +39,7 @@ void add_settings(CLI::App& command, ArrangeSettings& settings);
 /// name that no surface has. Precondition: the surfaces of `inputs` were not moved from.
 Result<ArrangeWithinOptions> options_within(const ArrangeSettings& settings, const Inputs& inputs);
 
-/// Checks before any work is done that a certificate can be made of what the settings ask for.
+/// Checks before any work is done that a certificate of the wished settings can be made.
 /// Errors: bad_option.
 Status check_certifiable(const ArrangeSettings& settings);
 
@@ -52,7 +52,7 @@ Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settin
 /// Adds counts and times of all steps to `statistics`.
 void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& inputs);
 
-/// Reports the surfaces with their triangles, regions and areas, what was set aside, and the
+/// Reports the surfaces with their triangles, regions and areas, the triangles set aside, and the
 /// rounding.
 std::string summary(const Inputs& inputs, const Arranged& arranged);
 

@@ -238,7 +238,7 @@ static void test_unused(void) {
     terrane_surfaces_free(s);
 }
 
-/// What is wanted but missing: places for results, names of files, arrays.
+/// Arguments that are wanted but missing: places for results, names of files, arrays.
 static void test_missing(const terrane_surfaces* s) {
     terrane_surfaces* list = NULL;
     terrane_arrangement* a = NULL;

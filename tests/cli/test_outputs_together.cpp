@@ -314,7 +314,7 @@ TEST_CASE("cli: files beside an output are not replaced by another one", "[cli][
 
 TEST_CASE("cli: a file beside an output takes the place of no other, whatever names are",
           "[cli][outputs]") {
-    // The program writes t_main.vtu beside t.vtm, and the link leads it to the statistics.
+    // The program writes t_main.vtu next to t.vtm, and the link leads it to the statistics.
     const Inputs in;
     REQUIRE(in.folder.shell("ln -s s.json t_main.vtu").status == 0);
     in.check_refused("tetrahedralize" + bounded +

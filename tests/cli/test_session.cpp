@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What the progress line and tables are made of; terminal.py judges how they look on a terminal.
+// The parts of the progress line and of tables; terminal.py judges how they look on a terminal.
 #include <catch2/catch.hpp>
 
 #include <clocale>

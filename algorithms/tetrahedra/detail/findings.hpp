@@ -40,7 +40,7 @@ private:
     std::array<TetrahedraViolation, static_cast<std::size_t>(last) + 1> of_kind_;
 };
 
-/// What is checked, and where the findings go.
+/// The subject of a check, and the list of its findings.
 struct Subject {
     const TetrahedralMesh& made;
     const Mesh& mesh;

@@ -407,7 +407,7 @@ TEST_CASE("improve: refinements follow each other and leave triangles far from t
     };
     CHECK(kept(plain, once, first) == 1);
     CHECK(kept(once, twice, second) == 1);
-    // What is asked for twice changes nothing more.
+    // A wish that is stated twice changes nothing more.
     CHECK(refined({{{first, .2}}, {{first, .5}}}).vertices == once.vertices);
 }
 

@@ -257,7 +257,7 @@ std::vector<Surface> sheets_in_a_plane(unsigned seed, bool is_turned) {
 }
 
 /// Triangles on a lattice of few spacings, far from the origin: the points where they cross are in the same few
-/// doubles, and so many of their parts are that pairs of them can't be listed.
+/// doubles, as are too many of their parts for a list of pairs.
 std::vector<Surface> heap_on_lattice(unsigned seed, std::uint32_t count, const Point3& at,
                                      double spacing, unsigned range) {
     RandomPoints random(seed);

@@ -142,7 +142,7 @@ TEST_CASE("volumes in tiles: those with one least vertex are told apart", "[volu
 
 TEST_CASE("volumes in tiles: those with the same vertices are told apart", "[volumes]") {
     // A curve along edges of a box passes through its eight corners; triangles join it to a point inside.
-    // Sheared, the triangle whose corners come first is beside both volumes.
+    // Sheared, the triangle whose corners come first borders on both volumes.
     const std::vector<Point3> curve{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0},
                                     {0, 4, 4}, {4, 4, 4}, {4, 0, 4}, {0, 0, 4}};
     for (const bool sheared : {false, true})

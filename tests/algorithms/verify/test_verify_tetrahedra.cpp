@@ -24,7 +24,7 @@ TetrahedraClaim claim_of(const TetrahedralMesh& m, bool box) {
     return {box, m.vertices, m.tetrahedra, m.block_of, m.faces, m.face_triangle, m.twins};
 }
 
-/// What the verifier knows of a mesh when it judges tetrahedra.
+/// The data of a mesh by which the verifier judges tetrahedra.
 struct Known {
     explicit Known(const Filled& f) :
         sides(f.volumes.of_sides), volumes(test_support::exact_numbers(f.mesh, f.volumes)) {}
