@@ -154,7 +154,7 @@ Status check_improve(const ImproveCommand& command) {
     if (command.proof.certificate.empty()) return Done{};
     if (command.resolution.length > 0)
         return Error{ErrorCode::bad_option,
-                     "a certificate can't show yet what was joined at a resolution; leave out "
+                     "a certificate can't show joining at a resolution yet; leave out "
                      "--resolution, or the certificate",
                      "--certificate"};
     if (auto possible = check_certifiable(command.settings); !possible) return possible;

@@ -171,7 +171,7 @@ std::string row_of(const FillMap& map, double y) {
     return panel_at(at(0), y, map.title + ", before",
                     picture(frame, before, heights) + borders + legend(heights)) +
            panel_at(at(1), y, "after", picture(frame, after, heights) + borders + legend(heights)) +
-           panel_at(at(2), y, "expected error of what was interpolated",
+           panel_at(at(2), y, "expected error of interpolated points",
                     picture(frame, error, errors) + borders + legend(errors));
 }
 

@@ -165,7 +165,7 @@ Status write_in_tiles(const FileOptions& files, Supersteps& tiles, InTiles& made
 void add_tilewise(CLI::App& command, TilewiseOptions& options) {
     command
         .add_option(memory_option, options.memory,
-                    "Work in tiles of space, one after the other, with files beside the output, "
+                    "Work in tiles of space, one after the other, with files next to the output, "
                     "in about so much memory; writes .vtp and .pvtp (default: the whole model in "
                     "memory)")
         ->check([](const std::string& text) {
@@ -177,7 +177,7 @@ void add_tilewise(CLI::App& command, TilewiseOptions& options) {
                      "With --memory: say the digest of the exact result");
     command.add_flag("--volumes", options.volumes,
                      "With --memory: find the volumes that the surfaces enclose; .pvtp files then "
-                     "tell those beside each triangle");
+                     "tell those on both sides of each triangle");
 }
 
 std::optional<std::uint64_t> bytes_of_size(std::string_view text) {

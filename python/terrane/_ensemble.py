@@ -273,7 +273,7 @@ def task_of(project: Union[Path, Mapping[str, Any]], folder: Optional[Path], see
 
 
 def _with_frame(task: Task, grid: int, threads: int) -> Tuple[Task, bytes]:
-    """Build the model as it was given, with so many threads, and lay the map over it."""
+    """Build the model as it was given, with this number of threads, and lay the map over it."""
     if prepared(task).moved == 0:
         raise Error("bad_option", "is missing: it says how the surfaces move", f"{task.source}: uncertainty")
     model = built(task._replace(threads=threads), 0).model

@@ -103,7 +103,7 @@ class _Worker:
 
 
 class Workers:
-    """Computes realisations by so many workers; a worker that is lost is replaced, and loses nothing that others do."""
+    """Computes realisations by this number of workers; a worker that is lost is replaced, and loses nothing that others do."""
 
     def __init__(self, task: Task, count: int, retries: int) -> None:
         self._task, self._count, self._retries = task, count, retries

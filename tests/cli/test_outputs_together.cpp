@@ -288,21 +288,21 @@ TEST_CASE("cli: build replaces no file that the project names", "[cli][outputs]"
     in.check_refused("build in/stages.json --resume", "--resume: would replace a file");
 }
 
-TEST_CASE("cli: files beside an output are not replaced by another one", "[cli][outputs]") {
+TEST_CASE("cli: files next to an output are not replaced by another one", "[cli][outputs]") {
     const Inputs in;
     const std::string mesh = "tetrahedralize" + bounded + "--quiet ";
     const std::string begins = ", whose names begin with t_";
     in.check_refused(mesh + "-o t.vtm --output-format geos --stats t_main.vtu",
-                     "--stats: t_main.vtu may be one of the files beside t.vtm" + begins);
+                     "--stats: t_main.vtu may be one of the files next to t.vtm" + begins);
     in.check_refused(mesh + "-o ./t.ugi --stats $PWD/t_below_base.txt",
-                     "may be one of the files beside ./t.ugi" + begins);
+                     "may be one of the files next to ./t.ugi" + begins);
     in.check_refused(mesh + "-o t.ugi --report t_below_base.ss", "beside t.ugi" + begins);
     in.check_refused(mesh + "-o t.vtu --output-format ogs -o t_F_front.vtu", "t.vtu" + begins);
     for (const char* const other : {"t_a.vtm", "./t.vtu", "$PWD/t_.vtm"})
         in.check_refused(mesh + "-o t.vtm --output-format geos -o " + other, begins);
     in.check_refused("tetrahedralize in/in.obj t_below_base.txt --input-format obj --box "
                      "0,0,0,8,8,8 --quiet -o t.ugi",
-                     "IN: t_below_base.txt may be one of the files beside t.ugi" + begins);
+                     "IN: t_below_base.txt may be one of the files next to t.ugi" + begins);
     // A link to a name that may be taken is that name.
     REQUIRE(in.folder.shell("ln -s t_main.vtu other.json; mkdir t_more").status == 0);
     in.check_refused(mesh + "-o t.vtm --output-format geos --stats other.json", "beside t.vtm");
@@ -312,7 +312,7 @@ TEST_CASE("cli: files beside an output are not replaced by another one", "[cli][
     CHECK(apart.status == 0);
 }
 
-TEST_CASE("cli: a file beside an output takes the place of no other, whatever names are",
+TEST_CASE("cli: a file next to an output takes the place of no other, whatever names are",
           "[cli][outputs]") {
     // The program writes t_main.vtu next to t.vtm, and the link leads it to the statistics.
     const Inputs in;

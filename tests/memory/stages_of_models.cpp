@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include <terrane/algorithms/quality/improve_back.hpp>
+#include <terrane/algorithms/quality/bounds_back.hpp>
 #include <terrane/algorithms/tetrahedra/edge_nodes.hpp>
 
 #include "fixture.hpp"

@@ -110,12 +110,12 @@ void check_duplicates(Examination& e) {
     for (const auto s : e.used) {
         const auto [same, added] = first.try_emplace(fingerprint_of(e.surfaces[s]), s);
         if (added) continue;
-        e.warn(
-            Doubt::duplicate_surface, {same->second, s},
-            fmt::format("{} has the same {} triangles as {}", e.labels[s],
-                        e.surfaces[s].triangles.size(), e.labels[same->second]),
-            "It bounds nothing of its own, and every block beside it has two names for one surface",
-            "Leave one of the two files out");
+        e.warn(Doubt::duplicate_surface, {same->second, s},
+               fmt::format("{} has the same {} triangles as {}", e.labels[s],
+                           e.surfaces[s].triangles.size(), e.labels[same->second]),
+               "It bounds nothing of its own, and every block next to it has two names for one "
+               "surface",
+               "Leave one of the two files out");
     }
 }
 

@@ -13,8 +13,8 @@
 
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
+#include <terrane/algorithms/quality/bounds_back.hpp>
 #include <terrane/algorithms/quality/deviation.hpp>
-#include <terrane/algorithms/quality/improve_back.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
 

@@ -185,7 +185,7 @@ class Page {
         "Coordinates are those of the input; shapes are drawn in single precision."),
       element("p", {}, "Mouse: drag turns, right button moves, wheel zooms, click picks; a second click measures the distance. Keys: " +
         "arrows turn, Shift and arrows move, + and − zoom, 1 to 4 choose a view, 0 shows all, Escape ends measuring."),
-      element("h3", {}, "Licences of what is in this page"));
+      element("h3", {}, "Licences of the parts of this page"));
     for (const { name, version, licence, text } of TERRANE_LICENCES)
       panel.append(element("details", {}, element("summary", {}, `${name} ${version}: ${licence}`), element("pre", { tabindex: 0 }, text)));
     return panel;
