@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What the program's command ``terrane ensemble`` runs; the program has checked the options."""
+"""Runs the program's command ``terrane ensemble``; the program has checked the options."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-# What could move the cursor, choose a colour, or turn the text round, as in cli/session/styles.cpp.
+# Characters that move the cursor, choose a colour, or turn the text round, as in cli/session/styles.cpp.
 _HARMFUL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What the realisations of an ensemble have in common: their blocks, failures, contacts and maps, added up."""
+"""Adds up the blocks, failures, contacts and maps of the realisations of an ensemble."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Juxtaposed(NamedTuple):
 
 @with_ensemble
 class BlockOutcome(NamedTuple):
-    """What became of a block: in how many realisations it is whole, split, vanished or merged, and its measures.
+    """The outcome of a block: in how many realisations it is whole, split, vanished or merged, and its measures.
 
     ``measures`` has, by name, a dict with ``p90``, ``p50``, ``p10``, ``mean``, ``sd``, ``least``, ``largest`` and
     ``count``; P90 is exceeded with a probability of 90 %. Realisations in which the block is merged with another one

@@ -20,7 +20,7 @@ from . import _core
 from ._ensemble_work import Outcome, Task, outcome_of
 from ._errors import Error
 
-#: What an interpreter runs: the path first, so that no module comes from the current folder.
+#: The program of an interpreter: the path first, so that no module comes from the current folder.
 _START = "import sys; sys.path[:] = {!r}; from terrane._ensemble_workers import serve; serve()"
 
 #: The interpreters that run.

@@ -87,7 +87,7 @@ class Model(Parts):
 
     @property
     def sealed(self) -> Optional[Dict[str, Any]]:
-        """What sealing changed, as in `Sealed`; None where nothing was sealed."""
+        """The changes by sealing, as in `Sealed`; None where nothing was sealed."""
         report: Optional[Dict[str, Any]] = self._core.sealed
         return report
 

@@ -18,7 +18,7 @@ from ._surface import parts_of_surfaces
 
 
 class Parts(Result):
-    """What every `Model` holds; a class of its own, as blocks and tetrahedra refer to it and `Model` to them."""
+    """The parts of every `Model`; a class of its own, as blocks and tetrahedra refer to it and `Model` to them."""
 
     __slots__ = ("_core", "_made_by", "_mesh", "_structure", "_labels", "_blocks")
 

@@ -53,7 +53,7 @@ class VerifiedFile(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """What the verifier found. It is true if all is verified.
+    """The findings of the verifier. It is true if all is verified.
 
     ``outputs`` are the files that a certificate names; ``deviation`` is the verifier's own bound of the distance of
     the doubles from the exact result, unit of the input; ``digest`` is that of the arrangement.
