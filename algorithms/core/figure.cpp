@@ -53,15 +53,15 @@ std::string figure(double value, int digits) {
 }
 
 std::string place_text(std::initializer_list<double> coordinates, double extent) {
-    constexpr double far = 1000; // extents from the origin
-    constexpr double most_fixed = 1e15;
+    constexpr double far = 1000;                                   // extents from the origin
+    constexpr double least_extent = 1e-12, most_coordinate = 1e15; // written without exponents
     if (!(extent > 0))
         for (const double c : coordinates) extent = std::max(extent, std::abs(c) / far);
-    const double power = std::floor(std::log10(extent));
+    const double power = std::floor(std::log10(std::min(extent, most_coordinate)));
     std::string text;
     for (const double c : coordinates) {
         text += text.empty() ? "(" : ", ";
-        text += power >= least_power && std::abs(c) < most_fixed
+        text += extent >= least_extent && std::abs(c) < most_coordinate
                     ? fixed(c, std::max(most_digits - 1 - static_cast<int>(power), 0))
                     : figure(c);
     }

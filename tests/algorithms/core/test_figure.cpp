@@ -70,13 +70,14 @@ TEST_CASE("figure: digits, groups and exponents of random numbers", "[core]") {
 
 TEST_CASE("place_text: as many decimals as the extent of the model needs", "[core]") {
     CHECK(place_text(Point3{1.0 / 3, 0.5, -1e-9}, 1) == "(0.33333, 0.5, 0)");
-    CHECK(place_text(Point3{457123.456, 5932123.4567, -300.25}, 12'000) ==
+    CHECK(place_text(Point3{457123.456, 5932123.4567, -300.27}, 12'000) ==
           "(457123.5, 5932123.5, -300.3)");
     CHECK(place_text(Point3{457123.456, 5932123.4567, -300.25}) ==
           "(457123.46, 5932123.46, -300.25)"); // the extent may be 6000
     CHECK(place_text(Point3{}) == "(0, 0, 0)");
     CHECK(place_text(Point3{1e300, 1, 0}, 1e300) == "(1e300, 1, 0)");
-    CHECK(place_text(Point3{1e-7, 0, 0}, 1e-6) == "(1e-7, 0, 0)");
+    CHECK(place_text(Point3{1e-7, 0, 0}, 1e-6) == "(0.0000001, 0, 0)");
+    CHECK(place_text(Point3{1e-20, 0, 0}) == "(1e-20, 0, 0)");
     CHECK(place_text({0.1 + 0.2, 10}) == "(0.3, 10)");
 }
 
