@@ -82,7 +82,10 @@ ExitStatus run(int argc, char** argv) {
         report_command(program),  view_command(program),   convert_command(program),
         verify_command(program),  bench_command(program),  completion_command(program),
         manual_command(program)};
-    for (const Command& command : commands) offer_output_options(*command.options);
+    for (const Command& command : commands) {
+        round_numbers_once(*command.options);
+        offer_output_options(*command.options);
+    }
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& stop) {

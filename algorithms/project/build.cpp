@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/project/build.hpp>
 
+#include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -31,6 +33,10 @@ using project::detail::refinement_shares;
 using project::detail::scaled;
 using project::detail::tetrahedra_from;
 
+RoundingOptions rounding_of(const Project& project) {
+    return {.max_rounds = project.max_rounds, .check = project.check, .max_move = project.max_move};
+}
+
 Error refused(std::string sentence) {
     return {ErrorCode::improper_contact, std::move(sentence), ""};
 }
@@ -57,25 +63,32 @@ public:
         input_(std::move(input)), run_(run), observer_(observer), store_(store) {}
 
     Result<Built> operator()() {
-        if (auto sound = check_column(project_.column, infos_of(input_.surfaces)); !sound)
-            return at_key(project_, sound.error().place, sound.error());
+        for (const Status& sound :
+             {check_column(project_.column), check_column(project_.column, infos_with_boundary())})
+            if (!sound) return at_key(project_, sound.error().place, sound.error());
+        if (auto sound = check_improvement(); !sound) return sound.error();
         const bool preprocessing = !project_.fill.empty() || project_.layers;
-        if (preprocessing)
-            if (auto done = stage(BuildStage::preprocess, &Builder::preprocess_surfaces); !done)
-                return done.error();
-        if (!built_.preprocessed.good()) return flaw_of(built_.preprocessed);
-        if (auto done = stage(BuildStage::arrange, &Builder::arrange_surfaces); !done)
+        if (auto done = stage(BuildStage::preprocess, preprocessing, &Builder::preprocess_surfaces);
+            !done)
             return done.error();
-        if (!built_.arranged.rounded.conforming)
-            return refused("the rounded mesh is not conforming");
-        if (project_.improve)
-            if (auto done = stage(BuildStage::improve, &Builder::improve_in_rounds); !done)
-                return done.error();
-        if (auto done = stage(BuildStage::blocks, &Builder::find_blocks); !done)
+        if (!built_.preprocessed.good() && project_.last > BuildStage::preprocess)
+            return flaw_of(built_.preprocessed);
+        if (auto done = stage(BuildStage::arrange, true, &Builder::arrange_surfaces); !done)
             return done.error();
-        if (!project_.outputs.tetrahedra.empty())
-            if (auto done = stage(BuildStage::tetrahedra, &Builder::fill_with_tetrahedra); !done)
-                return done.error();
+        if (!built_.arranged.rounded.conforming && project_.last > BuildStage::arrange)
+            return refused(fmt::format("{} pairs of triangles still meet improperly in doubles",
+                                       built_.arranged.rounded.report.contacts.size()));
+        if (auto done = stage(BuildStage::improve, project_.improve.has_value(),
+                              &Builder::improve_in_rounds);
+            !done)
+            return done.error();
+        if (!built_.flaws.empty()) return built_.flaws.front();
+        if (auto done = stage(BuildStage::blocks, true, &Builder::find_blocks); !done)
+            return done.error();
+        if (auto done = stage(BuildStage::tetrahedra, !project_.outputs.tetrahedra.empty(),
+                              &Builder::fill_with_tetrahedra);
+            !done)
+            return done.error();
         return std::move(built_);
     }
 
@@ -91,7 +104,8 @@ private:
         std::optional<FilledBlocks> filled;
     };
 
-    Status stage(BuildStage which, Status (Builder::*work)()) {
+    Status stage(BuildStage which, bool wanted, Status (Builder::*work)()) {
+        if (!wanted || which > project_.last) return Done{};
         if (observer_.begins) observer_.begins(which);
         if (auto done = (this->*work)(); !done) return done;
         if (observer_.ended) observer_.ended(which, built_);
@@ -106,32 +120,51 @@ private:
     }
 
     Status arrange_surfaces() {
-        ArrangeWithinOptions options{
-            .arrange = {.known = input_.known},
-            .rounding = {.check = project_.check, .max_move = project_.max_move},
-            .seal = project_.seal.value_or(0),
-            .seal_automatic = project_.seal == 0.0,
-            .extend = project_.extend.value_or(0),
-            .min_volume = least_volume()};
-        const auto infos = infos_of(input_.surfaces);
-        const auto labels = unique_labels(infos);
-        for (const auto& [name, distance] : project_.seal_of) {
-            const auto rules = seal_rules_for(name, distance, infos, labels);
-            if (!rules) return at_key(project_, "seal_of." + name, rules.error());
-            options.seal_rules.insert(options.seal_rules.end(), rules->begin(), rules->end());
-        }
+        auto options = arranging_of(project_, input_.surfaces);
+        if (!options) return options.error();
+        options->arrange.known = input_.known;
         auto arranged =
-            arrange_within(std::move(input_.surfaces), std::move(input_.boundary), options, run_);
+            arrange_within(std::move(input_.surfaces), std::move(input_.boundary), *options, run_);
         if (!arranged) return arranged.error();
         built_.arranged = std::move(*arranged);
         built_.labels = unique_labels(infos_of(built_.arranged.surfaces));
         return Done{};
     }
 
-    /// Returns the volume below which blocks are merged; 0: none is.
-    [[nodiscard]] double least_volume() const {
-        return project_.min_volume == 0.0 ? small_volume_for(input_.surfaces)
-                                          : project_.min_volume.value_or(0);
+    [[nodiscard]] std::vector<SurfaceInfo> infos_with_boundary() const {
+        auto infos = infos_of(input_.surfaces);
+        const auto boundary = infos_of(input_.boundary);
+        infos.insert(infos.end(), boundary.begin(), boundary.end());
+        return infos;
+    }
+
+    /// Sets the edge lengths of surfaces that the project names.
+    Status set_lengths(std::span<const SurfaceInfo> surfaces,
+                       const std::vector<std::string>& labels, ImproveOptions& options) const {
+        const auto& wanted = project_.improve->edge_length_of;
+        if (!wanted.empty()) options.edge_length_of.resize(surfaces.size());
+        for (const auto& [name, length] : wanted) {
+            const auto found = surfaces_called(name, surfaces, labels);
+            if (found.empty())
+                return at_key(project_, "improve.edge_length_of." + name,
+                              not_called("surface", name, labels));
+            for (const std::uint32_t s : found) options.edge_length_of[s] = length;
+        }
+        return Done{};
+    }
+
+    /// Checks by the surfaces as they were read whether they can be improved as the project asks.
+    [[nodiscard]] Status check_improvement() const {
+        if (!project_.improve) return Done{};
+        const ProjectImprove& wanted = *project_.improve;
+        const auto infos = infos_with_boundary();
+        ImproveOptions options = wanted.options;
+        if (auto set = set_lengths(infos, unique_labels(infos), options); !set) return set;
+        if (wanted.resolution.length == 0 && wanted.resolution.dissolve)
+            return at_key(project_, "improve.dissolve", "needs improve.resolution");
+        if (auto sound = check_improvable(input_.surfaces, options); !sound)
+            return at_key(project_, "improve." + sound.error().place, sound.error());
+        return Done{};
     }
 
     [[nodiscard]] const ConformingMesh& rounded() const {
@@ -143,6 +176,12 @@ private:
     /// blocks and tetrahedra are there, too. They are also if the surfaces were simplified, since
     /// vertices move where tetrahedra are bad.
     Status improve_in_rounds() {
+        if (auto done = improve_best(); !done) return done;
+        built_.flaws = flaws_of_improved();
+        return Done{};
+    }
+
+    Status improve_best() {
         if (auto done = prepare_improvement(); !done) return done;
         if (auto done = improve_mesh(); !done) return done;
         const unsigned rounds =
@@ -211,30 +250,19 @@ private:
     /// distances would be measured from surfaces that are simplified already.
     Status prepare_improvement() {
         const ProjectImprove& wanted = *project_.improve;
-        const auto& surfaces = rounded()->surfaces;
         ImproveOptions& options = improve_options_;
         options = wanted.options;
         options.check = project_.check;
-        if (!wanted.edge_length_of.empty()) options.edge_length_of.resize(surfaces.size());
-        for (const auto& [name, length] : wanted.edge_length_of) {
-            const auto found = surfaces_called(name, surfaces, built_.labels);
-            if (found.empty())
-                return at_key(project_, "improve.edge_length_of." + name,
-                              not_called("surface", name, built_.labels));
-            for (const std::uint32_t s : found) options.edge_length_of[s] = length;
-        }
+        if (auto set = set_lengths(rounded()->surfaces, built_.labels, options); !set) return set;
         return simplify_surfaces();
     }
 
     /// Simplifies the surfaces, if the project states a resolution.
     Status simplify_surfaces() {
         const Resolution& wanted = project_.improve->resolution;
-        if (wanted.length == 0) {
-            if (!wanted.dissolve) return Done{};
-            return at_key(project_, "improve.dissolve", "needs improve.resolution");
-        }
-        auto done = simplify_to(wanted, improve_options_, {.max_move = project_.max_move},
-                                built_.arranged, run_);
+        if (wanted.length == 0) return Done{};
+        auto done =
+            simplify_to(wanted, improve_options_, rounding_of(project_), built_.arranged, run_);
         if (!done && done.error().code == ErrorCode::bad_option)
             return at_key(project_, "improve." + done.error().place, done.error());
         return done;
@@ -246,27 +274,34 @@ private:
         if (const auto kept = found(BuildStage::improve, key)) {
             auto improved = improved_from(*kept, rounded(), options, run_);
             if (!improved) return improved.error();
-            if ((built_.improved = std::move(*improved))) {
-                if (auto good = check_resolution(); !good) return good;
-                return taken(BuildStage::improve);
-            }
+            if ((built_.improved = std::move(*improved))) return taken(BuildStage::improve);
         }
         auto improved = improve_and_measure(rounded(), options, run_);
         if (!improved) return improved.error();
         built_.improved = std::move(*improved);
-        if (auto good = check_resolution(); !good) return good;
         if (store_.keep) store_.keep(BuildStage::improve, key, bytes_of(*built_.improved));
         return Done{};
     }
 
-    /// Refuses an improved mesh that is not shown to be within the resolution.
-    [[nodiscard]] Status check_resolution() const {
+    /// Says why the improved mesh can't be used.
+    [[nodiscard]] std::vector<Error> flaws_of_improved() const {
+        std::vector<Error> flaws;
+        const auto add = [&](const char* sentence) {
+            flaws.push_back(at_key(project_, "improve.max_deviation", sentence));
+        };
         const auto& simplified = built_.arranged.simplified;
-        if (!simplified || is_within_resolution(*simplified, built_.improved->improved.mesh, run_))
-            return Done{};
-        return at_key(project_, "improve.max_deviation",
-                      "not all of each surface is shown to be within improve.resolution of what it "
-                      "was; try a smaller value");
+        if (!built_.improved->improved.report.sides_kept)
+            add("a small piece came to lie beyond a surface near it, so the blocks would not be "
+                "the "
+                "same; try a smaller value");
+        if (!built_.improved->is_near_back())
+            add("not all of each surface as it was is shown to be near enough to the improved one; "
+                "try another value");
+        if (simplified && !is_within_resolution(*simplified, built_.improved->improved.mesh, run_))
+            add("not all of each surface is shown to be within the resolution of what it was; try "
+                "a "
+                "smaller value");
+        return flaws;
     }
 
     Status find_blocks() {
@@ -355,6 +390,32 @@ private:
 };
 
 } // namespace
+
+std::string_view name_of(BuildStage stage) {
+    static constexpr std::array<std::string_view, 5> names{"mend", "arrange", "improve", "blocks",
+                                                           "tetrahedra"};
+    return names.at(static_cast<std::size_t>(stage));
+}
+
+Result<ArrangeWithinOptions> arranging_of(const Project& project,
+                                          std::span<const Surface> surfaces) {
+    ArrangeWithinOptions options{.arrange = {.search = project.search},
+                                 .rounding = rounding_of(project),
+                                 .seal = project.seal.value_or(0),
+                                 .seal_automatic = project.seal == 0.0,
+                                 .extend = project.extend.value_or(0),
+                                 .min_volume = project.min_volume == 0.0
+                                                   ? small_volume_for(surfaces)
+                                                   : project.min_volume.value_or(0)};
+    const auto infos = infos_of(surfaces);
+    const auto labels = unique_labels(infos);
+    for (const auto& [name, distance] : project.seal_of) {
+        const auto rules = seal_rules_for(name, distance, infos, labels);
+        if (!rules) return at_key(project, "seal_of." + name, rules.error());
+        options.seal_rules.insert(options.seal_rules.end(), rules->begin(), rules->end());
+    }
+    return options;
+}
 
 TetrahedraRequest request_of(const Project& project) {
     const ProjectTetrahedra& t = project.tetrahedra;

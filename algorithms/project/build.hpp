@@ -16,7 +16,9 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
@@ -41,9 +43,6 @@ struct BuildInput {
     KnownTriangles* known = nullptr; ///< see ArrangeOptions::known
 };
 
-/// The stages in their order. A stage that the project does not ask for is left out.
-enum class BuildStage : std::uint8_t { preprocess, arrange, improve, blocks, tetrahedra };
-
 /// The result of one round that makes triangles smaller where tetrahedra are bad.
 struct RefinementRound {
     std::size_t triangles = 0;  ///< of the improved mesh
@@ -67,11 +66,14 @@ struct Built {
     std::vector<std::string> labels{}; ///< per surface of the mesh: its name, made unique
     Arranged arranged{};               ///< the arrangement and its rounded mesh
     std::optional<ImprovedAndMeasured> improved{}; ///< where the project asks for it
+    std::vector<Error>
+        flaws{}; ///< what keeps the improved mesh from being used, with the keys of options to
+                 ///< change
     std::vector<RefinementRound> rounds{}; ///< with tetrahedra.refine_bad: the first is the one
                                            ///< without; empty: not asked for
     LoosenedVertices loosened{};           ///< with improve.resolution: of the improved mesh
     std::size_t kept_round = 0;            ///< whose results these are
-    std::optional<Model> model{};          ///< there at the end
+    std::optional<Model> model{};          ///< where blocks were found
     std::optional<FilledBlocks> filled{};  ///< where the project has outputs.tetrahedra
 };
 
@@ -93,13 +95,19 @@ struct StageStore {
     std::function<void(BuildStage, const std::string& key, const std::string& bytes)> keep{};
 };
 
+/// Returns the name of a stage for people: "mend", "arrange", "improve", "blocks", "tetrahedra".
+std::string_view name_of(BuildStage stage);
+
+/// Returns how the surfaces of a project are arranged. Errors: bad_option for a name in seal_of that no surface has.
+Result<ArrangeWithinOptions> arranging_of(const Project& project,
+                                          std::span<const Surface> surfaces);
+
 /// Returns the tetrahedra that a project asks for; errors about them name the project's keys.
 TetrahedraRequest request_of(const Project& project);
 
-/// Builds the model of a project. Errors: those of the stages; bad_option, with "source: key", for
-/// a name in the project that no surface has; improper_contact if preprocessing failed (see
-/// Preprocessed::good) or the rounded mesh is not conforming: the observer then has the results so
-/// far. Violations found by the checks of tetrahedra are not an error: see filled->report.
+/// Builds the model of a project, up to the stage project.last. Errors: those of the stages; bad_option, with
+/// "source: key", for a name in the project that no surface has, before work is done; improper_contact if
+/// preprocessing failed (see Preprocessed::good) or the rounded mesh is not conforming, unless that is the last stage; the first of Built::flaws: the observer then has the results so far. Violations found by the checks of tetrahedra are not an error: see filled->report.
 Result<Built> build(const Project& project, BuildInput input, const Run& run = {},
                     const BuildObserver& observer = {}, const StageStore& store = {});
 

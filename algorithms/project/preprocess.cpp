@@ -33,9 +33,10 @@ Result<std::vector<FillTask>> tasks_of(const Project& project, const Names& name
         const ProjectFill& entry = project.fill[i];
         const auto key = fmt::format("fill[{}].surface", i);
         auto found = names.called(entry.surface);
-        if (found.empty() && entry.surface == "horizon")
+        if (found.empty() && (entry.surface == "horizon" || entry.surface.empty()))
             for (std::uint32_t s = 0; s < names.infos.size(); ++s)
-                if (names.infos[s].role == Role::horizon) found.push_back(s);
+                if (entry.surface.empty() || names.infos[s].role == Role::horizon)
+                    found.push_back(s);
         if (found.empty())
             return at_key(project, key,
                           entry.surface == "horizon"
@@ -57,9 +58,10 @@ Result<std::vector<Layer>> order_of(const Project& project, const Names& names) 
     for (std::size_t i = 0; i < project.layers->order.size(); ++i) {
         const std::string& name = project.layers->order[i].surface;
         const auto key = fmt::format("layers.order[{}].surface", i);
-        const auto found = names.called(name);
+        auto found = names.called(name);
         if (found.empty()) return at_key(project, key, not_called("surface", name, names.labels));
-        if (found.size() > 1)
+        if (project.layers->order[i].number) found = {*project.layers->order[i].number};
+        if (found.size() != 1)
             return at_key(project, key,
                           fmt::format("{} surfaces are called {}; set a name where they are read",
                                       found.size(), name));
@@ -96,14 +98,32 @@ std::vector<Surface> surfaces_of(const Mesh& mesh) {
     return all;
 }
 
-Status fill(const std::vector<FillTask>& tasks, std::vector<Surface>& surfaces, const Run& run,
-            Preprocessed& done) {
+/// Tells for each hole whether it is to be filled.
+Result<std::vector<bool>> chosen_holes(const Project& project, const FillWork& work) {
+    auto chosen = wanted_holes(work);
+    if (!project.only_holes) return chosen;
+    std::vector<bool> named(chosen.size());
+    for (const std::size_t number : *project.only_holes) {
+        if (number < 1 || number > named.size())
+            return at_key(project, "holes",
+                          fmt::format("there is no hole {}, only 1 to {}", number, named.size()));
+        named[number - 1] = true;
+    }
+    for (std::size_t i = 0; i < named.size(); ++i) chosen[i] = chosen[i] && named[i];
+    return chosen;
+}
+
+Status fill(const std::vector<FillTask>& tasks, const Project& project,
+            std::vector<Surface>& surfaces, const Run& run, Preprocessed& done) {
+    StageTimer finding(run, "holes");
+    auto work = find_holes(surfaces, tasks, finding.inside());
+    if (!work) return work.error();
+    finding.stop();
     const StageTimer timer(run, "fill");
     const Run inner = timer.inside();
-    auto work = find_holes(surfaces, tasks, inner);
-    if (!work) return work.error();
-    if (auto filled = fill_holes(surfaces, wanted_holes(*work), *work, inner); !filled)
-        return filled;
+    const auto chosen = chosen_holes(project, *work);
+    if (!chosen) return chosen.error();
+    if (auto filled = fill_holes(surfaces, *chosen, *work, inner); !filled) return filled;
     auto contacts = contacts_of_new(*work, inner);
     if (!contacts) return contacts.error();
     done.contacts = std::move(*contacts);
@@ -123,10 +143,7 @@ Status stack(const std::vector<Layer>& order, const Project& project,
     auto replaced = surfaces_of(layered->rounded.mesh);
     for (std::size_t i = 0; i < order.size(); ++i)
         surfaces[order[i].surface] = std::move(replaced[i]);
-    done.layers = std::move(layered->reports);
-    if (layered->is_stack()) done.step_width = layered->step_width;
-    done.stack = std::move(layered->rounded.report);
-    done.out_of_order = std::move(layered->out_of_order);
+    done.layered = std::move(*layered);
     return Done{};
 }
 
@@ -136,7 +153,7 @@ bool Preprocessed::good() const {
     const bool all_filled =
         !filled || std::all_of(filled->holes.begin(), filled->holes.end(),
                                [](const NumberedHole& hole) { return hole.refused.empty(); });
-    return all_filled && contacts.empty() && (!stack || stack->clean) && out_of_order.empty();
+    return all_filled && contacts.empty() && (!layered || layered->is_stack());
 }
 
 Result<Preprocessed> preprocess(const Project& project, std::vector<Surface>& surfaces,
@@ -148,8 +165,10 @@ Result<Preprocessed> preprocess(const Project& project, std::vector<Surface>& su
         const auto order = order_of(project, names);
         if (!order) return order.error();
         Preprocessed done;
+        done.order = *order;
         if (!tasks->empty())
-            if (auto filled = fill(*tasks, surfaces, run, done); !filled) return filled.error();
+            if (auto filled = fill(*tasks, project, surfaces, run, done); !filled)
+                return filled.error();
         if (!order->empty() && done.good())
             if (auto stacked = stack(*order, project, surfaces, run, done); !stacked)
                 return stacked.error();

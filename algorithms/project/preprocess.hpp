@@ -18,12 +18,10 @@ namespace terrane {
 
 /// The reports of preprocess().
 struct Preprocessed {
-    std::optional<FillWork> filled{};      ///< where the project has "fill"
-    std::vector<NewContact> contacts{};    ///< of fillings with other triangles of their surface
-    std::vector<LayerReport> layers{};     ///< where the project has "layers" and filling succeeded
-    std::optional<RoundingReport> stack{}; ///< of the stack of layers
-    std::optional<double> step_width{};    ///< that of Layered, if the stack is sound
-    std::vector<OutOfOrder> out_of_order{}; ///< layers of the stack that are out of order
+    std::optional<FillWork> filled{};   ///< where the project has "fill"
+    std::vector<NewContact> contacts{}; ///< of fillings with other triangles of their surface
+    std::vector<Layer> order{};         ///< the layers of the project, from the top down
+    std::optional<Layered> layered{};   ///< their stack, if filling succeeded
 
     /// Tells whether the surfaces can be used: no wanted hole stays open, no filling meets other
     /// triangles, and the stack of layers is conforming and in order.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -17,6 +18,8 @@
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/quality/improve_options.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/search/method.hpp>
 #include <terrane/algorithms/structure/column.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
@@ -55,14 +58,16 @@ using ProjectVolume =
 
 /// Filling the holes of a surface, which is the first step.
 struct ProjectFill {
-    std::string surface{}; ///< name of a surface, or "horizon" for all of that role
+    std::string surface{}; ///< name of a surface, or "horizon" for all of that role; empty: all
     FillOptions options{}; ///< smoothing of 0: "auto"
 };
 
 /// A horizon of a stack, and its hardness.
 struct ProjectLayer {
-    std::string surface{}; ///< its name
-    double hardness = 0;   ///< no unit; more is harder
+    std::string surface{};                 ///< its name
+    double hardness = 0;                   ///< no unit; more is harder
+    std::optional<std::uint32_t> number{}; ///< of the surface, from 0, where names are not unique;
+                                           ///< no key of the file
 };
 
 /// A stack of horizons, whose vertical order is restored after holes are filled (layers.hpp).
@@ -139,6 +144,9 @@ struct ProjectOutputs {
     bool gocad = false;       ///< whether to write the model with its blocks for GOCAD
 };
 
+/// The stages of building a model, in their order. One that the project does not ask for is left out.
+enum class BuildStage : std::uint8_t { preprocess, arrange, improve, blocks, tetrahedra };
+
 /// A project: what to read, what to do, what to write.
 struct Project {
     std::string source{};                    ///< the project file, for messages; empty: none
@@ -165,9 +173,15 @@ struct Project {
     ProjectOutputs outputs{};                      ///< files to write
     std::vector<ProjectUncertainty> uncertainty{}; ///< for ensembles; build() has no use for it
     unsigned threads = 0;                          ///< 0: all cores
+    // What follows is no key of the file.
+    std::optional<std::vector<std::size_t>> only_holes{}; ///< to fill, by number from 1; none: all
+    Search search = Search::automatic; ///< how triangles that may meet are found; no result depends
+                                       ///< on it
+    unsigned max_rounds = RoundingOptions{}.max_rounds; ///< see RoundingOptions
     /// How meshes are shown to be conforming, and that it is counted what decided each pair of
-    /// triangles; no key of the file, as the result does not depend on it.
+    /// triangles; no result depends on it.
     PairCheckOptions check{PairCheck::bounds, SIZE_MAX};
+    BuildStage last = BuildStage::tetrahedra; ///< later stages are left out
 };
 
 /// Returns the place of a key of the project, for messages: "project.json:

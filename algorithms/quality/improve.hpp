@@ -50,13 +50,11 @@
 
 namespace terrane {
 
-/// Returns the least max_deviation that is distinguishable from rounding errors at coordinates of
-/// this size (the largest absolute value).
-double least_deviation(double largest_coordinate);
-
-/// Estimates the number of triangles that surfaces of this shape have after improve(), from their
-/// areas and the wanted lengths alone: without curvature, and without what intersections add.
-double expected_triangles(std::span<const Surface> surfaces, const ImproveOptions& options);
+/// Checks by the surfaces alone, before they are arranged, what improve() refuses: a max_deviation below the
+/// rounding errors of their coordinates, and more than max_triangles. Their number is estimated from
+/// areas and wanted lengths, without curvature and what intersections add. Errors: bad_option, with the
+/// option as its place.
+Status check_improvable(std::span<const Surface> surfaces, const ImproveOptions& options);
 
 /// Improves the mesh. Errors: bad_option; bad_number, bad_index; improper_contact if the mesh is
 /// not conforming; nothing_to_do if it has no triangles; interrupted, out_of_memory.

@@ -4,19 +4,16 @@
 #include <vector>
 
 #include <terrane/cli/commands/command.hpp>
-#include <terrane/cli/stages/certificate_output.hpp>
+#include <terrane/cli/reports/arranged_report.hpp>
+#include <terrane/cli/stages/model_run.hpp>
 #include <terrane/cli/stages/outputs.hpp>
-#include <terrane/cli/stages/page_output.hpp>
-#include <terrane/cli/stages/pipeline.hpp>
 #include <terrane/cli/stages/tilewise.hpp>
 
 namespace terrane::cli {
 namespace {
 
 struct ArrangeCommand {
-    FileOptions files;
-    ArrangeSettings settings;
-    ProofOptions proof;
+    ModelCommand model;
     TilewiseOptions tilewise;
     bool keep_unverified = false;
 };
@@ -34,81 +31,45 @@ Examples:
   terrane arrange --format ts --output-format obj - -o - < in.ts > out.obj
   terrane arrange large.obj -o model.pvtp --memory 4GiB)";
 
-/// Checks before any work is done that a certificate can be made, if one is wanted.
-Status check_certificate(const ArrangeCommand& command) {
-    if (command.proof.certificate.empty()) return Done{};
-    if (auto possible = check_certifiable(command.settings); !possible) return possible;
-    return check_certified_names(command.proof.certificate, command.settings.volume.within);
-}
-
-/// Writes the certificate and the exact coordinates, if they are wanted. Rounded coordinates need not
-/// be conforming, as the exact result holds anyway.
-Status write_proof(const ArrangeCommand& command, const Inputs& inputs, const Arranged& arranged,
-                   const std::vector<Output>& outputs, Session& session) {
-    std::FILE* const told = summary_stream(command.files);
-    if (!command.proof.certificate.empty()) {
-        auto result =
-            certified_arrangement(command.files.inputs, inputs, command.settings, arranged);
-        if (!result) return result.error();
-        auto files = certified_outputs(outputs, arranged.rounded.mesh, command.files.ascii);
-        if (!files) return files.error();
-        result->outputs = *std::move(files);
-        if (auto done = write_certificate(command.proof.certificate, *result, told, session); !done)
-            return done;
-    }
-    return write_exact(command.proof, arranged.exact, told, session);
-}
-
 Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session) {
     if (command.tilewise.digest)
         return usage("it needs --memory; a certificate has the digest, too", "--digest");
     if (command.tilewise.volumes)
         return usage("it needs --memory; terrane volume finds them without", "--volumes");
-    const FileOptions& files = command.files;
-    const auto outputs = plan_outputs(files, OutputKind::surfaces);
+    const FileOptions& files = command.model.files;
+    const ProofOptions& proof = command.model.proof;
+    auto outputs = plan_outputs(files, OutputKind::surfaces);
     if (!outputs) return outputs.error();
-    if (const auto named = plan_proof(command.proof, files); !named) return named.error();
-    if (const auto sound = check_volume_options(command.settings.volume); !sound)
-        return sound.error();
-    if (const auto possible = check_certificate(command); !possible) return possible.error();
-    auto page = plan_page(files, session);
-    if (!page) return page.error();
-    auto inputs = read_certified_inputs(command.proof.certificate, files, session);
-    if (!inputs) return inputs.error();
-    if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
-    Json statistics = statistics_of(inputs.value());
-
-    const auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
-    if (!arranged) return arranged.error();
-    say(summary_stream(files),
-        session.timed("summary", [&] { return summary(inputs.value(), arranged.value()); }));
-    page->add_arranged(*arranged);
-    const Mesh& mesh = arranged.value().rounded.mesh;
-    bool clean = arranged.value().rounded.report.clean;
-    if (!clean) print(stderr, offending_pairs(inputs.value(), arranged.value()));
+    auto run = ModelRun::begin(command.model, session);
+    if (!run) return run.error();
+    if (auto made = run->make(); !made) return made.error();
+    const RoundedMesh& rounded = run->built().arranged.rounded;
+    bool clean = rounded.report.clean;
+    if (!clean) print(stderr, offending_pairs(run->inputs(), run->built().arranged));
     if (clean) {
-        const auto narrow = stl_is_conforming(mesh, files, outputs.value(), session);
+        const auto narrow = stl_is_conforming(rounded.mesh, files, *outputs, session);
         if (!narrow) return narrow.error();
-        clean = narrow.value();
-        if (!clean) page->set_verdict(not_conforming_in_stl, false);
+        clean = *narrow;
+        if (!clean) run->page().set_verdict(not_conforming_in_stl, false);
     }
     if (session.stopped()) return Error{ErrorCode::interrupted, "", ""};
 
-    const bool keep = clean || command.keep_unverified;
-    if (keep) {
-        const auto written = write_outputs(mesh, clean, files, outputs.value(), session);
-        if (!written) return written.error();
-    }
-    const bool proves = !command.proof.certificate.empty() || !command.proof.exact.empty();
-    if (!keep)
+    if (clean || command.keep_unverified) {
+        if (auto done = write_outputs(rounded.mesh, clean, files, *outputs, session); !done)
+            return done.error();
+    } else {
+        const bool proves = !proof.certificate.empty() || !proof.exact.empty();
         print(stderr, complaint(std::string(proves ? "the mesh is not" : "nothing") +
                                 " written (see --keep-unverified)"));
-    if (const auto proved = write_proof(command, *inputs, *arranged,
-                                        keep ? outputs.value() : std::vector<Output>(), session);
-        !proved)
-        return proved.error();
-    add_page_certificate(*page, files, command.proof.certificate, true, session);
-    return write_run(*page, statistics, files, session, clean);
+        outputs->clear();
+    }
+    // Rounded coordinates need not be conforming, as the exact result holds anyway.
+    auto written = certified_outputs(*outputs, rounded.mesh, files.ascii);
+    if (!written) return written.error();
+    if (auto done = run->certify(*std::move(written)); !done) return done.error();
+    if (auto done = write_exact(proof, run->built().arranged.exact, run->told(), session); !done)
+        return done.error();
+    return run->end(clean);
 }
 
 } // namespace
@@ -117,25 +78,26 @@ Command arrange_command(CLI::App& program) {
     auto options = std::make_shared<ArrangeCommand>();
     auto* app =
         program.add_subcommand("arrange", "Make one conforming mesh of surfaces that cross");
-    add_inputs(*app, options->files);
-    add_output(*app, options->files, "File for the mesh; - is standard output");
-    add_settings(*app, options->settings);
+    add_inputs(*app, options->model.files);
+    add_output(*app, options->model.files, "File for the mesh; - is standard output");
+    add_arranging(*app, options->model);
     app->add_flag(
         "--keep-unverified", options->keep_unverified,
         "Write the mesh even where its doubles are not conforming (status 1 all the same)");
-    app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
-    add_msh(*app, options->files);
-    add_proof(*app, options->proof);
+    app->add_flag("--ascii", options->model.files.ascii, "STL as text, with doubles, not float32");
+    add_msh(*app, options->model.files);
+    add_proof(*app, options->model.proof);
     add_tilewise(*app, options->tilewise);
-    add_threads(*app, options->files);
-    add_stats(*app, options->files);
-    add_report(*app, options->files);
+    add_threads(*app, options->model.files);
+    add_stats(*app, options->model.files);
+    add_report(*app, options->model.files);
+    options->model.project.last = BuildStage::arrange;
     app->footer(arrange_footer);
     return {app, [options] {
-                Session session(options->files.threads);
+                Session session(options->model.files.threads);
                 const auto status =
                     options->tilewise.wanted()
-                        ? arrange_tilewise(options->files, options->tilewise, session)
+                        ? arrange_tilewise(options->model.files, options->tilewise, session)
                         : arrange_files(*options, session);
                 return status ? status.value() : fail(status.error());
             }};

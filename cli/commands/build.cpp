@@ -14,20 +14,13 @@
 #include <terrane/cli/commands/build_help.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/commands/file_options.hpp>
-#include <terrane/cli/options/volume_options.hpp>
+#include <terrane/cli/reports/fill_map.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
-#include <terrane/cli/reports/improve_report.hpp>
 #include <terrane/cli/reports/pair_report.hpp>
-#include <terrane/cli/reports/resolution_report.hpp>
-#include <terrane/cli/reports/tetrahedra_report.hpp>
 #include <terrane/cli/session/journal.hpp>
-#include <terrane/cli/stages/blocks.hpp>
-#include <terrane/cli/stages/certificate_output.hpp>
 #include <terrane/cli/stages/kept_stages.hpp>
-#include <terrane/cli/stages/layer_stage.hpp>
-#include <terrane/cli/stages/outputs.hpp>
+#include <terrane/cli/stages/model_run.hpp>
 #include <terrane/cli/stages/page_output.hpp>
-#include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 #include <terrane/io/project.hpp>
@@ -63,8 +56,11 @@ public:
     Build(const Project& project, const BuildCommand& command, page::Page page, FileOptions files,
           Session& session) :
         project_(project),
-        page_(std::move(page)), page_files_(std::move(files)), source_(command.project),
-        folder_(project.folder), strict_(command.strict), session_(session) {
+        run_(
+            project, std::move(page), std::move(files),
+            [this](const std::string& text) { journal_.say(text); }, session),
+        source_(command.project), folder_(project.folder), strict_(command.strict),
+        session_(session) {
         if (command.resume && !folder_.empty()) kept_ = KeptStages::beside(folder_);
     }
 
@@ -85,30 +81,17 @@ private:
         journal_.note(fmt::format("terrane {}, {}", TERRANE_VERSION, source_));
         if (auto done = check(); !done) return done.error();
         if (auto done = read(); !done) return done.error();
-        if (auto done = make(); !done && refused_.empty()) return done.error();
-        if (!refused_.empty()) return refuse(refused_);
-        if (built_.filled && !built_.filled->report.violations.empty())
-            return refuse(violations_text(built_.filled->report) + complaint("nothing written"));
-        if (doubts_) return *doubts_;
+        if (auto done = make(); !done) return done.error();
+        if (!run_.refused().empty()) return end(ExitStatus::negative);
         if (auto done = write(); !done) return done.error();
-        add_certificates();
-        if (auto done = write_the_page(); !done) return done.error();
-        return ExitStatus::done;
-    }
-
-    Status write_the_page() { return write_page(page_, page_files_, statistics_, session_); }
-
-    /// Adds the verdicts about the certificates that are among the results.
-    void add_certificates() {
         for (const std::string& name : written_)
-            if (name.starts_with("certificate"))
-                add_page_certificate(page_, page_files_, (folder_ / name).string(), true, session_);
+            if (name.starts_with("certificate")) run_.add_certificate((folder_ / name).string());
+        return end(ExitStatus::done);
     }
 
-    Result<ExitStatus> refuse(const std::string& reason) {
-        print(stderr, reason);
-        if (auto done = write_the_page(); !done) return done.error();
-        return ExitStatus::negative;
+    Result<ExitStatus> end(ExitStatus status) {
+        if (auto done = run_.write_page(); !done) return done.error();
+        return status;
     }
 
     /// Reports configuration errors before the work starts.
@@ -136,30 +119,25 @@ private:
     Status read() {
         StageTimer timer(session_.run(), "read");
         begin_stage("read", Phase::computing);
-        auto inputs = terrane::read_inputs(project_, session_.run());
+        auto read = terrane::read_inputs(project_, session_.run());
         session_.end_stage();
-        if (!inputs) return inputs.error();
-        read_ = std::move(*inputs);
+        if (!read) return read.error();
+        read_ = std::move(*read);
         if (auto sound = check_read_names(); !sound) return sound;
-        inputs_.surfaces_of_file = read_.surfaces_of_entry;
-        describe(read_.build.surfaces, inputs_);
-        inputs_.vertices = read_.vertices;
-        inputs_.triangles = read_.triangles;
-        inputs_.strict = strict_;
+        Inputs inputs;
+        inputs.surfaces_of_file = read_.surfaces_of_entry;
+        describe(read_.build.surfaces, inputs);
+        inputs.vertices = read_.vertices;
+        inputs.triangles = read_.triangles;
+        inputs.strict = strict_;
         for (std::size_t f = 0; f < read_.surfaces_of_entry.size(); ++f)
-            inputs_.files.insert(inputs_.files.end(), read_.surfaces_of_entry[f],
-                                 project_.surfaces[f].file.string());
-        if (auto added = add_page_inputs(page_, page_files_, inputs_); !added) return added;
+            inputs.files.insert(inputs.files.end(), read_.surfaces_of_entry[f],
+                                project_.surfaces[f].file.string());
         timer.stop();
-        statistics_ = statistics_of(inputs_);
-        statistics_["resumed"] = Json::array();
-        add_constants(statistics_, "plausibility", plausibility_constants());
-        const PlausibilityContext use{read_.build.boundary, wants_blocks()};
-        session_.begin("plausibility", Phase::computing);
-        auto sound = report_doubts(find_doubts(read_.build.surfaces, use), inputs_.labels,
-                                   inputs_.strict, statistics_);
-        session_.end_stage();
-        return sound;
+        const ProjectOutputs& outputs = project_.outputs;
+        const bool needs_blocks =
+            !outputs.blocks.empty() || !outputs.tetrahedra.empty() || outputs.gocad;
+        return run_.take(std::move(read_.build), std::move(inputs), needs_blocks);
     }
 
     /// Checks that a certificate can state the names of the surfaces, if one is wanted.
@@ -174,23 +152,17 @@ private:
     }
 
     Status make() {
+        Json resumed = Json::array();
         const BuildObserver observer{
-            .begins = [&](BuildStage stage) { begins(stage); },
-            .ended = [&](BuildStage stage, const Built& built) { ended(stage, built); },
-            .taken = [&](BuildStage stage) { taken(stage); }};
-        auto built = terrane::build(project_, std::move(read_.build), session_.run(), observer,
-                                    kept_ ? kept_->store() : StageStore{});
-        session_.end_stage();
-        if (!built) return built.error();
-        built_ = std::move(*built);
-        return Done{};
-    }
-
-    void begins(BuildStage stage) { begin_stage(name_of(stage), Phase::computing); }
-
-    void taken(BuildStage stage) {
-        journal_.say(fmt::format("taken from {}\n", kept_->folder().string()));
-        statistics_["resumed"].push_back(name_of(stage));
+            .begins = [&](BuildStage stage) { begin_stage(name_of(stage), Phase::computing); },
+            .taken =
+                [&](BuildStage stage) {
+                    journal_.say(fmt::format("taken from {}\n", kept_->folder().string()));
+                    resumed.push_back(name_of(stage));
+                }};
+        auto made = run_.make(observer, kept_ ? kept_->store() : StageStore{});
+        run_.statistics()["resumed"] = std::move(resumed);
+        return made;
     }
 
     /// Counts the stages of the project: reading, those that are wanted, and writing.
@@ -209,75 +181,6 @@ private:
         session_.number(stages_begun_, stage_count());
         session_.begin(name, phase);
     }
-    /// Prints what a stage did and adds it to the statistics.
-    void ended(BuildStage stage, const Built& built) {
-        session_.begin("summary", Phase::computing);
-        add_stage(stage, built);
-        session_.end_stage();
-    }
-    void add_stage(BuildStage stage, const Built& built) {
-        switch (stage) {
-        case BuildStage::preprocess:
-            return preprocessed(built.preprocessed);
-        case BuildStage::arrange:
-            inputs_.labels = built.labels;
-            add_statistics(statistics_, built.arranged, inputs_);
-            journal_.say(summary(inputs_, built.arranged));
-            page_.add_arranged(built.arranged);
-            if (!built.arranged.rounded.conforming)
-                refused_ = offending_pairs(inputs_, built.arranged) +
-                           complaint("no blocks without a conforming mesh; nothing written");
-            return;
-        case BuildStage::improve:
-            add_statistics(statistics_, *built.improved);
-            if (!keeps_volumes(*built.improved, strict_)) refused_ = complaint("nothing written");
-            page_.add_improved(built.improved->improved.mesh, built.arranged.rounded.mesh);
-            return journal_.say(resolution_text(statistics_, built.arranged, inputs_) +
-                                improve_text(*built.improved, inputs_));
-        case BuildStage::blocks:
-            add_statistics(statistics_, *built.model);
-            if (auto judged = judge_leaks(built.arranged, *built.model, session_)) leaks_ = *judged;
-            journal_.say(model_text(inputs_, *built.model, leaks_));
-            page_.add_model(*built.model, leaks_);
-            return doubt(*built.model);
-        case BuildStage::tetrahedra:
-            add_statistics(statistics_, *built.filled);
-            add_changes(statistics_, built);
-            page_.add_tetrahedra(*built.filled);
-            return journal_.say(changes_text(built, inputs_.unit) +
-                                filled_text(*built.filled, inputs_.unit));
-        }
-    }
-
-    [[nodiscard]] bool wants_blocks() const {
-        return !project_.outputs.blocks.empty() || !project_.outputs.tetrahedra.empty() ||
-               project_.outputs.gocad;
-    }
-
-    /// Warns about the blocks; with --strict nothing will be written.
-    void doubt(const Model& model) {
-        const auto sound = examine(model, inputs_, wants_blocks(), session_, statistics_);
-        if (!sound) doubts_ = sound.error();
-    }
-
-    void preprocessed(const Preprocessed& done) {
-        std::string said;
-        if (done.filled) {
-            said += borders_text(*done.filled) + filled_text(*done.filled);
-            refused_ = refusals_text(*done.filled);
-            if (!done.contacts.empty())
-                refused_ += complaint("new triangles meet other triangles") +
-                            contacts_text(*done.filled, done.contacts);
-            add_statistics(statistics_, *done.filled);
-        }
-        if (done.stack) {
-            said += text_of(inputs_, done.layers, *done.stack, done.step_width);
-            refused_ = flaws_text(*done.stack, done.out_of_order);
-            add_statistics(statistics_, inputs_, done.layers);
-        }
-        journal_.say(said);
-        if (!refused_.empty()) refused_ += complaint("nothing written");
-    }
 
     Status write() {
         Stopwatch watch;
@@ -295,7 +198,8 @@ private:
         for (const std::string& name : written_) list += "  " + name + "\n";
         const auto said = "wrote " + folder_.string() + ":\n" + list;
         session_.begin("write", Phase::folder); // so that the time up to here is known
-        if (auto done = write_statistics(statistics_, (to / "statistics.json").string(), session_);
+        if (auto done =
+                write_statistics(run_.statistics(), (to / "statistics.json").string(), session_);
             !done)
             return done;
         journal_.note("done");
@@ -306,14 +210,15 @@ private:
         return published;
     }
 
+    [[nodiscard]] const Built& built() const { return run_.built(); }
     /// Returns what was built. It refers to this object.
     [[nodiscard]] Results results() const {
         return {project_,
-                *built_.model,
-                built_.filled ? &*built_.filled : nullptr,
-                built_.arranged.sealed,
-                leaks_,
-                inputs_.unit};
+                *built().model,
+                built().filled ? &*built().filled : nullptr,
+                built().arranged.sealed,
+                run_.leaks(),
+                run_.inputs().unit};
     }
 
     Status write_outputs(const fs::path& to) {
@@ -324,41 +229,34 @@ private:
     }
 
     Status write_interpolated(const fs::path& to) {
-        if (!built_.preprocessed.filled) return Done{};
+        if (!built().preprocessed.filled) return Done{};
         written_.insert(written_.end(), {"interpolated.csv", "filled.svg"});
-        if (auto done = write_file(to / "interpolated.csv", csv_of(*built_.preprocessed.filled));
+        if (auto done = write_file(to / "interpolated.csv", csv_of(*built().preprocessed.filled));
             !done)
             return done;
-        return write_file(to / "filled.svg", map_of(*built_.preprocessed.filled));
+        return write_file(to / "filled.svg", map_of(*built().preprocessed.filled));
     }
 
     Status write_certificates(const fs::path& to) {
         const auto written =
-            terrane::write_certificates(results(), read_, built_.arranged, to, session_.run());
+            terrane::write_certificates(results(), read_, built().arranged, to, session_.run());
         if (!written) return written.error();
         for (const WrittenCertificate& c : *written) {
-            warn_of_deviation(c.name, c.deviation, built_.arranged.surfaces);
+            warn_of_deviation(c.name, c.deviation, built().arranged.surfaces);
             written_.push_back(c.name);
         }
         return Done{};
     }
 
     const Project& project_;
-    page::Page page_;
-    FileOptions page_files_; ///< the project's, with --report
-    std::string source_;     ///< the project file
+    Journal journal_;
+    ModelRun run_;
+    std::string source_; ///< the project file
     fs::path folder_;
     bool strict_; ///< warnings about the inputs are errors
     Session& session_;
-    Journal journal_;
-    Json statistics_;
-    Inputs inputs_;      ///< names and counts; the surfaces are in built_
     ProjectInputs read_; ///< its surfaces move into the build
     std::size_t stages_begun_ = 0;
-    std::optional<Error> doubts_;     ///< about the blocks, with --strict
-    std::optional<LeakAdvice> leaks_; ///< none: not judged
-    std::string refused_;             ///< why nothing is written; empty: all is well
-    Built built_;
     std::optional<KeptStages> kept_;   ///< none: stages are not kept
     std::vector<std::string> written_; ///< names in the folder
 };

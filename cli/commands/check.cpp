@@ -40,7 +40,7 @@ Result<ExitStatus> check_files(const CheckCommand& command, Session& session) {
     if (const auto added = add_page_inputs(*page, command.files, *inputs); !added)
         return added.error();
     Json warnings;
-    if (const auto sound = examine(inputs.value(), {}, session, warnings); !sound)
+    if (const auto sound = examine(inputs->surfaces, {}, *inputs, session, warnings); !sound)
         return sound.error();
     session.begin("check", Phase::computing);
     const auto report = check(inputs.value().surfaces, session.run());

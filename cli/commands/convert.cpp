@@ -67,7 +67,7 @@ Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session)
     if (!inputs) return inputs.error();
     if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
     Json statistics = statistics_of(*inputs); // for the page alone
-    if (const auto sound = examine(inputs.value(), {}, session, statistics); !sound)
+    if (const auto sound = examine(inputs->surfaces, {}, *inputs, session, statistics); !sound)
         return sound.error();
     const Mesh mesh = concatenate(inputs.value().surfaces);
     const Output& output = outputs.value().front();

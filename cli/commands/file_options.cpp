@@ -15,6 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/options/volume_options.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/stages/kept_stages.hpp>
@@ -188,7 +189,20 @@ Status check_number_words(const CLI::Option& option, const std::string& value) {
     return Done{};
 }
 
+/// Returns the text of a number with the digits of its nearest double, where CLI11, which rounds to a long
+/// double first, would take another one.
+std::string rounded_once(const std::string& text) {
+    const auto number = parse_number(text);
+    if (!number || static_cast<double>(std::strtold(text.c_str(), nullptr)) == *number) return text;
+    return fmt::format("{:.30e}", *number);
+}
+
 } // namespace
+
+void round_numbers_once(CLI::App& command) {
+    for (CLI::Option* option : command.get_options([](const CLI::Option*) { return true; }))
+        if (!is_text(*option, "")) option->transform(rounded_once);
+}
 
 Status check_values(const CLI::App& command) {
     for (const CLI::Option* option : command.get_options()) {

@@ -21,12 +21,15 @@ Status check_file_options(const CLI::App& command);
 /// of its results, and keeps the files from being replaced later.
 Status check_project_files(const CLI::App& command, const Project& project);
 
-/// Refuses, before any work, a command of which an output or an input may be one of the files next
-/// to an output of tetrahedra. Errors: bad_option with the option.
+/// Refuses, before any work, a command of which an output or an input may be one of the files beside an
+/// output of tetrahedra. Errors: bad_option with the option.
 Status check_files_beside(const CLI::App& command, const std::vector<Output>& outputs);
 
 /// Returns the files that the command reads, without those that it is asked to replace.
 std::vector<std::filesystem::path> files_to_keep(const CLI::App& command);
+
+/// Makes a command read each number as the nearest double, as files are read.
+void round_numbers_once(CLI::App& command);
 
 /// Refuses values of options that are no number where a number is needed: nothing, nan, infinity,
 /// to which numbers too large for a double belong, hexadecimal numbers, and whole ones that begin

@@ -15,23 +15,11 @@
 #include <unistd.h>
 
 #include <terrane/cli/commands/command.hpp>
-#include <terrane/cli/options/column.hpp>
-#include <terrane/cli/options/roles.hpp>
-#include <terrane/cli/stages/blocks.hpp>
-#include <terrane/cli/stages/page_output.hpp>
-#include <terrane/cli/stages/pipeline.hpp>
-#include <terrane/cli/stages/plausibility.hpp>
+#include <terrane/cli/stages/model_run.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 
 namespace terrane::cli {
 namespace {
-
-struct ReportCommand {
-    FileOptions files;
-    ArrangeSettings settings;
-    std::vector<std::string> roles; ///< NAME=ROLE
-    std::string column;             ///< file; empty: none
-};
 
 constexpr auto report_footer =
     R"(Arranges the surfaces and finds the blocks as `terrane volume` does, and writes nothing but one
@@ -55,44 +43,15 @@ Examples:
   terrane view horizons.ts faults.ts
   terrane view model.html)";
 
-Result<ExitStatus> report_files(const ReportCommand& command, Session& session) {
-    const FileOptions& files = command.files;
-    if (const auto planned = plan_outputs(files, OutputKind::surfaces); !planned)
+Result<ExitStatus> report_files(const ModelCommand& command, Session& session) {
+    if (const auto planned = plan_outputs(command.files, OutputKind::surfaces); !planned)
         return planned.error();
-    if (const auto sound = check_volume_options(command.settings.volume); !sound)
-        return sound.error();
-    auto page = plan_page(files, session);
-    if (!page) return page.error();
-    auto inputs = read_inputs(files, session);
-    if (!inputs) return inputs.error();
-    if (const auto set = set_roles(command.roles, *inputs); !set) return set.error();
-    const auto naming = naming_of(command.column, *inputs);
-    if (!naming) return naming.error();
-    if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
-    if (const auto found = page->add_holes(inputs->surfaces, session.run()); !found)
+    auto run = ModelRun::begin(command, session);
+    if (!run) return run.error();
+    if (auto found = run->page().add_holes(run->surfaces(), session.run()); !found)
         return found.error();
-    Json statistics = statistics_of(*inputs);
-
-    auto arranged = arrange_and_round(*inputs, command.settings, session, statistics);
-    if (!arranged) return arranged.error();
-    say(summary_stream(files),
-        session.timed("summary", [&] { return summary(*inputs, *arranged); }));
-    page->add_arranged(*arranged);
-    const bool clean = arranged->rounded.report.clean;
-    if (!clean) {
-        print(stderr, offending_pairs(*inputs, *arranged));
-    } else {
-        const auto model = find_model(*arranged, *naming, session, statistics);
-        if (!model) return model.error();
-        const auto leaks = judge_leaks(*arranged, *model, session);
-        if (!leaks) return leaks.error();
-        say(summary_stream(files),
-            session.timed("summary", [&] { return model_text(*inputs, *model, *leaks); }));
-        page->add_model(*model, *leaks);
-        if (const auto sound = examine(*model, *inputs, false, session, statistics); !sound)
-            return sound.error();
-    }
-    return write_run(*page, statistics, files, session, clean);
+    if (auto made = run->make(); !made) return made.error();
+    return run->end(run->refused().empty());
 }
 
 /// Returns the parts of a text between separators.
@@ -148,7 +107,7 @@ Result<std::string> temporary_page(const FileOptions& files) {
     return folder + "/" + (stem.empty() || stem == "-" ? "report" : stem) + ".html";
 }
 
-Result<ExitStatus> view_files(ReportCommand& command) {
+Result<ExitStatus> view_files(ModelCommand& command) {
     const auto& inputs = command.files.inputs;
     if (inputs.size() == 1 && is_page(inputs.front())) {
         if (const auto page = read_file(inputs.front()); !page) return page.error();
@@ -170,12 +129,12 @@ Result<ExitStatus> view_files(ReportCommand& command) {
 }
 
 /// Adds the options that `report` and `view` share.
-void add_model_options(CLI::App& app, ReportCommand& command) {
+void add_model_options(CLI::App& app, ModelCommand& command) {
     add_inputs(app, command.files);
     command.files.app = &app;
-    add_roles(app, command.roles);
-    add_column(app, command.column);
-    add_settings(app, command.settings);
+    add_naming(app, command);
+    add_arranging(app, command);
+    command.project.last = BuildStage::blocks;
     add_threads(app, command.files);
     add_stats(app, command.files);
 }
@@ -183,7 +142,7 @@ void add_model_options(CLI::App& app, ReportCommand& command) {
 } // namespace
 
 Command view_command(CLI::App& program) {
-    auto command = std::make_shared<ReportCommand>();
+    auto command = std::make_shared<ModelCommand>();
     auto* app = program.add_subcommand("view", "Look at surfaces, or at a report, in a browser");
     add_model_options(*app, *command);
     app->footer(view_footer);
@@ -194,7 +153,7 @@ Command view_command(CLI::App& program) {
 }
 
 Command report_command(CLI::App& program) {
-    auto command = std::make_shared<ReportCommand>();
+    auto command = std::make_shared<ModelCommand>();
     auto* app = program.add_subcommand("report", "Show a model and its flaws in a page");
     add_model_options(*app, *command);
     app->add_option("-o,--output", command->files.report, "The page; - is standard output")

@@ -13,36 +13,22 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/tetgen/fill_blocks.hpp>
 #include <terrane/algorithms/tetgen/tetgen_helper.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/commands/file_options.hpp>
 #include <terrane/cli/options/choices.hpp>
-#include <terrane/cli/options/column.hpp>
 #include <terrane/cli/options/fields.hpp>
 #include <terrane/cli/options/roles.hpp>
-#include <terrane/cli/reports/tetrahedra_report.hpp>
-#include <terrane/cli/session/quantities.hpp>
-#include <terrane/cli/stages/certificate_output.hpp>
-#include <terrane/cli/stages/page_output.hpp>
-#include <terrane/cli/stages/pipeline.hpp>
-#include <terrane/cli/stages/plausibility.hpp>
+#include <terrane/cli/stages/model_run.hpp>
 
 namespace terrane::cli {
 namespace {
 
 struct TetrahedralizeCommand {
-    FileOptions files;
-    ArrangeSettings settings;
-    std::string around; ///< text of the option
-    TetrahedraOptions options;
-    std::vector<std::string> roles;            ///< NAME=ROLE
+    ModelCommand model;
+    std::string around;                        ///< text of the option
     std::vector<std::string> size_of, size_in; ///< NAME=L
-    std::vector<std::string> split;
-    std::string column; ///< file; empty: none
     bool blocks_only = false;
-    std::string certificate; ///< file; empty: none
 };
 
 constexpr auto tetrahedralize_footer =
@@ -97,50 +83,26 @@ std::optional<Box3> parse_box(std::string_view text) {
 }
 
 Status add_sizes(const std::vector<std::string>& texts, const char* option,
-                 std::vector<NamedSize>& sizes) {
+                 std::vector<ProjectSize>& sizes) {
     for (const std::string& text : texts) {
         const auto size = parse_named_length(text);
-        if (!size || !(size->length > 0))
-            return Error{ErrorCode::bad_option, "needs NAME=L, with a positive length: " + text,
-                         option};
-        sizes.push_back({{size->name, option}, size->length});
+        if (!size || !(size->second > 0))
+            return usage("needs NAME=L, with a positive length: " + text, option);
+        sizes.push_back(*size);
     }
     return Done{};
 }
 
-Result<TetrahedraRequest> wishes_of(const TetrahedralizeCommand& command) {
-    TetrahedraRequest wishes;
-    wishes.options = command.options;
+/// Adds what the texts of options say.
+Status read_texts(TetrahedralizeCommand& command) {
+    ProjectTetrahedra& wanted = command.model.project.tetrahedra;
     if (!command.around.empty()) {
-        wishes.options.box = parse_box(command.around);
-        if (!wishes.options.box)
-            return Error{ErrorCode::bad_option, "needs six numbers: x0,y0,z0,x1,y1,z1", "--around"};
+        wanted.options.box = parse_box(command.around);
+        if (!wanted.options.box) return usage("needs six numbers: x0,y0,z0,x1,y1,z1", "--around");
     }
-    if (auto added = add_sizes(command.size_of, "--size-of", wishes.size_of); !added)
-        return added.error();
-    if (auto added = add_sizes(command.size_in, "--size-in", wishes.size_in); !added)
-        return added.error();
-    for (const std::string& name : command.split) wishes.split.push_back({name, "--split"});
-    wishes.outside = !command.blocks_only && !command.settings.volume.wanted();
-    return wishes;
-}
-
-/// Names the option that an error is about, whose sentence begins with its name in the library.
-Error at_option(Error error, const CLI::App& app) {
-    if (error.code != ErrorCode::bad_option || !error.place.empty()) return error;
-    std::string word = error.sentence.substr(0, error.sentence.find(' '));
-    std::replace(word.begin(), word.end(), '_', '-');
-    const std::string option = word == "box" ? "--around" : "--" + word;
-    if (app.get_option_no_throw(option) != nullptr) error.place = option;
-    return error;
-}
-
-Result<FilledBlocks> fill(const Model& model, const TetrahedraRequest& wishes, Session& session,
-                          Json& statistics) {
-    auto filled = fill_blocks(model, wishes, session.run());
-    session.end_stage();
-    if (filled) add_statistics(statistics, *filled);
-    return filled;
+    if (command.blocks_only) wanted.outside = false;
+    if (auto added = add_sizes(command.size_of, "--size-of", wanted.size_of); !added) return added;
+    return add_sizes(command.size_in, "--size-in", wanted.size_in);
 }
 
 /// Names an output, and the number of its further files.
@@ -164,95 +126,45 @@ Status write_all(const FilledBlocks& filled, const std::vector<Output>& outputs,
 }
 
 /// Checks before any work is done what can be checked then.
-Status check_call(const TetrahedralizeCommand& command, const std::vector<Output>& outputs) {
+Status check_outputs(const ModelCommand& command, const std::vector<Output>& outputs) {
+    if (auto sound = check_files_beside(*command.files.app, outputs); !sound) return sound;
+    const bool is_certified = !command.proof.certificate.empty();
     for (const Output& output : outputs) {
-        if (output.format == Format::pylith && !command.split.empty())
-            return Error{ErrorCode::bad_option, "PyLith splits nodes itself: leave out --split",
-                         output.path};
-        if (!command.certificate.empty() && !is_certifiable(output.format, command.files.order))
-            return Error{ErrorCode::bad_option,
-                         "a certificate is about tetrahedra of first order in .vtu, .msh, .inp or "
+        if (output.format == Format::pylith && !command.project.tetrahedra.split.empty())
+            return usage("PyLith splits nodes itself: leave out --split", output.path);
+        if (is_certified && output.path == "-")
+            return usage("a certificate is about files, and is one", "--certificate");
+        if (is_certified && !is_certifiable(output.format, command.files.order))
+            return usage("a certificate is about tetrahedra of first order in .vtu, .msh, .inp or "
                          ".mesh",
-                         output.path};
+                         output.path);
     }
-    if (auto planned = plan_certificate(command.certificate, command.files, command.settings);
-        !planned)
-        return planned;
-    if (auto sound = check_volume_options(command.settings.volume); !sound) return sound;
     if (const auto helper = find_tetgen_helper(); !helper) return helper.error();
     return Done{};
 }
 
-Result<ExitStatus> tetrahedralize_files(const TetrahedralizeCommand& command, Session& session) {
-    const FileOptions& files = command.files;
-    const auto wishes = wishes_of(command);
-    if (!wishes) return wishes.error();
+Result<ExitStatus> tetrahedralize_files(TetrahedralizeCommand& command, Session& session) {
+    const FileOptions& files = command.model.files;
+    if (auto read = read_texts(command); !read) return read.error();
     const auto outputs = plan_outputs(files, OutputKind::tetrahedra);
     if (!outputs) return outputs.error();
-    if (const auto sound = check_files_beside(*files.app, *outputs); !sound) return sound.error();
-    if (const auto sound = check_call(command, *outputs); !sound) return sound.error();
-    auto page = plan_page(files, session);
-    if (!page) return page.error();
-    auto inputs = read_certified_inputs(command.certificate, files, session);
-    if (!inputs) return inputs.error();
-    if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
-    const auto roles = roles_of(inputs.value());
-    if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
-    const auto naming = naming_of(command.column, *inputs);
-    if (!naming) return naming.error();
-    Json statistics = statistics_of(inputs.value());
-    const auto finish = [&](bool good) -> Result<ExitStatus> {
-        add_page_certificate(*page, files, command.certificate, good, session);
-        return write_run(*page, statistics, files, session, good);
-    };
-
-    auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
-    if (!arranged) return arranged.error();
-    say(summary_stream(files),
-        session.timed("summary", [&] { return summary(inputs.value(), arranged.value()); }));
-    page->add_arranged(*arranged);
-    if (!arranged.value().rounded.report.clean) {
-        print(stderr, offending_pairs(*inputs, *arranged) +
-                          complaint("no tetrahedra without a conforming mesh; nothing written"));
-        return finish(false);
-    }
-
-    session.begin("volumes", Phase::computing);
-    const auto model = make_model(arranged.value().exact, *arranged.value().rounded.conforming,
-                                  session.run(), *naming);
-    if (!model) return model.error();
-    if (const auto sound = examine(*model, *inputs, true, session, statistics); !sound)
-        return sound.error();
-    page->add_model(*model, std::nullopt);
-    const auto filled = fill(model.value(), wishes.value(), session, statistics);
-    if (!filled) return at_option(filled.error(), *files.app);
-    page->add_tetrahedra(*filled);
-    say(summary_stream(files),
-        session.timed("summary", [&] { return filled_text(filled.value(), inputs->unit); }));
-    const bool good = filled->report.violations.empty();
-    if (good) {
-        const auto written = write_all(filled.value(), outputs.value(), files, session);
-        if (!written) return written.error();
-        if (!command.certificate.empty()) {
-            set_read_roles(roles, *arranged);
-            auto result = certified_arrangement(files.inputs, *inputs, command.settings, *arranged);
-            if (!result) return result.error();
-            result->model = &*model;
-            result->tetrahedra = &filled->tetrahedra;
-            for (const Output& output : *outputs)
-                result->outputs.push_back({output.path, certified_format(output.format)});
-            const auto proved =
-                write_certificate(command.certificate, *result, summary_stream(files), session);
-            if (!proved) return proved.error();
-        }
-    } else {
-        print(stderr, violations_text(filled->report) + complaint("nothing written"));
-    }
-    return finish(good);
+    if (auto sound = check_outputs(command.model, *outputs); !sound) return sound.error();
+    auto run = ModelRun::begin(command.model, session);
+    if (!run) return run.error();
+    if (auto made = run->make(); !made) return made.error();
+    if (!run->refused().empty()) return run->end(false);
+    if (auto done = write_all(*run->built().filled, *outputs, files, session); !done)
+        return done.error();
+    std::vector<ResultFile> written;
+    for (const Output& output : *outputs)
+        written.push_back({output.path, certified_format(output.format)});
+    if (auto done = run->certify(std::move(written)); !done) return done.error();
+    return run->end(true);
 }
 
 void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
-    TetrahedraOptions& options = command.options;
+    ProjectTetrahedra& wanted = command.model.project.tetrahedra;
+    TetrahedraOptions& options = wanted.options;
     app.add_option("--around", command.around,
                    "Box that closes the domain, x0,y0,z0,x1,y1,z1, around all that is kept")
         ->type_name("BOX");
@@ -267,7 +179,7 @@ void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
            "repeated")
         ->allow_extra_args(false)
         ->type_name("BLOCK=L");
-    app.add_option("--split", command.split,
+    app.add_option("--split", wanted.split,
                    "Nodes of their own on either side of a surface; fault: of all with that role; "
                    "may be repeated")
         ->allow_extra_args(false)
@@ -294,25 +206,26 @@ Command tetrahedralize_command(CLI::App& program) {
     auto command = std::make_shared<TetrahedralizeCommand>();
     auto* app = program.add_subcommand("tetrahedralize",
                                        "Fill the blocks between the surfaces with tetrahedra");
-    add_inputs(*app, command->files);
+    add_inputs(*app, command->model.files);
     add_output(
-        *app, command->files,
+        *app, command->model.files,
         "File for the tetrahedra, .vtu .msh .inp .mesh .exo .ugi; - is standard output; may be "
         "repeated");
-    add_msh(*app, command->files);
-    add_order(*app, command->files);
-    add_roles(*app, command->roles);
-    add_column(*app, command->column);
+    add_msh(*app, command->model.files);
+    add_order(*app, command->model.files);
+    add_naming(*app, command->model);
     add_tetrahedra_options(*app, *command);
-    add_certificate(*app, command->certificate);
-    add_settings(*app, command->settings);
-    add_threads(*app, command->files);
-    add_stats(*app, command->files);
-    add_report(*app, command->files);
-    command->settings.blocks = true;
+    add_certificate(*app, command->model.proof.certificate);
+    add_arranging(*app, command->model);
+    add_threads(*app, command->model.files);
+    add_stats(*app, command->model.files);
+    add_report(*app, command->model.files);
+    command->model.needs_blocks = true;
+    command->model.tells_blocks = false;
+    command->model.project.outputs.tetrahedra = {"vtu"}; // so that there are some
     app->footer(tetrahedralize_footer);
     return {app, [command] {
-                Session session(command->files.threads);
+                Session session(command->model.files.threads);
                 const auto status = tetrahedralize_files(*command, session);
                 return status ? status.value() : fail(status.error());
             }};

@@ -7,16 +7,11 @@
 
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/choices.hpp>
-#include <terrane/cli/options/column.hpp>
-#include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/relation_report.hpp>
 #include <terrane/cli/reports/seal_plot.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
-#include <terrane/cli/stages/blocks.hpp>
 #include <terrane/cli/stages/cells.hpp>
-#include <terrane/cli/stages/certificate_output.hpp>
-#include <terrane/cli/stages/page_output.hpp>
-#include <terrane/cli/stages/plausibility.hpp>
+#include <terrane/cli/stages/model_run.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 #include <terrane/io/gocad/gocad_model.hpp>
@@ -26,13 +21,9 @@ namespace terrane::cli {
 namespace {
 
 struct VolumeCommand {
-    FileOptions files;
-    ArrangeSettings settings;
+    ModelCommand model;
     std::string folder;
-    std::vector<std::string> roles; ///< NAME=ROLE
     std::string part_format = automatic_parts;
-    std::string column;        ///< file; empty: none
-    std::string certificate;   ///< file; empty: none
     std::string relations;     ///< file for the table of relations; here and below, empty: none
     std::string juxtaposition; ///< file for the table of areas between blocks
     std::string seal_plot;     ///< file for the plot of it; empty: none
@@ -110,7 +101,10 @@ Status write_folder(const VolumeCommand& command, const ModelReports& reports, S
 
 /// Checks before any work is done that the folder is given and will do, or that none is wanted.
 Status check_output(const VolumeCommand& command) {
-    if (!command.certificate.empty() && !is_certified(command.part_format))
+    const std::string& certificate = command.model.proof.certificate;
+    if (!certificate.empty())
+        if (auto named = check_certified_names(certificate, {command.folder}); !named) return named;
+    if (!certificate.empty() && !is_certified(command.part_format))
         return Error{ErrorCode::bad_option, "is about parts as vtp or obj only", "--certificate"};
     for (const std::string& file : {command.gocad, command.lines})
         if (!file.empty())
@@ -122,9 +116,10 @@ Status check_output(const VolumeCommand& command) {
         if (!command.folder.empty()) return check_new_folder(command.folder);
         return Error{ErrorCode::bad_option, "the folder for the model is missing", "--output"};
     }
-    const std::array<std::pair<const char*, const std::string*>, 7> of_models{
+    const std::array<std::pair<const char*, const std::string*>, 8> of_models{
         {{"--output", &command.folder},
-         {"--certificate", &command.certificate},
+         {"--certificate", &certificate},
+         {"--report", &command.model.files.report},
          {"--relations", &command.relations},
          {"--juxtaposition", &command.juxtaposition},
          {"--gocad", &command.gocad},
@@ -143,26 +138,13 @@ Status write_text(const VolumeCommand& command, const std::string& path, const s
     session.begin("write", Phase::writing);
     auto written = write_file(path, text);
     session.end_stage();
-    if (written) say_written(summary_stream(command.files), path);
+    if (written) say_written(summary_stream(command.model.files), path);
     return written;
 }
 
-/// Checks all options before any work is done.
-Status check_call(const VolumeCommand& command) {
-    const FileOptions& files = command.files;
-    if (const auto planned = plan_outputs(files, OutputKind::surfaces); !planned)
-        return planned.error();
-    if (auto good = check_output(command); !good) return good;
-    if (auto planned = plan_certificate(command.certificate, files, command.settings); !planned)
-        return planned;
-    if (!command.certificate.empty())
-        if (auto named = check_certified_names(command.certificate, {command.folder}); !named)
-            return named;
-    return check_volume_options(command.settings.volume);
-}
-
-Status write_tables(const VolumeCommand& command, const Model& model, const Inputs& inputs,
-                    Session& session) {
+Status write_tables(const VolumeCommand& command, const ModelRun& run, Session& session) {
+    const Model& model = *run.built().model;
+    const Inputs& inputs = run.inputs();
     const auto write = [&](const std::string& path, const std::string& text) {
         return write_text(command, path, text, session);
     };
@@ -189,99 +171,52 @@ Status write_tables(const VolumeCommand& command, const Model& model, const Inpu
     return write(command.lines, *lines);
 }
 
-Result<ExitStatus> suggest_seal(const VolumeCommand& command, Session& session) {
-    const FileOptions& files = command.files;
-    auto inputs = read_inputs(files, session);
-    if (!inputs) return inputs.error();
-    if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
-    const auto options = options_within(command.settings, *inputs);
-    if (!options) return options.error();
-    Json statistics = statistics_of(inputs.value());
-    std::vector<Surface> boundary;
-    if (command.settings.volume.wanted()) {
-        auto made = boundary_of(command.settings.volume, session);
-        if (!made) return made.error();
-        boundary = std::move(*made);
-    }
-    if (const auto sound = examine(*inputs, {boundary, true}, session, statistics); !sound)
-        return sound.error();
+Result<ExitStatus> suggest_seal(const VolumeCommand& command, ModelRun& run, Session& session) {
+    const auto options = arranging_of(run.project(), run.surfaces());
+    if (!options) return at_option(options.error(), *command.model.files.app);
     session.begin("seal", Phase::computing);
-    const auto advice = advise_seal(inputs->surfaces, boundary, *options, session.run());
+    const auto advice = advise_seal(run.surfaces(), run.boundary(), *options, session.run());
     session.end_stage();
     if (!advice) return advice.error();
-    print(summary_stream(files), text_of(*advice, *inputs));
+    print(run.told(), text_of(*advice, run.inputs()));
     if (!command.seal_plot.empty())
         if (auto done =
-                write_text(command, command.seal_plot, seal_plot(*advice, *inputs), session);
+                write_text(command, command.seal_plot, seal_plot(*advice, run.inputs()), session);
             !done)
             return done.error();
-    add_statistics(statistics, *advice);
-    add_constants(statistics, "seal", seal_constants());
-    add_constants(statistics, "seal_choice", seal_choice_constants());
-    if (auto written = write_statistics(statistics, files.stats, session); !written)
-        return written.error();
-    return ExitStatus::done;
+    add_statistics(run.statistics(), *advice);
+    add_constants(run.statistics(), "seal", seal_constants());
+    add_constants(run.statistics(), "seal_choice", seal_choice_constants());
+    return run.end(true);
 }
 
 Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
-    const FileOptions& files = command.files;
-    if (const auto sound = check_call(command); !sound) return sound.error();
-    if (command.suggests) return suggest_seal(command, session);
+    const FileOptions& files = command.model.files;
+    if (const auto planned = plan_outputs(files, OutputKind::surfaces); !planned)
+        return planned.error();
+    if (auto good = check_output(command); !good) return good.error();
     const auto grid = read_grid(command.cells);
     if (!grid) return grid.error();
-    auto page = plan_page(files, session);
-    if (!page) return page.error();
-    auto inputs = read_certified_inputs(command.certificate, files, session);
-    if (!inputs) return inputs.error();
-    if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
-    const auto roles = roles_of(inputs.value());
-    if (const auto set = set_roles(command.roles, inputs.value()); !set) return set.error();
-    const auto naming = naming_of(command.column, *inputs);
-    if (!naming) return naming.error();
-    Json statistics = statistics_of(inputs.value());
-
-    auto arranged = arrange_and_round(inputs.value(), command.settings, session, statistics);
-    if (!arranged) return arranged.error();
-    say(summary_stream(files),
-        session.timed("summary", [&] { return summary(inputs.value(), arranged.value()); }));
-    page->add_arranged(*arranged);
-    const bool clean = arranged.value().rounded.report.clean;
-    if (!clean) {
-        print(stderr, offending_pairs(inputs.value(), arranged.value()));
-        print(stderr, complaint("no blocks without a conforming mesh; nothing written"));
-    } else {
-        const auto model = find_model(arranged.value(), *naming, session, statistics);
-        if (!model) return model.error();
-        const auto leaks = judge_leaks(*arranged, *model, session);
-        if (!leaks) return leaks.error();
-        say(summary_stream(files),
-            session.timed("summary", [&] { return model_text(*inputs, *model, *leaks); }));
-        page->add_model(*model, *leaks);
-        if (const auto sound = examine(*model, *inputs, true, session, statistics); !sound)
-            return sound.error();
-        const auto written = write_folder(command, {*model, arranged->sealed, *leaks}, session);
-        if (!written) return written.error();
-        say_written(summary_stream(files), command.folder);
-        if (auto tables = write_tables(command, *model, *inputs, session); !tables)
-            return tables.error();
-        if (*grid) {
-            const auto said = write_cells(command.cells, **grid, *model, *inputs, session);
-            if (!said) return said.error();
-            tell_when_written(summary_stream(files), *said);
-        }
-        if (!command.certificate.empty()) {
-            set_read_roles(roles, *arranged);
-            auto result = certified_arrangement(files.inputs, *inputs, command.settings, *arranged);
-            if (!result) return result.error();
-            result->model = &*model;
-            result->outputs = outputs_of(*model, command.folder, command.part_format);
-            const auto proved =
-                write_certificate(command.certificate, *result, summary_stream(files), session);
-            if (!proved) return proved.error();
-        }
+    auto run = ModelRun::begin(command.model, session);
+    if (!run) return run.error();
+    if (command.suggests) return suggest_seal(command, *run, session);
+    if (auto made = run->make(); !made) return made.error();
+    if (!run->refused().empty()) return run->end(false);
+    const Model& model = *run->built().model;
+    if (auto done =
+            write_folder(command, {model, run->built().arranged.sealed, run->leaks()}, session);
+        !done)
+        return done.error();
+    say_written(run->told(), command.folder);
+    if (auto done = write_tables(command, *run, session); !done) return done.error();
+    if (*grid) {
+        const auto said = write_cells(command.cells, **grid, model, run->inputs(), session);
+        if (!said) return said.error();
+        tell_when_written(run->told(), *said);
     }
-    add_page_certificate(*page, files, command.certificate, clean, session);
-    return write_run(*page, statistics, files, session, clean);
+    if (auto done = run->certify(outputs_of(model, command.folder, command.part_format)); !done)
+        return done.error();
+    return run->end(true);
 }
 
 } // namespace
@@ -289,7 +224,7 @@ Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
 Command volume_command(CLI::App& program) {
     auto command = std::make_shared<VolumeCommand>();
     auto* app = program.add_subcommand("volume", "Find the blocks that surfaces enclose");
-    add_inputs(*app, command->files);
+    add_inputs(*app, command->model.files);
     app->add_option("-o,--output", command->folder, "Folder for the model; made by the program")
         ->type_name("DIR");
     app->add_flag("--suggest-seal", command->suggests,
@@ -298,8 +233,7 @@ Command volume_command(CLI::App& program) {
     app->add_option("--seal-plot", command->seal_plot,
                     "Draw this, with --suggest-seal: lengths of gaps by their widths, and blocks")
         ->type_name("FILE.svg");
-    add_roles(*app, command->roles);
-    add_column(*app, command->column);
+    add_naming(*app, command->model);
     app->add_option("--parts", command->part_format,
                     "Format of blocks and interfaces: vtp, obj, ts, ply, off, stl, msh, msh22, "
                     "inp, mesh, poly, smesh, a file of each; auto: vtp, and if they are more than "
@@ -319,15 +253,16 @@ Command volume_command(CLI::App& program) {
                     "The lines of the model as PLine of GOCAD: cutoffs, free borders, ...")
         ->type_name("FILE.pl");
     add_cells(*app, command->cells);
-    add_certificate(*app, command->certificate);
-    add_settings(*app, command->settings);
-    add_threads(*app, command->files);
-    add_stats(*app, command->files);
-    add_report(*app, command->files);
-    command->settings.blocks = true;
+    add_certificate(*app, command->model.proof.certificate);
+    add_arranging(*app, command->model);
+    add_threads(*app, command->model.files);
+    add_stats(*app, command->model.files);
+    add_report(*app, command->model.files);
+    command->model.needs_blocks = true;
+    command->model.project.last = BuildStage::blocks;
     app->footer(volume_footer);
     return {app, [command] {
-                Session session(command->files.threads);
+                Session session(command->model.files.threads);
                 const auto status = find_blocks(*command, session);
                 return status ? status.value() : fail(status.error());
             }};

@@ -2,7 +2,9 @@
 #include <terrane/cli/options/roles.hpp>
 
 #include <charconv>
+#include <cmath>
 #include <map>
+#include <system_error>
 
 #include <terrane/algorithms/mesh/labels.hpp>
 
@@ -38,27 +40,26 @@ void add_roles(CLI::App& command, std::vector<std::string>& roles) {
         ->type_name("NAME=ROLE");
 }
 
-std::vector<Role> roles_of(const Inputs& inputs) {
-    std::vector<Role> roles;
-    for (const Surface& s : inputs.surfaces) roles.push_back(s.role);
-    return roles;
-}
-
 Status set_roles(const std::vector<std::string>& roles, Inputs& inputs) {
     for (const std::string& role : roles)
         if (auto set = set_role(role, inputs); !set) return set;
     return Done{};
 }
 
-std::optional<NamedLength> parse_named_length(std::string_view text) {
+std::optional<double> parse_number(std::string_view text) {
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [after, failed] = std::from_chars(text.data(), end, number);
+    if (failed != std::errc() || after != end || !std::isfinite(number)) return std::nullopt;
+    return number;
+}
+
+std::optional<ProjectSize> parse_named_length(std::string_view text) {
     const auto at = text.rfind('=');
     if (at == std::string_view::npos || at == 0) return std::nullopt;
-    const auto number = text.substr(at + 1);
-    double length = 0;
-    const auto [end, failed] =
-        std::from_chars(number.data(), number.data() + number.size(), length);
-    if (failed != std::errc() || end != number.data() + number.size()) return std::nullopt;
-    return NamedLength{std::string(text.substr(0, at)), length};
+    const auto length = parse_number(text.substr(at + 1));
+    if (!length) return std::nullopt;
+    return ProjectSize(text.substr(0, at), *length);
 }
 
 } // namespace terrane::cli

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/project/project.hpp>
 #include <terrane/cli/options/files.hpp>
 
 namespace terrane::cli {
@@ -21,14 +22,10 @@ void add_roles(CLI::App& command, std::vector<std::string>& roles);
 /// Sets the roles given as NAME=ROLE. Errors: bad_option.
 Status set_roles(const std::vector<std::string>& roles, Inputs& inputs);
 
-/// Returns the roles of the surfaces.
-std::vector<Role> roles_of(const Inputs& inputs);
+/// Reads a finite number that takes up the whole text, in no locale.
+std::optional<double> parse_number(std::string_view text);
 
-/// A length for a surface or block, given as NAME=L and split at the last '='.
-struct NamedLength {
-    std::string name;
-    double length = 0;
-};
-std::optional<NamedLength> parse_named_length(std::string_view text);
+/// Reads a length for a surface or block, NAME=L, split at the last '='.
+std::optional<ProjectSize> parse_named_length(std::string_view text);
 
 } // namespace terrane::cli

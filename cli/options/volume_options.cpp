@@ -40,10 +40,6 @@ std::optional<std::vector<double>> numbers_in(std::string_view text) {
     }
 }
 
-Error bad(const char* option, const std::string& sentence) {
-    return {ErrorCode::bad_option, sentence, option};
-}
-
 Result<std::vector<Point2>> read_polygon(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file)
@@ -56,7 +52,7 @@ Result<std::vector<Point2>> read_polygon(const std::string& path) {
 Result<std::vector<Point2>> polygon_of(const std::string& text) {
     const auto numbers = numbers_in(text);
     if (!numbers) return read_polygon(text);
-    if (numbers->size() % 2 != 0) return bad("--polygon", "needs pairs of numbers: x,y,x,y,...");
+    if (numbers->size() % 2 != 0) return usage("needs pairs of numbers: x,y,x,y,...", "--polygon");
     std::vector<Point2> corners;
     for (std::size_t i = 0; i < numbers->size(); i += 2)
         corners.push_back({(*numbers)[i], (*numbers)[i + 1]});
@@ -65,15 +61,15 @@ Result<std::vector<Point2>> polygon_of(const std::string& text) {
 
 Result<ProjectVolume> box_of(const std::string& text) {
     const auto n = numbers_in(text);
-    if (!n || n->size() != 6) return bad("--box", "needs six numbers: x0,y0,z0,x1,y1,z1");
+    if (!n || n->size() != 6) return usage("needs six numbers: x0,y0,z0,x1,y1,z1", "--box");
     return ProjectVolume(ProjectBox{{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]}});
 }
 
 Result<ProjectVolume> rotated_box_of(const VolumeOptions& options) {
     const auto n = numbers_in(options.rotated_box);
     if (!n || (n->size() != 7 && n->size() != 9))
-        return bad("--rotated-box",
-                   "needs seven or nine numbers: x,y,z,across,along,up,azimuth[,plunge,roll]");
+        return usage("needs seven or nine numbers: x,y,z,across,along,up,azimuth[,plunge,roll]",
+                     "--rotated-box");
     RotatedBox box;
     box.place = {(*n)[0], (*n)[1], (*n)[2]};
     box.is_corner = options.corner;
@@ -88,7 +84,7 @@ Result<ProjectVolume> rotated_box_of(const VolumeOptions& options) {
 
 Result<ProjectVolume> prism_of(const VolumeOptions& options) {
     const auto depths = numbers_in(options.between);
-    if (!depths || depths->size() != 2) return bad("--between", "needs two numbers: z0,z1");
+    if (!depths || depths->size() != 2) return usage("needs two numbers: z0,z1", "--between");
     auto corners = polygon_of(options.polygon);
     if (!corners) return corners.error();
     return ProjectVolume(ProjectPolygon{*std::move(corners), {(*depths)[0], (*depths)[1]}});
@@ -145,11 +141,11 @@ Status check_volume_options(const VolumeOptions& o) {
     const int given = int{!o.box.empty()} + int{!o.rotated_box.empty()} + int{!o.polygon.empty()} +
                       int{!o.within.empty()};
     if (given > 1)
-        return bad("--box, --rotated-box, --polygon, --within", "only one of these can be given");
+        return usage("only one of these can be given", "--box, --rotated-box, --polygon, --within");
     if (o.polygon.empty() != o.between.empty())
-        return bad("--polygon, --between", "each needs the other one");
-    if (o.extend != 0 && given == 0) return bad("--extend", "needs a volume of interest");
-    if (o.corner && o.rotated_box.empty()) return bad("--corner", "needs --rotated-box");
+        return usage("each needs the other one", "--polygon, --between");
+    if (o.extend != 0 && given == 0) return usage("needs a volume of interest", "--extend");
+    if (o.corner && o.rotated_box.empty()) return usage("needs --rotated-box", "--corner");
     return Done{};
 }
 

@@ -149,16 +149,6 @@ void add_statistics(Json& json, const Model& model) {
                        {"free_borders", model.borders.size()}};
 }
 
-Result<Model> find_model(const Arranged& arranged, const BlockNaming& naming, Session& session,
-                         Json& statistics) {
-    session.begin("volumes", Phase::computing);
-    auto model =
-        make_model(arranged.exact, arranged.rounded.conforming.value(), session.run(), naming);
-    if (model) add_statistics(statistics, *model);
-    session.end_stage();
-    return model;
-}
-
 Result<std::optional<LeakAdvice>> judge_leaks(const Arranged& arranged, const Model& model,
                                               Session& session) {
     if (arranged.sealed || model.borders.empty()) return std::optional<LeakAdvice>();

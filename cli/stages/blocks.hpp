@@ -9,14 +9,10 @@
 
 #include <terrane/algorithms/model/leak_advice.hpp>
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/cli/stages/pipeline.hpp>
+#include <terrane/cli/options/statistics.hpp>
+#include <terrane/cli/session/session.hpp>
 
 namespace terrane::cli {
-
-/// Makes the model of the arrangement with the names that are given, and adds to `statistics`. Precondition: the rounded mesh is
-/// conforming. Errors: those of make_model.
-Result<Model> find_model(const Arranged& arranged, const BlockNaming& naming, Session& session,
-                         Json& statistics);
 
 /// Adds the model's counts, volumes and times to the statistics.
 void add_statistics(Json& statistics, const Model& model);

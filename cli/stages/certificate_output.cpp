@@ -124,43 +124,12 @@ Status plan_proof(const ProofOptions& options, const FileOptions& files) {
     return check_certified_names(options.certificate, files.outputs);
 }
 
-Status plan_certificate(const std::string& path, const FileOptions& files,
-                        const ArrangeSettings& settings) {
-    if (path.empty()) return Done{};
-    if (auto possible = check_certifiable(settings); !possible) return possible;
-    if (path == "-" || std::ranges::count(files.outputs, "-") > 0)
-        return Error{ErrorCode::bad_option, "a certificate is about files, and is one",
-                     "--certificate"};
-    if (std::ranges::count(files.inputs, "-") > 0)
-        return Error{ErrorCode::bad_option, "a certificate is about files, not standard input",
-                     "--certificate"};
-    for (const auto& names : {files.inputs, files.outputs, settings.volume.within})
-        if (auto status = check_certified_names(path, names); !status) return status;
-    return check_folder(path);
-}
-
 std::vector<SourceFile> certified_inputs(const std::vector<std::string>& files,
                                          const Inputs& inputs) {
     std::vector<SourceFile> certified;
     for (std::size_t f = 0; f < files.size(); ++f)
         certified.push_back({files[f], inputs.surfaces_of_file[f]});
     return certified;
-}
-
-Result<CertifiedResult> certified_arrangement(const std::vector<std::string>& files,
-                                              const Inputs& inputs, const ArrangeSettings& settings,
-                                              const Arranged& arranged) {
-    auto volume = volume_of(settings.volume);
-    if (!volume) return volume.error();
-    CertifiedResult result = result_of(arranged);
-    result.inputs = certified_inputs(files, inputs);
-    result.volume = *std::move(volume);
-    result.search = settings.search;
-    return result;
-}
-
-void set_read_roles(const std::vector<Role>& roles, Arranged& arranged) {
-    for (std::size_t s = 0; s < roles.size(); ++s) arranged.surfaces[s].role = roles[s];
 }
 
 Result<std::vector<ResultFile>> certified_outputs(const std::vector<Output>& outputs,

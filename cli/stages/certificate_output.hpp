@@ -12,7 +12,6 @@
 
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/session/session.hpp>
-#include <terrane/cli/stages/pipeline.hpp>
 #include <terrane/io/certify.hpp>
 
 namespace terrane::cli {
@@ -51,20 +50,9 @@ Result<Inputs> read_certified_inputs(const std::string& certificate, const FileO
 /// Tells whether a certificate can be about tetrahedra in this format and of this order.
 bool is_certifiable(Format format, unsigned order);
 
-/// Checks before any work is done that a certificate of blocks or tetrahedra can be made, if one is
-/// wanted. Errors: bad_option, cannot_open.
-Status plan_certificate(const std::string& path, const FileOptions& files,
-                        const ArrangeSettings& settings);
-
 /// Returns the input files of a result.
 std::vector<SourceFile> certified_inputs(const std::vector<std::string>& files,
                                          const Inputs& inputs);
-/// Returns the arrangement of these files as a result, without outputs. Errors: those of volume_of().
-Result<CertifiedResult> certified_arrangement(const std::vector<std::string>& files,
-                                              const Inputs& inputs, const ArrangeSettings& settings,
-                                              const Arranged& arranged);
-/// Gives the surfaces of the inputs the roles that they have in their files.
-void set_read_roles(const std::vector<Role>& roles, Arranged& arranged);
 /// Returns the files that were written. Output to a standard stream, which can't be read again,
 /// is made once more.
 Result<std::vector<ResultFile>> certified_outputs(const std::vector<Output>& outputs,

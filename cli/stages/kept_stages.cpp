@@ -37,12 +37,6 @@ std::string summary_of(std::string_view bytes) {
 
 } // namespace
 
-std::string_view name_of(BuildStage stage) {
-    static constexpr std::array<std::string_view, 5> names{"mend", "arrange", "improve", "blocks",
-                                                           "tetrahedra"};
-    return names.at(static_cast<std::size_t>(stage));
-}
-
 fs::path stages_folder(const fs::path& results) {
     fs::path folder = results.has_filename() ? results : results.parent_path();
     folder += ".stages";

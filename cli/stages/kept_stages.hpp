@@ -15,9 +15,6 @@
 
 namespace terrane::cli {
 
-/// Returns the name of a stage, as `build` prints it.
-std::string_view name_of(BuildStage stage);
-
 /// Returns where results of stages are kept: "RESULTS.stages" next to the folder of results.
 std::filesystem::path stages_folder(const std::filesystem::path& results);
 

@@ -8,8 +8,8 @@
 
 #include <terrane/algorithms/volumes/block_points.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
+#include <terrane/cli/reports/arranged_report.hpp>
 #include <terrane/cli/session/console.hpp>
-#include <terrane/cli/stages/pipeline.hpp>
 
 namespace terrane::cli {
 namespace {

@@ -30,12 +30,12 @@ Status report_doubts(const std::vector<PlausibilityWarning>& warnings,
         "--strict");
 }
 
-Status examine(const Inputs& inputs, const PlausibilityContext& context, Session& session,
-               Json& statistics) {
+Status examine(std::span<const Surface> surfaces, const PlausibilityContext& context,
+               const Inputs& inputs, Session& session, Json& statistics) {
     session.begin("plausibility", Phase::computing);
     add_constants(statistics, "plausibility", plausibility_constants());
-    auto sound = report_doubts(find_doubts(inputs.surfaces, context), inputs.labels, inputs.strict,
-                               statistics);
+    auto sound =
+        report_doubts(find_doubts(surfaces, context), inputs.labels, inputs.strict, statistics);
     session.end_stage();
     return sound;
 }

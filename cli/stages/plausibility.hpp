@@ -3,6 +3,7 @@
 // Warnings about inputs that do not fit together, for every command that takes surfaces.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <terrane/algorithms/model/model.hpp>
@@ -17,9 +18,9 @@ namespace terrane::cli {
 Status report_doubts(const std::vector<PlausibilityWarning>& warnings,
                      const std::vector<std::string>& labels, bool strict, Json& statistics);
 
-/// Looks for mistakes in the inputs and reports them, before any work is done on them.
-Status examine(const Inputs& inputs, const PlausibilityContext& context, Session& session,
-               Json& statistics);
+/// Looks for mistakes in the surfaces and reports them, before any work is done on them.
+Status examine(std::span<const Surface> surfaces, const PlausibilityContext& context,
+               const Inputs& inputs, Session& session, Json& statistics);
 
 /// Looks for mistakes that show once blocks are found. That there is no block is said only if
 /// `blocks` are wanted and no warning about a missing top or base has said so.

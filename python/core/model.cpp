@@ -4,9 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
-#include <terrane/algorithms/model/seal_rules.hpp>
+#include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/quality/improve_measured.hpp>
 #include <terrane/algorithms/structure/relations.hpp>
 #include <terrane/algorithms/structure/structure_meshes.hpp>
@@ -22,64 +21,36 @@ namespace terrane::python {
 
 using namespace py::literals;
 
-namespace {
-
-/// The options of model().
-struct ModelOptions {
-    ArrangeWithinOptions within;
-    bool small_automatic = false;
-    std::vector<std::pair<std::string, double>> seal_of;
-    StratigraphicColumn column;
-};
-
-/// Checks a column by itself and against the surfaces, with those of the boundary.
-Status check_columns(const StratigraphicColumn& column, std::vector<SurfaceInfo> infos,
-                     const std::vector<Surface>& boundary) {
-    if (auto sound = check_column(column); !sound) return sound;
-    const auto more = infos_of(boundary);
-    infos.insert(infos.end(), more.begin(), more.end());
-    return check_column(column, infos);
+Result<ModelPointer> model_of(Built& built, bool judges_leaks, const Run& run) {
+    Arranged& arranged = built.arranged;
+    auto model = std::make_shared<ModelHandle>(ModelHandle{std::move(*built.model)});
+    if (judges_leaks && !arranged.sealed && !model->model.borders.empty()) {
+        auto judged = judge_leaks(arranged, model->model.borders, {}, run);
+        if (!judged) return judged.error();
+        model->leaks = std::move(*judged);
+    }
+    model->sealed = std::move(arranged.sealed);
+    model->cut = std::move(arranged.cut);
+    model->merged = std::move(arranged.merged);
+    model->choice = std::move(arranged.choice);
+    model->rounding = arranged.rounded.report;
+    return model;
 }
 
-Result<std::shared_ptr<ModelHandle>> made(std::vector<Surface> surfaces,
-                                          std::vector<Surface> boundary, ModelOptions options,
-                                          const Run& run) {
-    const auto infos = infos_of(surfaces);
-    const auto labels = unique_labels(infos);
-    for (const auto& [name, distance] : options.seal_of) {
-        const auto rules = seal_rules_for(name, distance, infos, labels);
-        if (!rules) return Error{ErrorCode::bad_option, rules.error().sentence, "seal"};
-        options.within.seal_rules.insert(options.within.seal_rules.end(), rules->begin(),
-                                         rules->end());
-    }
-    if (auto sound = check_columns(options.column, infos, boundary); !sound) return sound.error();
-    if (options.small_automatic) options.within.min_volume = small_volume_for(surfaces);
-    auto arranged = arrange_within(std::move(surfaces), std::move(boundary), options.within, run);
-    if (!arranged) return arranged.error();
-    const RoundingReport& report = arranged->rounded.report;
-    if (!arranged->rounded.conforming)
-        return Error{ErrorCode::improper_contact,
-                     std::to_string(report.contacts.size()) +
-                         " pairs of triangles still meet improperly in doubles",
-                     ""};
-    auto model =
-        make_model(arranged->exact, *arranged->rounded.conforming, run, {.column = options.column});
-    if (!model) return model.error();
-    auto handle = std::make_shared<ModelHandle>(ModelHandle{std::move(*model)});
-    if (!arranged->sealed && !handle->model.borders.empty()) {
-        auto judged = judge_leaks(*arranged, handle->model.borders, {}, run);
-        if (!judged) return judged.error();
-        handle->leaks = std::move(*judged);
-    }
-    handle->sealed = std::move(arranged->sealed);
-    handle->cut = std::move(arranged->cut);
-    handle->merged = std::move(arranged->merged);
-    handle->choice = std::move(arranged->choice);
-    handle->rounding = report;
-    handle->rounded = arranged->rounded.conforming;
-    handle->exact = std::make_shared<const Arrangement>(std::move(arranged->exact));
-    handle->column = options.column;
-    return handle;
+namespace {
+
+Result<ModelPointer> made(std::vector<Surface> surfaces, std::vector<Surface> boundary,
+                          const Project& project, const Run& run) {
+    auto built = build(project, {std::move(surfaces), std::move(boundary)}, run);
+    if (!built && built.error().place.starts_with("seal_of."))
+        return Error{built.error().code, built.error().sentence, "seal"};
+    if (!built) return built.error();
+    auto model = model_of(*built, true, run);
+    if (!model) return model;
+    (*model)->exact = std::make_shared<const Arrangement>(std::move(built->arranged.exact));
+    (*model)->rounded = built->arranged.rounded.conforming;
+    (*model)->column = project.column;
+    return model;
 }
 
 /// Joins what is nearer than the resolution, which a model is then about, and improves the rest.
@@ -117,27 +88,30 @@ ModelPointer improved(const ModelPointer& old, const py::dict& options, const Ho
 }
 
 /// seal: None, a number, "auto", or a dict of these by None, name or pair.
-ModelOptions model_options(const py::dict& given) {
-    ModelOptions options;
-    options.within.rounding.max_rounds = given["max_rounds"].cast<unsigned>();
-    options.within.rounding.max_move = given["max_move"].cast<std::optional<double>>();
-    options.within.seal = given["seal"].cast<double>();
-    options.within.seal_automatic = given["seal_automatic"].cast<bool>();
-    options.within.extend = given["extend"].cast<double>();
-    options.within.min_volume = given["min_volume"].cast<double>();
-    options.small_automatic = given["min_volume_automatic"].cast<bool>();
+Project project_of(const py::dict& given) {
+    const auto wanted = [&](const char* name, const char* automatic) -> std::optional<double> {
+        if (given[automatic].cast<bool>()) return 0.0;
+        const double value = given[name].cast<double>();
+        return value > 0 ? std::optional(value) : std::nullopt;
+    };
+    Project project;
+    project.max_rounds = given["max_rounds"].cast<unsigned>();
+    project.max_move = given["max_move"].cast<std::optional<double>>();
+    project.seal = wanted("seal", "seal_automatic");
+    project.extend = given["extend"].cast<double>();
+    project.min_volume = wanted("min_volume", "min_volume_automatic");
     for (const auto& [name, distance] : given["seal_of"].cast<py::dict>())
-        options.seal_of.emplace_back(from_text(name), distance.cast<double>());
-    options.column = to_column(given["column"].cast<py::sequence>());
-    return options;
+        project.seal_of.emplace_back(from_text(name), distance.cast<double>());
+    project.column = to_column(given["column"].cast<py::sequence>());
+    return project;
 }
 
 ModelPointer make(const py::sequence& surfaces, const py::sequence& boundary,
                   const py::dict& options, const HowToRun& how) {
     auto given = std::make_shared<std::vector<Surface>>(to_surfaces(surfaces));
     auto around = std::make_shared<std::vector<Surface>>(to_surfaces(boundary));
-    return run_stage(how, [given, around, options = model_options(options)](const Run& run) {
-        return made(std::move(*given), std::move(*around), options, run);
+    return run_stage(how, [given, around, project = project_of(options)](const Run& run) {
+        return made(std::move(*given), std::move(*around), project, run);
     });
 }
 

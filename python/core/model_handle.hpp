@@ -10,6 +10,7 @@
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/leak_advice.hpp>
 #include <terrane/algorithms/model/model.hpp>
+#include <terrane/algorithms/project/build.hpp>
 #include <terrane/algorithms/structure/column.hpp>
 
 namespace terrane::python {
@@ -30,6 +31,9 @@ struct ModelHandle {
     StratigraphicColumn column{};               ///< by which blocks are named
 };
 using ModelPointer = std::shared_ptr<ModelHandle>;
+
+/// Takes the model out of what was built.
+Result<ModelPointer> model_of(Built& built, bool judges_leaks, const Run& run);
 
 /// A list of (unit, surface, age, erosive).
 StratigraphicColumn to_column(const py::sequence& units);

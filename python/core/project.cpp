@@ -61,18 +61,9 @@ Result<BuiltHandle> built_of(const Project& project, BuildInput input, bool judg
                              const Run& run) {
     auto made = build(project, std::move(input), run);
     if (!made) return made.error();
-    BuiltHandle handle{project, std::make_shared<ModelHandle>(ModelHandle{std::move(*made->model)}),
-                       nullptr, std::move(made->arranged.surfaces)};
-    ModelHandle& m = *handle.model;
-    if (judges_leaks && !made->arranged.sealed && !m.model.borders.empty()) {
-        auto judged = judge_leaks(made->arranged, m.model.borders, {}, run);
-        if (judged) m.leaks = std::move(*judged);
-    }
-    m.sealed = std::move(made->arranged.sealed);
-    m.cut = std::move(made->arranged.cut);
-    m.merged = std::move(made->arranged.merged);
-    m.choice = std::move(made->arranged.choice);
-    m.rounding = made->arranged.rounded.report;
+    auto model = model_of(*made, judges_leaks, run);
+    if (!model) return model.error();
+    BuiltHandle handle{project, *std::move(model), nullptr, std::move(made->arranged.surfaces)};
     if (project.outputs.certificate) {
         made->arranged.surfaces = handle.surfaces;
         handle.certified = std::make_shared<Arranged>(std::move(made->arranged));

@@ -124,6 +124,6 @@ TEST_CASE("cli: improve needs a conforming mesh", "[cli]") {
     folder.input("tiny.off", tiny_triangles());
     const Outcome made = folder.run("improve in/tiny.off -o out.obj --rounds 0");
     CHECK(made.status == 1);
-    CHECK(contains(made.err, "only a conforming mesh can be improved"));
+    CHECK(contains(made.err, "the doubles are not a conforming mesh"));
     CHECK(folder.left().empty());
 }

@@ -358,7 +358,7 @@ TEST_CASE("cli: --seal with rules is certified, and refuses what it can't mean",
     CHECK(contains(folder.run("volume " + in + " --suggest-seal --seal x=1").err,
                    "no surface is called x"));
     refused("--seal fault=-1", "at least 0");
-    refused("--seal fault=nan", "at least 0");
+    refused("--seal fault=nan", "NAME=D");
     refused("--seal fault=", "NAME=D");
     refused("--seal =1", "NAME=D");
     refused("--seal fault", "NAME=D");

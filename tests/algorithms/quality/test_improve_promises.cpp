@@ -284,27 +284,30 @@ TEST_CASE("deviation: small distances are measured as quickly as large ones", "[
 
 TEST_CASE("improve: options are judged before the work", "[improve]") {
     const auto surfaces = read_all({"large_f0", "large_h0", "large_h1", "large_h2"});
-    double largest = 0;
-    for (const Surface& s : surfaces)
-        for (const Point3& p : s.vertices)
-            largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     const Mesh mesh = mesh_of(surfaces);
     ImproveOptions options;
-    options.max_deviation = 0.9 * least_deviation(largest);
+    options.max_deviation = 1e-12;
     const auto refused = improve(mesh, options);
     REQUIRE_FALSE(refused);
     CHECK(refused.error().code == ErrorCode::bad_option);
-    CHECK(refused.error().sentence.find("the least is") != std::string::npos);
+    const auto at = refused.error().sentence.find("the least is ");
+    REQUIRE(at != std::string::npos);
+    const double least = std::stod(refused.error().sentence.substr(at + 13));
+    options.max_deviation = 0.9 * least;
+    CHECK_FALSE(check_improvable(surfaces, options));
+    options.max_deviation = 1.1 * least;
+    CHECK(check_improvable(surfaces, options));
 
     const std::vector<Surface> flat{
         sheet(graph([](double, double) { return 0.0; }), 0, 0, 10, 10, 3, 3)};
-    CHECK(expected_triangles(flat, {.edge_length = 0.5}) ==
-          Approx(100 / (std::sqrt(3.0) / 4 * 0.25)));
-    CHECK(expected_triangles(flat, {}) == 18);
+    const double expected = 100 / (std::sqrt(3.0) / 4 * 0.25);
+    CHECK(check_improvable(flat, {.edge_length = 0.5, .max_triangles = expected * 1.001}));
+    CHECK_FALSE(check_improvable(flat, {.edge_length = 0.5, .max_triangles = expected * 0.999}));
+    CHECK(check_improvable(flat, {.max_triangles = 18}));
+    CHECK_FALSE(check_improvable(flat, {.max_triangles = 17}));
     const auto many = improve(mesh_of(flat), {.edge_length = 0.5, .max_triangles = 500});
     REQUIRE_FALSE(many);
     CHECK(many.error().sentence.find("triangles are to be expected") != std::string::npos);
     const Improved enough = improved(mesh_of(flat), {.edge_length = 0.5, .max_triangles = 1500});
-    CHECK(static_cast<double>(enough.mesh->triangles.size()) ==
-          Approx(expected_triangles(flat, {.edge_length = 0.5})).epsilon(0.25));
+    CHECK(static_cast<double>(enough.mesh->triangles.size()) == Approx(expected).epsilon(0.25));
 }

@@ -1,33 +1,25 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/cli/stages/pipeline.hpp>
+#include <terrane/cli/reports/arranged_report.hpp>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <map>
-#include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
-#include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/volume_of_interest/boundary_surfaces.hpp>
-#include <terrane/cli/options/choices.hpp>
-#include <terrane/cli/options/max_move.hpp>
+#include <terrane/cli/options/volume_options.hpp>
 #include <terrane/cli/reports/merge_report.hpp>
+#include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/quantities.hpp>
 #include <terrane/cli/session/styles.hpp>
 #include <terrane/cli/session/text_width.hpp>
-#include <terrane/cli/stages/plausibility.hpp>
 
 namespace terrane::cli {
 namespace {
 
-constexpr unsigned most_rounds = 8;
 constexpr std::size_t most_areas = 3;     ///< printed per surface
 constexpr std::size_t most_surfaces = 40; ///< printed
 constexpr std::size_t most_pairs = 20;    ///< printed
@@ -130,101 +122,7 @@ Point3 narrowed(const Point3& p) {
     return {narrow(p.x), narrow(p.y), narrow(p.z)};
 }
 
-/// Adds an option that is a positive number, or "auto".
-void add_automatic(CLI::App& command, const std::string& name, double& value, bool& automatic,
-                   const std::string& description) {
-    command
-        .add_option_function<std::string>(
-            name,
-            [name, &value, &automatic](const std::string& text) {
-                automatic = text == "auto";
-                if (automatic) return;
-                const char* end = text.data() + text.size();
-                const auto [at, failed] = std::from_chars(text.data(), end, value);
-                if (failed != std::errc() || at != end || !(value > 0) || !std::isfinite(value))
-                    throw CLI::ValidationError(name,
-                                               "'" + text + "' is no positive number, nor auto");
-            },
-            description)
-        ->type_name("D|auto");
-}
-
-constexpr const char* seal_option = "--seal";
-
-/// Reads a distance for gaps: D, auto, or NAME=D for those of one surface or pair of surfaces.
-void set_seal(const std::string& text, ArrangeSettings& settings) {
-    const auto refuse = [](const std::string& sentence) {
-        throw CLI::ValidationError(seal_option, sentence);
-    };
-    const auto is_good = [](double d) { return d >= 0 && std::isfinite(d); };
-    double distance = 0;
-    const char* end = text.data() + text.size();
-    const auto [at, failed] = std::from_chars(text.data(), end, distance);
-    const bool is_number = failed == std::errc() && at == end;
-    if (text == "auto" || is_number) {
-        if (is_number && !(is_good(distance) && distance > 0))
-            refuse("'" + text + "' is no positive number");
-        if (settings.seal != 0 || settings.seal_automatic)
-            refuse("'" + text + "' is a second distance for all gaps");
-        settings.seal_automatic = !is_number;
-        settings.seal = is_number ? distance : 0;
-        return;
-    }
-    const auto named = parse_named_length(text);
-    if (!named) refuse("'" + text + "' is no positive number, nor auto, nor NAME=D");
-    if (!is_good(named->length)) refuse("'" + text + "' has no distance, at least 0, behind =");
-    settings.seal_of.push_back(*named);
-}
-
-void add_seal(CLI::App& command, ArrangeSettings& settings) {
-    command
-        .add_option_function<std::vector<std::string>>(
-            seal_option,
-            [&settings](const std::vector<std::string>& texts) {
-                for (const std::string& text : texts) set_seal(text, settings);
-            },
-            "Extend or trim free borders that end short of another surface, or beyond it, by "
-            "at most this distance; every change is listed; auto: the last natural break in "
-            "the widths of gaps; NAME=D: for the gaps of this surface; NAME/NAME=D: for those "
-            "between these two; 0: they stay open; may be repeated (default: nothing moves)")
-        ->allow_extra_args(false)
-        ->type_name("[NAME=]D");
-}
-
 } // namespace
-
-void add_settings(CLI::App& command, ArrangeSettings& settings) {
-    static const std::map<std::string, Search> methods = [] {
-        std::map<std::string, Search> all;
-        for (const auto m : {Search::automatic, Search::grid, Search::ab, Search::ab_balanced,
-                             Search::ab_median, Search::mixed, Search::bvh, Search::brute})
-            all.emplace(name_of(m), m);
-        return all;
-    }();
-    std::vector<std::string> words;
-    for (const auto& [name, method] : methods) words.push_back(name);
-    command
-        .add_option("--search", settings.search,
-                    "How triangles that may meet are found; the result is the same: "
-                    "auto, grid, ab, ab-balanced, ab-median, mixed, hierarchy, brute (default: "
-                    "auto)")
-        ->transform(CLI::Transformer(methods, CLI::ignore_case).description(""))
-        ->transform(listing(words)) // else numbers would be taken
-        ->type_name("METHOD");
-    command
-        .add_option("--rounds", settings.rounds,
-                    "Most rounds of snapping until the doubles are a conforming mesh; "
-                    "0: only to the nearest double (default: 8)")
-        ->check(CLI::Range(0U, most_rounds).description(""))
-        ->type_name("N");
-    add_max_move(command, settings.max_move);
-    add_check(command, settings.check);
-    add_seal(command, settings);
-    add_automatic(command, "--min-volume", settings.min_volume, settings.min_volume_automatic,
-                  "Merge smaller blocks with a neighbour, by removing what lies between; auto: a "
-                  "cube of a tenth of the median edge length (default: none)");
-    add_volume_options(command, settings.volume);
-}
 
 void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& inputs) {
     if (arranged.extended) {
@@ -249,58 +147,6 @@ void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& in
         add_constants(statistics, "small_blocks", small_block_constants());
     }
     add_statistics(statistics, arranged.rounded);
-}
-
-Result<ArrangeWithinOptions> options_within(const ArrangeSettings& settings, const Inputs& inputs) {
-    ArrangeWithinOptions options{.arrange = {.search = settings.search},
-                                 .rounding = {.max_rounds = settings.rounds,
-                                              .check = check_of(settings.check, inputs),
-                                              .max_move = settings.max_move},
-                                 .seal = settings.seal,
-                                 .seal_automatic = settings.seal_automatic,
-                                 .extend = settings.volume.extend,
-                                 .min_volume = settings.min_volume_automatic
-                                                   ? small_volume_for(inputs.surfaces)
-                                                   : settings.min_volume};
-    const auto infos = infos_of(inputs.surfaces);
-    for (const auto& [name, distance] : settings.seal_of) {
-        const auto rules = seal_rules_for(name, distance, infos, inputs.labels);
-        if (!rules) return Error{ErrorCode::bad_option, rules.error().sentence, seal_option};
-        options.seal_rules.insert(options.seal_rules.end(), rules->begin(), rules->end());
-    }
-    return options;
-}
-
-Status check_certifiable(const ArrangeSettings& settings) {
-    if (settings.min_volume == 0 && !settings.min_volume_automatic) return Done{};
-    return Error{ErrorCode::bad_option,
-                 "a certificate can't show yet that only small blocks were merged; leave out "
-                 "--min-volume, or the certificate",
-                 "--certificate"};
-}
-
-Result<Arranged> arrange_and_round(Inputs& inputs, const ArrangeSettings& settings,
-                                   Session& session, Json& statistics) {
-    const auto options = options_within(settings, inputs);
-    if (!options) return options.error();
-    std::vector<Surface> boundary;
-    if (settings.volume.wanted()) {
-        auto made = boundary_of(settings.volume, session);
-        if (!made) return made.error();
-        boundary = std::move(made).value();
-    }
-    if (const auto sound = examine(inputs, {boundary, settings.blocks}, session, statistics);
-        !sound)
-        return sound.error();
-    session.begin("arrange", Phase::computing);
-    auto arranged =
-        arrange_within(std::move(inputs.surfaces), std::move(boundary), *options, session.run());
-    if (arranged) {
-        inputs.labels = unique_labels(infos_of(arranged->surfaces));
-        add_statistics(statistics, *arranged, inputs);
-    }
-    session.end_stage();
-    return arranged;
 }
 
 std::string summary(const Inputs& inputs, const Arranged& arranged) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/cli/stages/layer_stage.hpp>
+#include <terrane/cli/reports/layer_report.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -31,21 +31,9 @@ std::string line_of(const std::string& label, const LayerReport& r, const Quanti
 
 } // namespace
 
-Result<Layered> layer_inputs(const Inputs& inputs, const std::vector<Layer>& order,
-                             const LayerOptions& options, Session& session, Json& statistics) {
-    session.begin("layers", Phase::computing);
-    auto layered = stack_layers(inputs.surfaces, order, options, session.run());
-    session.end_stage();
-    if (!layered) return layered.error();
-    add_statistics(statistics, inputs, layered.value().reports);
-    if (const auto& pairs = layered.value().rounded.report.pairs)
-        statistics["rounding"]["pairs"] = json_of(*pairs);
-    return layered;
-}
-
-void add_statistics(Json& json, const Inputs& inputs, std::span<const LayerReport> reports) {
+void add_statistics(Json& json, const Inputs& inputs, const Layered& layered) {
     Json all = Json::array();
-    for (const LayerReport& r : reports)
+    for (const LayerReport& r : layered.reports)
         all.push_back({{"name", inputs.labels[r.surface]},
                        {"dropped", r.dropped},
                        {"taken", r.taken},
@@ -55,38 +43,41 @@ void add_statistics(Json& json, const Inputs& inputs, std::span<const LayerRepor
                        {"largest_move", r.largest_move},
                        {"step_length", r.step_length}});
     json["layers"] = std::move(all);
+    if (const auto& pairs = layered.rounded.report.pairs)
+        json["rounding"]["pairs"] = json_of(*pairs);
     add_constants(json, "round", rounding_constants());
 }
 
-std::string text_of(const Inputs& inputs, std::span<const LayerReport> reports,
-                    const RoundingReport& rounding, std::optional<double> step_width) {
+std::string text_of(const Inputs& inputs, const Layered& layered) {
+    const auto& reports = layered.reports;
     auto text = counted(reports.size(), "layer") + ", from the top down:\n";
     for (const LayerReport& r : reports)
         text += line_of(inputs.labels[r.surface], r, inputs.quantities());
     const bool has_steps = std::any_of(reports.begin(), reports.end(),
                                        [](const LayerReport& r) { return r.step_length > 0; });
-    if (step_width)
+    if (layered.is_stack())
         text += fmt::format(
             "{} the doubles are a conforming mesh, and no layer is above one that is higher in "
             "the order{}, by exact checks\n",
             good("verified:"),
             has_steps ? fmt::format(" (except within {} of the lines of steps)",
-                                    inputs.quantities().length(*step_width, 2))
+                                    inputs.quantities().length(layered.step_width, 2))
                       : "");
-    return text + text_of(rounding.pairs);
+    return text + text_of(layered.rounded.report.pairs);
 }
 
-std::string flaws_text(const RoundingReport& report, std::span<const OutOfOrder> out_of_order) {
+std::string flaws_text(const Layered& layered) {
+    const RoundingReport& report = layered.rounded.report;
+    const auto& out_of_order = layered.out_of_order;
     if (report.clean && out_of_order.empty()) return {};
     if (report.clean)
         return complaint(fmt::format(
-            "{} of triangles of layers are out of order in doubles, the first at {}, by {}; "
-            "nothing written",
+            "{} of triangles of layers are out of order in doubles, the first at {}, by {}",
             counted(out_of_order.size(), "pair"), place_text(out_of_order[0].place),
             figure(out_of_order[0].depth, 3)));
-    return complaint(fmt::format(
-        "{} of triangles meet improperly in doubles, the first at {}; nothing written",
-        counted(report.contacts.size(), "pair"), place_text(report.contacts.at(0).place)));
+    return complaint(fmt::format("{} of triangles meet improperly in doubles, the first at {}",
+                                 counted(report.contacts.size(), "pair"),
+                                 place_text(report.contacts.at(0).place)));
 }
 
 } // namespace terrane::cli
