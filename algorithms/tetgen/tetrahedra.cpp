@@ -58,7 +58,7 @@ Status check_options(const TetrahedraOptions& options) {
         if (Status margin = check_length("margin", options.margin); !margin) return margin;
     if (!options.box && options.margin > constants.most_enlargement)
         return bad_option(fmt::format("margin must be at most {}, not {}",
-                                      figure(constants.most_enlargement), figure(options.margin)));
+                                      constants.most_enlargement, options.margin));
     if (options.box) {
         const auto& [low, high] = *options.box;
         if (!is_finite(low) || !is_finite(high) || low.x >= high.x || low.y >= high.y ||

@@ -184,7 +184,7 @@ TEST_CASE("cli: edges of a filling that ask for too many points are refused befo
                 folder.run("fill " + in + " -o o.obj --mesh-size " + size + " --method " + method);
             INFO(r.err);
             CHECK(r.status == 2);
-            CHECK(contains(r.err, "points in a hole, more than 1e+06"));
+            CHECK(contains(r.err, "points in a hole, more than 1,000,000"));
             CHECK(folder.left().empty());
         }
 }
@@ -389,7 +389,7 @@ TEST_CASE("cli: numbers that an option cannot have are refused with its name", "
              {fill_all + "--time-limit 0x10", "--time-limit: needs a decimal number, not 0x10"},
              {fill_all + "--threads 0x1", "--threads: needs a decimal number, not 0x1"},
              {fill_all + "--threads 010", "--threads: needs a number without a zero before it"},
-             {fill_all + "--margin 1e10", "--margin: margin must be at most 1e+09"},
+             {fill_all + "--margin 1e10", "--margin: margin must be at most 1000000000"},
              {fill_all + "--around -2,-2,-2,10,10,1e20", "--around: box is"},
              {improve + "--max-volume-change 1e999", "--max-volume-change: needs a finite number"},
              {improve + "--edge-length 0x10", "--edge-length: needs a decimal number"},
