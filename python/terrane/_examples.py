@@ -20,7 +20,7 @@ _ENSEMBLE = '''\
 
 
 def with_ensemble(documented: _Documented) -> _Documented:
-    """Replace ">>> made = ..." in a docstring by the lines that make an ensemble, so that the example runs on its own."""
+    """Replace ">>> made = ..." in a docstring by the lines that make an ensemble, so that the example runs alone."""
     documented.__doc__ = re.sub(r"^( *)>>> made = \.\.\.$", lambda line: textwrap.indent(_ENSEMBLE, line[1]),
                                 documented.__doc__ or "", flags=re.MULTILINE)
     return documented
