@@ -27,7 +27,7 @@ constexpr std::size_t code_length = 64;
 
 /// Returns the part of the first line that names the result.
 std::string name_in_line(BuildStage stage, const std::string& key) {
-    return fmt::format("terrane-stage 3, terrane {}, {} {} ", TERRANE_VERSION, name_of(stage), key);
+    return fmt::format("terrane-stage 2, terrane {}, {} {} ", TERRANE_VERSION, name_of(stage), key);
 }
 
 /// Returns the part of the first line that describes the bytes.
