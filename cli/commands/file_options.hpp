@@ -21,7 +21,7 @@ Status check_file_options(const CLI::App& command);
 /// of its results, and keeps the files from being replaced later.
 Status check_project_files(const CLI::App& command, const Project& project);
 
-/// Refuses, before any work, a command of which an output or an input may be one of the files beside an
+/// Refuses, before any work, a command of which an output or an input may be one of the files next to an
 /// output of tetrahedra. Errors: bad_option with the option.
 Status check_files_beside(const CLI::App& command, const std::vector<Output>& outputs);
 

@@ -296,7 +296,7 @@ TEST_CASE("cli: files next to an output are not replaced by another one", "[cli]
                      "--stats: t_main.vtu may be one of the files next to t.vtm" + begins);
     in.check_refused(mesh + "-o ./t.ugi --stats $PWD/t_below_base.txt",
                      "may be one of the files next to ./t.ugi" + begins);
-    in.check_refused(mesh + "-o t.ugi --report t_below_base.ss", "beside t.ugi" + begins);
+    in.check_refused(mesh + "-o t.ugi --report t_below_base.ss", "next to t.ugi" + begins);
     in.check_refused(mesh + "-o t.vtu --output-format ogs -o t_F_front.vtu", "t.vtu" + begins);
     for (const char* const other : {"t_a.vtm", "./t.vtu", "$PWD/t_.vtm"})
         in.check_refused(mesh + "-o t.vtm --output-format geos -o " + other, begins);
@@ -305,7 +305,7 @@ TEST_CASE("cli: files next to an output are not replaced by another one", "[cli]
                      "IN: t_below_base.txt may be one of the files next to t.ugi" + begins);
     // A link to a name that may be taken is that name.
     REQUIRE(in.folder.shell("ln -s t_main.vtu other.json; mkdir t_more").status == 0);
-    in.check_refused(mesh + "-o t.vtm --output-format geos --stats other.json", "beside t.vtm");
+    in.check_refused(mesh + "-o t.vtm --output-format geos --stats other.json", "next to t.vtm");
     const auto apart = in.folder.run(mesh + "-o t.vtm --output-format geos -o t_more/t.vtm "
                                             "--stats t_main.json --report t.html");
     INFO(apart.err);
