@@ -397,8 +397,9 @@ std::string_view name_of(BuildStage stage) {
     return names.at(static_cast<std::size_t>(stage));
 }
 
-Result<ArrangeWithinOptions> arranging_of(const Project& project,
-                                          std::span<const Surface> surfaces) {
+namespace {
+
+Result<ArrangeWithinOptions> options_of(const Project& project, std::span<const Surface> surfaces) {
     ArrangeWithinOptions options{.arrange = {.search = project.search},
                                  .rounding = rounding_of(project),
                                  .seal = project.seal.value_or(0),
@@ -415,6 +416,13 @@ Result<ArrangeWithinOptions> arranging_of(const Project& project,
         options.seal_rules.insert(options.seal_rules.end(), rules->begin(), rules->end());
     }
     return options;
+}
+
+} // namespace
+
+Result<ArrangeWithinOptions> arranging_of(const Project& project,
+                                          std::span<const Surface> surfaces) {
+    return guarded("for the model", "build", [&] { return options_of(project, surfaces); });
 }
 
 TetrahedraRequest request_of(const Project& project) {

@@ -198,13 +198,9 @@ std::string ModelRun::told_of(const Preprocessed& done) {
 std::string ModelRun::told_of(const Arranged& arranged) {
     add_statistics(statistics_, arranged, inputs_);
     page_.add_arranged(arranged);
-    if (!arranged.rounded.report.clean) {
-        const auto pairs = offending_pairs(inputs_, arranged);
-        if (project_.last > BuildStage::arrange)
-            refuse(pairs + complaint("the doubles are not a conforming mesh"));
-        else
-            print(stderr, pairs);
-    }
+    if (!arranged.rounded.report.clean && project_.last > BuildStage::arrange)
+        refuse(offending_pairs(inputs_, arranged) +
+               complaint("the doubles are not a conforming mesh"));
     return summary(inputs_, arranged);
 }
 

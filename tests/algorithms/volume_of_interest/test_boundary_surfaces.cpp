@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -104,12 +105,17 @@ TEST_CASE("volume of interest: rotated boxes have their place, directions and vo
           std::array{Point3{10, 20, 28}, Point3{16, 24, 30}});
     Random random(3);
     for (int round = 0; round < 50; ++round) {
-        box.azimuth = random_real(random, -400, 400);
+        box.azimuth = random_real(random, -360, 360);
         box.plunge = random_real(random, -90, 90);
         box.roll = random_real(random, -180, 180);
         const auto made = rotated_box_boundary(box);
         REQUIRE(made);
         CHECK(volume_of(made.value()).get_d() == Approx(48).epsilon(1e-12));
+    }
+    for (double* angle : {&box.azimuth, &box.plunge, &box.roll}) {
+        const double before = std::exchange(*angle, 361);
+        CHECK_FALSE(rotated_box_boundary(box));
+        *angle = before;
     }
 }
 

@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Arranges closed units that were cut from one volume and meshed apart, so that their contacts nearly coincide.
+
+    tests/oracles/coincident_units.py --terrane build/release/cli/terrane [--count 2000] [--seed 1] [--kind NAME]
+        [--units N] [--cells N] [--keep DIR] [--options "..."] [--threads N]
+
+A model is a box of warped cells, each of which belongs to the unit of the nearest of N seeds. A unit is the boundary of its
+cells, in triangles that it divides by itself: at other points of the edges, about other points inside. So neighbours share no
+vertices but those of the cells, and their contacts coincide but for the rounding of coordinates. Kinds:
+
+doubles   as computed
+float32   rounded to float32
+decimals  rounded to three decimals
+moved     each vertex moved by up to 1, 1e2, 1e4 or 1e6 spacings of the doubles
+Each may be shifted to map coordinates of millions of metres (utm).
+
+Each model must end in a conforming mesh within the default limit of moves, or with the limit named that would do, within which
+it must then end conforming. Prints a line for each model that does not, and a table; status 1 if there is one.
+"""
+import argparse
+import collections
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+import numpy as np
+
+KINDS = ("doubles", "float32", "decimals", "moved", "doubles_utm", "float32_utm", "decimals_utm", "moved_utm")
+CORNERS = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)])
+#: Faces of a cell, outward: four of its corners, and the neighbour across.
+FACES = [((0, 2, 3, 1), (0, 0, -1)), ((4, 5, 7, 6), (0, 0, 1)), ((0, 1, 5, 4), (0, -1, 0)), ((2, 6, 7, 3), (0, 1, 0)),
+         ((0, 4, 6, 2), (-1, 0, 0)), ((1, 3, 7, 5), (1, 0, 0))]
+
+
+def cells_of(rng, units, cells):
+    """Corners of warped cells by (i, j, k), and the unit of each cell."""
+    size = np.array([cells, cells, max(2, cells // 2)])
+    grid = np.stack(np.meshgrid(*(np.arange(n + 1.0) for n in size), indexing="ij"), axis=-1)
+    inner = np.ones(grid.shape, bool)
+    for axis, n in enumerate(size):
+        inner[..., axis] &= (grid[..., axis] > 0) & (grid[..., axis] < n)
+    points = (grid + inner * rng.uniform(-0.2, 0.2, grid.shape)) * np.array([100.0, 100.0, 60.0])
+    middles = np.stack(np.meshgrid(*(np.arange(n) + 0.5 for n in size), indexing="ij"), axis=-1)
+    seeds = rng.uniform(0, 1, (units, 3)) * size
+    return points, np.argmin(((middles[..., None, :] - seeds) ** 2).sum(-1), axis=-1)
+
+
+def faces_of(labels, unit):
+    """Triangles on the boundary of a unit, as corners (i, j, k)."""
+    triangles = []
+    for cell in np.argwhere(labels == unit):
+        for corners, step in FACES:
+            across = cell + step
+            if (across >= 0).all() and (across < labels.shape).all() and labels[tuple(across)] == unit:
+                continue
+            a, b, c, d = (tuple(cell + CORNERS[k]) for k in corners)
+            # Both sides of a face have the same diagonal: that through its least corner.
+            if min(a, b, c, d) in (a, c):
+                triangles += [(a, b, c), (a, c, d)]
+            else:
+                triangles += [(a, b, d), (b, c, d)]
+    return triangles
+
+
+def divided(rng, points, triangles):
+    """Vertices and triangles of a unit, which divides edges and faces by itself."""
+    vertices, number = [], {}
+
+    def vertex(key, place):
+        if key not in number:
+            number[key] = len(vertices)
+            vertices.append(place)
+        return number[key]
+
+    cuts, out = {}, []
+    for corners in triangles:
+        ring = []
+        for a, b in zip(corners, corners[1:] + corners[:1]):
+            ring.append(vertex(a, points[a]))
+            edge = (min(a, b), max(a, b))
+            if edge not in cuts:
+                cuts[edge] = sorted(rng.uniform(0.15, 0.85, rng.integers(0, 3)))
+            places = [(edge, i, points[edge[0]] * (1 - t) + points[edge[1]] * t) for i, t in enumerate(cuts[edge])]
+            for e, i, place in places if edge[0] == a else reversed(places):
+                ring.append(vertex((e, i), place))
+        weights = rng.dirichlet((4, 4, 4))
+        middle = vertex((corners, "middle"), sum(w * points[c] for w, c in zip(weights, corners)))
+        out += [(u, v, middle) for u, v in zip(ring, ring[1:] + ring[:1])]
+    return np.array(vertices), np.array(out)
+
+
+def model(seed, kind, units, cells):
+    """(name, vertices, triangles) of each unit, and the volumes of the units."""
+    rng = np.random.default_rng(seed)
+    units = units or int(rng.integers(2, 41))
+    cells = cells or int(rng.integers(3, 7))
+    points, labels = cells_of(rng, units, cells)
+    if kind.endswith("utm"):
+        points = points + np.array([480000.0, 6900000.0, -1500.0])
+    moves = float(rng.choice((1, 1e2, 1e4, 1e6)))
+    out = []
+    for unit in np.unique(labels):
+        vertices, triangles = divided(rng, points, faces_of(labels, unit))
+        if kind.startswith("float32"):
+            vertices = vertices.astype(np.float32).astype(float)
+        elif kind.startswith("decimals"):
+            vertices = np.round(vertices, 3)
+        elif kind.startswith("moved"):
+            vertices = vertices + rng.uniform(-moves, moves, vertices.shape) * np.spacing(np.abs(points).max())
+        out.append(("unit%d" % unit, vertices, triangles))
+    return out
+
+
+def write(units, path):
+    lines, first = [], 1
+    for name, vertices, triangles in units:
+        lines.append("o " + name)
+        lines += ["v %.17g %.17g %.17g" % tuple(v) for v in vertices]
+        lines += ["f %d %d %d" % tuple(t + first) for t in triangles]
+        first += len(vertices)
+    pathlib.Path(path).write_text("\n".join(lines) + "\n")
+
+
+def run(args, path, folder, more=()):
+    """What arrange says, its statistics, and the seconds that it took."""
+    stats = folder / "stats.json"
+    stats.unlink(missing_ok=True)
+    begin = time.perf_counter()
+    made = subprocess.run([args.terrane, "arrange", path, "-o", folder / "out.vtp", "--stats", stats, "--threads", str(args.threads),
+                           *args.options.split(), *more], capture_output=True, text=True)
+    seconds = time.perf_counter() - begin
+    return made, json.loads(stats.read_text()) if stats.exists() else {}, seconds
+
+
+def judge(args, path, folder):
+    """(how it ended, what is wrong, statistics, seconds)."""
+    made, stats, seconds = run(args, path, folder)
+    if made.returncode == 0:
+        return "conforming", "", stats, seconds
+    named = re.search(r"--max-move (\S+) would do", made.stderr + made.stdout)
+    if made.returncode == 1 and named:
+        again, stats, more = run(args, path, folder, ("--max-move", named[1]))
+        if again.returncode == 0:
+            return "named", "", stats, seconds + more
+        return "failed", "with --max-move %s: status %d" % (named[1], again.returncode), stats, seconds + more
+    left = stats.get("rounding", {}).get("contacts")
+    return "failed", "status %d, %s of %s pairs left" % (made.returncode, left, stats.get("rounding", {}).get("naive_contacts")), stats, seconds
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--terrane", required=True)
+    parser.add_argument("--count", type=int, default=2000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--kind", choices=KINDS)
+    parser.add_argument("--units", type=int, default=0, help="2 to 40 unless given")
+    parser.add_argument("--cells", type=int, default=0, help="along each side; 3 to 6 unless given")
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--options", default="", help="for terrane arrange")
+    parser.add_argument("--keep", type=pathlib.Path, help="keep the models that fail in this folder")
+    args = parser.parse_args()
+    table = collections.defaultdict(lambda: collections.defaultdict(list))
+    failures = 0
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for seed in range(args.seed, args.seed + args.count):
+            kind = args.kind or KINDS[seed % len(KINDS)]
+            path = folder / ("units%d.obj" % seed)
+            write(model(seed, kind, args.units, args.cells), path)
+            end, what, stats, seconds = judge(args, path, folder)
+            rounding = stats.get("rounding", {})
+            row = table[kind]
+            row[end].append(seed)
+            row["triangles"].append(stats.get("input", {}).get("triangles", 0))
+            row["pairs"].append(rounding.get("naive_contacts", 0))
+            row["moves"].append(rounding.get("surface_deviation", 0))
+            row["seconds"].append(seconds)
+            if end == "failed":
+                failures += 1
+                print("units%d (%s): %s; %.3g s" % (seed, kind, what, seconds), flush=True)
+                if args.keep:
+                    args.keep.mkdir(exist_ok=True)
+                    path.replace(args.keep / path.name)
+            path.unlink(missing_ok=True)
+    for kind, row in table.items():
+        print("%-13s %4d conforming, %4d named, %4d failed; up to %d triangles, %d pairs, moves %.3g, %.3g s" % (
+            kind, len(row["conforming"]), len(row["named"]), len(row["failed"]), max(row["triangles"]), max(row["pairs"]),
+            max(row["moves"]), max(row["seconds"])))
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
