@@ -91,8 +91,7 @@ terrane_code terrane_arrange(const terrane_surfaces* surfaces,
         if (given.search) {
             const auto search = terrane::search_named(given.search);
             if (!search)
-                return Error{ErrorCode::bad_option, "is none of the methods of search",
-                             "options.search"};
+                return Error{ErrorCode::bad_option, "is not a method of search", "options.search"};
             wanted.search = *search;
         }
         auto made = terrane::arrange(list, wanted, run_of(run));

@@ -17,7 +17,7 @@
 namespace terrane::capi::detail {
 namespace {
 
-/// What is handed out where memory does not even suffice for an error. It is never freed.
+/// The error that is handed out where memory does not suffice for another one. It is never freed.
 terrane_error* error_without_memory() noexcept {
     static terrane_error error{{}, TERRANE_OUT_OF_MEMORY, "out of memory", {}, "out of memory"};
     return &error;

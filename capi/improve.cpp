@@ -75,7 +75,7 @@ terrane_code terrane_measure_quality(const terrane_mesh* mesh, const terrane_run
         const auto found = quality_of(
             terrane::measure_quality(measured.vertices, measured.triangles, run_of(run)));
         if (give_report(found, quality, struct_size) != TERRANE_OK)
-            throw BadArgument{"struct_size", "is none that this library knows"};
+            throw BadArgument{"struct_size", "is not known to this library"};
         return terrane::Done{};
     });
 }

@@ -28,8 +28,8 @@ using terrane::Status;
 const std::vector<std::string>& terrane_volumes::fractions() const {
     const std::lock_guard lock(mutex_);
     if (!computed_) {
-        fractions_ = mesh ? terrane::exact_volumes(**mesh, volumes)
-                          : terrane::exact_volumes(*arrangement, volumes);
+        fractions_ = mesh ? terrane::exact_volumes(**mesh, volumes).measures
+                          : terrane::exact_volumes(*arrangement, volumes).measures;
         computed_ = true;
     }
     return fractions_;
@@ -135,14 +135,18 @@ const double* terrane_volumes_measures(const terrane_volumes* volumes, size_t* c
                           : no_array<double>(count);
 }
 
+double terrane_volumes_total(const terrane_volumes* volumes) {
+    return known(volumes) ? volumes->volumes.total : 0;
+}
+
 terrane_code terrane_volumes_exact(const terrane_volumes* volumes, size_t volume, char* buffer,
                                    size_t size, size_t* length, terrane_error** error) {
     if (length) *length = 0;
     return call(error, [&]() -> Status {
         const terrane_volumes& given = needed(volumes, "volumes");
-        if (volume >= given.volumes.measures.size())
-            return Error{ErrorCode::bad_index, "there is no such volume",
-                         "volume " + std::to_string(volume)};
+        if (volume == 0 || volume >= given.volumes.measures.size())
+            return Error{ErrorCode::bad_index, "there is no such block",
+                         "block " + std::to_string(volume)};
         copy_text(given.fractions().at(volume), buffer, size, length);
         return Done{};
     });
@@ -216,6 +220,10 @@ const terrane_structure* terrane_model_structure(const terrane_model* model) {
 const double* terrane_model_exact_volumes(const terrane_model* model, size_t* count) {
     return known(model) ? array_of<double>(model->model.exact_volumes, count)
                         : no_array<double>(count);
+}
+
+double terrane_model_total_volume(const terrane_model* model) {
+    return known(model) ? model->model.total_volume : 0;
 }
 
 size_t terrane_model_lost(const terrane_model* model) {

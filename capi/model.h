@@ -81,10 +81,12 @@ TERRANE_API void terrane_volumes_free(terrane_volumes* volumes);
 /// They are equal where the triangle dangles.
 TERRANE_API const uint32_t* terrane_volumes_of_sides(const terrane_volumes* volumes,
                                                      size_t* triangle_count);
-/// Returns, per volume, the double nearest to its exact measure, in cubic units; [0] is that of all
-/// blocks together.
+/// Returns, per volume, the double nearest to its exact measure, in cubic units; [0] is infinite, as
+/// the outside has no end.
 TERRANE_API const double* terrane_volumes_measures(const terrane_volumes* volumes, size_t* count);
-/// Writes the exact measure of a volume as a reduced fraction, "125/6", into `buffer`, cut short to
+/// Returns the double nearest to the measure of all blocks together; 0 without a handle.
+TERRANE_API double terrane_volumes_total(const terrane_volumes* volumes);
+/// Writes the exact measure of a block as a reduced fraction, "125/6", into `buffer`, cut short to
 /// `size` bytes with NUL; *length becomes the length of the whole text. The first call for a handle
 /// takes the time for all volumes: some seconds for 10 000 constructed corners. Errors: BAD_INDEX,
 /// BAD_ARGUMENT, OUT_OF_MEMORY.
@@ -165,9 +167,11 @@ TERRANE_API const terrane_mesh* terrane_model_mesh(const terrane_model* model);
 TERRANE_API const terrane_volumes* terrane_model_volumes(const terrane_model* model);
 /// Returns the structure by the same numbers, a part of the model.
 TERRANE_API const terrane_structure* terrane_model_structure(const terrane_model* model);
-/// Returns, per exact block, the double nearest to its volume before rounding, in cubic units; [0]:
-/// of all.
+/// Returns, per exact block, the double nearest to its volume before rounding, in cubic units; [0]
+/// is infinite, as the outside has no end.
 TERRANE_API const double* terrane_model_exact_volumes(const terrane_model* model, size_t* count);
+/// Returns the volume of all exact blocks together, likewise; 0 without a handle.
+TERRANE_API double terrane_model_total_volume(const terrane_model* model);
 /// Returns the number of exact blocks that were too thin for doubles.
 TERRANE_API size_t terrane_model_lost(const terrane_model* model);
 /// Returns the number of blocks that rounding made; they come last.

@@ -35,7 +35,7 @@ std::optional<Format> named_format(const char* name) {
 
 Role role_of(terrane_role role) {
     if (role < TERRANE_ROLE_UNKNOWN || role > TERRANE_ROLE_BOUNDARY)
-        throw BadArgument{"role", "is none of the roles"};
+        throw BadArgument{"role", "is not a role"};
     return static_cast<Role>(role);
 }
 

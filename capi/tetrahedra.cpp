@@ -46,7 +46,7 @@ std::optional<double> wish(double value) {
 
 TetrahedraOptions meshing_of(const terrane_tetrahedra_options& o) {
     if (o.mesher < TERRANE_MESHER_AUTOMATIC || o.mesher > TERRANE_MESHER_GMSH)
-        throw BadArgument{"options.mesher", "is none of the meshers"};
+        throw BadArgument{"options.mesher", "is not a mesher"};
     TetrahedraOptions options;
     options.mesher = static_cast<Mesher>(o.mesher);
     options.split_surfaces = o.split_triangles != 0;

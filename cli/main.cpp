@@ -52,7 +52,7 @@ ExitStatus run_and_publish(const Command& command) {
 }
 
 /// Adds --quiet and --color to a command that does something: to "bench paper", not to "bench".
-/// What completion and manual print is for programs.
+/// The output of completion and manual is for programs.
 void offer_output_options(CLI::App& command) {
     const auto inner = command.get_subcommands([](const CLI::App*) { return true; });
     for (CLI::App* app : inner) add_output_options(*app);

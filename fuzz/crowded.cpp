@@ -123,7 +123,7 @@ std::string flaw(std::span<const Surface> input_surfaces) {
     const auto made = arrange(surfaces);
     if (!made) return made.error().message();
     // Rounding tries many grids where all is within some hundred doubles, and rationals take a second
-    // for so many triangles. What is larger costs too much for a fuzzer.
+    // for that many triangles. Larger inputs cost too much for a fuzzer.
     constexpr std::size_t most_in_rationals = 500, most_in_doubles = 1500;
     const std::size_t size = made->triangles.size();
     if (size > most_in_doubles) return "";

@@ -128,7 +128,7 @@ void report(const Subject& s, const std::string& difference, const std::string& 
 /// Judges a changed certificate. `rewritten` tells whether the output files follow its claims.
 void judge(const Subject& s, const Certificate& changed, const fuzz::Contents& contents,
            bool rewritten, const std::string& what) {
-    // What was cut may be stated to be farther away, as far as the user accepts by default: there
+    // A cut part may be stated to be farther away, as far as the user accepts by default: there
     // doubles can be outside of the volume that are near to what is inside.
     VerifyOptions options;
     if (!s.certificate.cut) options.max_deviation = s.deviation * 4;

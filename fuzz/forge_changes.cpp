@@ -8,14 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "forge_parts.hpp"
-#include "forge_tables.hpp"
+#include "forge_lists.hpp"
+#include "forge_triangles.hpp"
 
 namespace terrane::fuzz {
 
 namespace {
 
-/// The exact part. What is dropped of it stays dropped when the triangles get other numbers.
+/// The exact part. A dropped triangle stays dropped when the triangles get other numbers.
 class ExactPart {
 public:
     explicit ExactPart(Certificate& c) :
@@ -364,7 +364,7 @@ std::string change(Certificate& certificate, Contents& contents, Bytes& bytes) {
         return of_kind[kind].name;
     }
     if (kind == of_kind.size()) return change_files(certificate, contents, n);
-    return change_table(certificate, byte[1], n);
+    return change_list(certificate, byte[1], n);
 }
 
 } // namespace terrane::fuzz

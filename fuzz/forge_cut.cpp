@@ -11,7 +11,7 @@
 #include <terrane/algorithms/verify/detail/joined_sets.hpp>
 
 #include "forge_geometry.hpp"
-#include "forge_tables.hpp"
+#include "forge_lists.hpp"
 
 namespace terrane::fuzz {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What a certificate of a volume of interest means: the producer makes it again of the boundary
+// The meaning of a certificate of a volume of interest: the producer makes it again of the boundary
 // that is stated.
 #include <algorithm>
 #include <cmath>

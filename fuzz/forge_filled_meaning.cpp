@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What filled surfaces mean: all that was given, and new triangles that close whole borders.
+// The meaning of filled surfaces: all given triangles, and new triangles that close whole borders.
 #include <algorithm>
 #include <array>
 #include <limits>

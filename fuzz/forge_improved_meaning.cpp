@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What an improved mesh means: the regions of the mesh before, near it, on the same side.
+// The meaning of an improved mesh: the regions of the mesh before, near it, on the same side.
 #include <algorithm>
 #include <array>
 #include <limits>

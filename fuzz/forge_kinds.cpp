@@ -9,7 +9,7 @@
 
 #include <terrane/algorithms/core/no_index.hpp>
 
-#include "forge_tables.hpp"
+#include "forge_lists.hpp"
 
 namespace terrane::fuzz {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "forge_geometry.hpp"
-#include "forge_tables.hpp"
+#include "forge_lists.hpp"
 
 namespace terrane::fuzz {
 

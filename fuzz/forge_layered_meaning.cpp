@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What layers mean: their heights at many places, computed as `terrane layer` promises them, from
-// the hardest layer to the softest.
+// The meaning of layers: their heights at many places, computed as `terrane layer` promises them,
+// from the hardest layer to the softest.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -72,8 +72,8 @@ struct Horizons {
     }
 };
 
-/// What is over a place: a layer keeps the thickness from the harder ones, and lies on the upper
-/// one where they leave less room.
+/// The surfaces over a place: a layer keeps the thickness from the harder ones, and lies on the
+/// upper one where they leave less room.
 struct LayerColumn {
     std::vector<std::optional<Over>> own, right; ///< per layer: its surface; where it must be
     bool near_side = false;                      ///< rounding may decide which

@@ -282,7 +282,8 @@ bool writes_the_same(const Certificate& a, const Certificate& b) {
     // Files with tetrahedra, and those with an improved mesh, do not hold the mesh before.
     const bool has_doubles = a.rounded && !a.tetrahedra() && !a.improved();
     if (has_doubles && a.sealed && !same_mesh(*a.rounded, *b.rounded)) return false;
-    // What was added to a surface and left out again changes the numbers of input triangles.
+    // Triangles that were added to a surface and left out again change the numbers of input
+    // triangles.
     if (has_doubles && !a.sealed && !same_doubles(*a.rounded, *b.rounded)) return false;
     if (a.tetrahedra()) {
         const TetrahedraClaim &x = *a.tetrahedra(), &y = *b.tetrahedra();

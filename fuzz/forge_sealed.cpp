@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "forge_geometry.hpp"
-#include "forge_tables.hpp"
+#include "forge_lists.hpp"
 
 namespace terrane::fuzz {
 
@@ -140,7 +140,7 @@ void remove_added(Certificate& c, const Arguments& n) {
             }
 }
 
-/// Adds a triangle to the claims, far away or beside another one; the exact part has it as a
+/// Adds a triangle to the claims, far away or next to another one; the exact part has it as a
 /// triangle of its own, which is kept or dropped, and where it is kept the doubles have it too.
 void add_added(Certificate& c, const Arguments& n) {
     const auto own = own_inputs(c);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What a certificate of sealed surfaces promises (docs/reference/certificate.md), in floating point:
-// only the stated triangles were added, they lead from the border of their surface to where it ends
-// on something, what is missing lies beyond such a place, and all of that within the limits.
+// The promises of a certificate of sealed surfaces (docs/reference/certificate.md), in floating
+// point: only the stated triangles were added, they lead from the border of their surface to where
+// it ends on something, what is missing lies beyond such a place, and all of that within the
+// limits.
 #include <algorithm>
 #include <array>
 #include <cmath>

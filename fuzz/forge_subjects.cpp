@@ -38,7 +38,7 @@ T needed(Result<T> result) {
     return std::move(result).value();
 }
 
-/// What the producer makes of an OBJ file, before its kind matters.
+/// The arrangement that the producer makes of an OBJ file, before its kind matters.
 struct Arranged {
     Subject subject;
     std::vector<InputRecord> records;

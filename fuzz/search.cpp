@@ -106,7 +106,7 @@ void check_active(const Boxes& boxes, const Groups& groups, const Pairs& all, By
             "filtered pairs of active boxes differ");
 }
 
-/// Checks so many small boxes that threads share the work.
+/// Checks enough small boxes for threads to share the work.
 void check_many(Bytes& bytes) {
     bytes.byte();
     bytes.byte();

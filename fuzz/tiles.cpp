@@ -30,7 +30,7 @@ namespace {
 
 using namespace tiles;
 
-/// What one process finds.
+/// The findings of one process.
 struct Whole {
     const Arrangement& exact;
     std::string digest;
@@ -40,15 +40,16 @@ struct Whole {
 };
 
 std::string volumes_flaw(Supersteps& tiles, const TiledReport& report) {
-    const auto measures = find_volumes_in_tiles(tiles);
-    if (!measures) return "volumes in tiles: " + measures.error().message();
+    const auto volumes = find_volumes_in_tiles(tiles);
+    if (!volumes) return "volumes in tiles: " + volumes.error().message();
     const auto names = name_volumes_in_tiles(tiles);
     if (!names) return "names in tiles: " + names.error().message();
     const auto mesh = test_support::pieces_joined(tiles, report);
     if (!mesh) return mesh.error().message();
     const auto expected = find_volumes(*mesh);
     if (!expected) return "volumes: " + expected.error().message();
-    if (*measures != expected->measures) return "tiles find other volumes";
+    if (volumes->measures != expected->measures || volumes->total != expected->total)
+        return "tiles find other volumes";
     const auto sides_agree = tiles.visit([&](Tile& b) -> Status {
         const TilePiece piece = piece_of(b);
         for (std::size_t t = 0; t < piece.triangle_ids.size(); ++t)

@@ -37,9 +37,10 @@ void write_blocks(CertificateWriter& out, const Mesh& mesh, const CertifiedBlock
     out.raw(",\n\"around\":");
     write_numbers_or_null(out, shells.around);
     out.raw(",\n\"volumes\":");
+    ExactVolumes exact = exact_volumes(mesh, blocks.volumes);
+    exact.measures[0] = std::move(exact.total); // the format begins with the sum of all blocks
     out.array(
-        exact_volumes(mesh, blocks.volumes), [&](const std::string& volume) { out.quote(volume); },
-        ",\n");
+        exact.measures, [&](const std::string& volume) { out.quote(volume); }, ",\n");
     out.raw("}");
 }
 

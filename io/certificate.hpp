@@ -119,8 +119,8 @@ struct CutRecord {
                                              ///< sealed or extended
 };
 
-/// What certificates say about surfaces that were cut, sealed or extended: the keys "cut" and, if
-/// something can have been added, "sealed".
+/// The claims of certificates about surfaces that were cut, sealed or extended: the keys "cut" and,
+/// if something can have been added, "sealed".
 struct CutSections {
     Arrangement whole;               ///< of all surfaces, which `Certified::exact` is a part of
     std::string text;                ///< the keys
@@ -150,7 +150,7 @@ double stated_deviation(const Layered& layered);
 
 /// Returns the text of a certificate of the kind "cut". It has the keys of a certificate of an
 /// arrangement, of which "exact" and "digest" are about all surfaces with the boundary of the
-/// volume as the last ones, and "rounded" about what was kept; and
+/// volume as the last ones, and "rounded" about the kept part; and
 ///
 ///   "cut": {
 ///     "volume": {
@@ -162,7 +162,7 @@ double stated_deviation(const Layered& layered);
 ///     "dropped": [t, ...] }        the triangles of "exact" that are outside
 ///
 /// `cut.exact` is a part of the arrangement of `cut.surfaces`, of which the last `boundary_count`
-/// are the boundary. It is arranged again for what was dropped. Errors: those of arrange().
+/// are the boundary. It is arranged again for the dropped part. Errors: those of arrange().
 Result<std::string> to_cut_certificate(const Certified& cut, const VolumeRecord& volume,
                                        std::size_t boundary_count, const ArrangeOptions& options,
                                        const Run& run = {});
@@ -173,8 +173,8 @@ Result<CutSections> cut_sections(const Certified& cut, const CutRecord& record,
                                  const ArrangeOptions& options, const Run& run = {});
 
 /// Returns the text of a certificate of the kind "cut" or, with `growth`, "sealed". This one has
-/// the keys of the kind "cut" and one more. "volume" is null where there is none, and "dropped"
-/// lists what was trimmed, too, and unused parts of what was added.
+/// the keys of the kind "cut" and one more. "volume" is null without a volume, and "dropped"
+/// lists trimmed parts, too, and unused ones of those that were added.
 ///
 ///   "sealed": [                    per surface of the files
 ///     { "limit": "0.25",           the surface as given and as kept are nowhere farther apart
@@ -189,7 +189,7 @@ Result<std::string> to_cut_certificate(const Certified& cut, const CutRecord& re
 
 /// A surface whose holes were filled.
 struct FilledRecord {
-    const Surface* filled = nullptr;              ///< what was given, then what is new
+    const Surface* filled = nullptr;              ///< given ones, then new ones
     std::size_t given_vertices = 0;               ///< its first ones
     std::size_t given_triangles = 0;              ///< its first ones
     std::span<const std::int32_t> interpolated{}; ///< per triangle: the number of its hole, or 0

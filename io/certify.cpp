@@ -105,7 +105,7 @@ Result<VolumeRecord> record(const ProjectWithin& within, const fs::path& certifi
     return volume;
 }
 
-/// Returns the volume of interest as a certificate describes it; none where there is none.
+/// Returns the volume of interest as a certificate describes it, if there is one.
 Result<std::optional<VolumeRecord>> record_volume(const CertifiedResult& result,
                                                   const fs::path& certificate) {
     return std::visit(

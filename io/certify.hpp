@@ -38,12 +38,12 @@ struct ResultFile {
 /// part of it are null or empty.
 /// They decide on the kind of the certificate: `filled` makes it one of filled surfaces, `layered` one
 /// of layers, `tetrahedra` one of tetrahedra, `model` one of blocks, `improved` one of an improved
-/// mesh. Without them it is one of an arrangement, which also says what was cut away and added.
+/// mesh. Without them it is one of an arrangement, which also lists parts cut away and added.
 struct CertifiedResult {
     std::vector<SourceFile> inputs{};    ///< in the order in which they were read
     std::vector<ResultFile> outputs{};   ///< the files that hold the result
     std::span<const Surface> surfaces{}; ///< of all inputs, with the names and roles of their files
-                                         ///< and with what was added, then the boundary
+                                         ///< and with added parts, then the boundary
     const Arrangement* exact = nullptr;  ///< of the surfaces, or the part of it that was kept
     const RoundedMesh* rounded = nullptr;        ///< `exact` in doubles
     const Improved* improved = nullptr;          ///< made of `rounded`
@@ -55,7 +55,7 @@ struct CertifiedResult {
     ProjectVolume volume{};                      ///< the volume of interest
     std::size_t boundary_count = 0; ///< number of the last surfaces, which bound the volume
     std::span<const SurfaceGrowth> growth{}; ///< see CutRecord
-    Search search = Search::automatic;       ///< for arranging again what was left out
+    Search search = Search::automatic;       ///< for arranging the left-out part again
 };
 
 /// Returns an arrangement as a result, without files.

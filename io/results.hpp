@@ -59,9 +59,9 @@ Status write_model_files(const ModelReports& reports, const std::string& part_fo
 Status write_model_folder(const ModelReports& reports, const std::string& part_format,
                           const std::filesystem::path& folder, const Run& run = {});
 
-/// What was built of a project, by reference.
+/// The results of building a project, by reference.
 struct Results {
-    const Project& project;                  ///< whose `outputs` says what is written
+    const Project& project;                  ///< whose `outputs` names the files to write
     const Model& model;                      ///< as built
     const FilledBlocks* filled;              ///< nullptr: there are no tetrahedra
     const std::optional<SealReport>& sealed; ///< none: nothing was sealed
@@ -88,7 +88,7 @@ write_results(const Results& results, const std::filesystem::path& folder, const
 /// Checks that the results of a project can be certified, if it asks for that. Errors: bad_option.
 Status check_certifiable(const Project& project);
 
-/// Writes the certificates of what write_results() has written, if the project asks for them: of the
+/// Writes the certificates of the files of write_results(), if the project asks for them: of the
 /// surfaces, the blocks and the tetrahedra. They call the surfaces as their files do. Errors: those of certify() and of writing.
 Result<std::vector<WrittenCertificate>>
 write_certificates(const Results& results, const ProjectInputs& read, const Arranged& arranged,

@@ -98,7 +98,7 @@ std::vector<char> divided_faces(const Soup& soup, const Retriangulation& divisio
     return has_constructed;
 }
 
-/// What the search for candidates leaves out besides pairs within one patch.
+/// Pairs that the search for candidates leaves out, besides those within one patch.
 struct LeftOut {
     Pencils pencils;
     bool any_crowded = false; ///< pairs at crowded vertices

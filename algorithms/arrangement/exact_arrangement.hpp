@@ -32,7 +32,7 @@ struct ExactState {
                                            ///< patch. No duplicates; sorted
     std::vector<std::uint32_t> crowded;    ///< input triangles of which `neighbours` leaves pairs
                                            ///< out: those with constructed points at a vertex or
-                                           ///< in a pencil of so many that a list of all pairs
+                                           ///< in a pencil so large that a list of all pairs
                                            ///< would be long for the size of the mesh; ascending
     std::vector<std::uint32_t> pools;      ///< per input triangle: its pool, or no_group; empty
                                            ///< without pools. The triangles of a pool lie in one

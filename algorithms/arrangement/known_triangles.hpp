@@ -67,9 +67,9 @@ private:
     std::vector<std::uint32_t> old_of_; ///< per triangle: the kept one, or no_index
 };
 
-/// What the last arrangement with this object found; nothing at first. Several threads may use one
-/// object. An arrangement takes what is there, and leaves its own at the end; another one that begins
-/// in the meantime finds nothing.
+/// Keeps the findings of the last arrangement with this object; it begins empty. Several threads
+/// may use one object. An arrangement takes the findings, and leaves its own at the end; another
+/// one that begins in the meantime finds nothing.
 class KnownTriangles {
 public:
     KnownTriangles();
@@ -77,7 +77,7 @@ public:
     KnownTriangles(const KnownTriangles&) = delete;
     KnownTriangles& operator=(const KnownTriangles&) = delete;
 
-    /// Takes what is there and finds it in a soup, which must outlive the result. Returns null if
+    /// Takes the findings and finds them in a soup, which must outlive the result. Returns null if
     /// nothing is there.
     [[nodiscard]] std::unique_ptr<KnownInSoup> find_in(const Soup& soup);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Counts the pairs of triangles of a mesh by what decides them.
+// Counts the pairs of triangles of a mesh by the step that decides them.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace terrane {
 
-/// What decided a pair of triangles whose boxes overlap.
+/// The step that decided a pair of triangles whose boxes overlap.
 enum class DecidedBy : std::uint8_t {
     test,       ///< exact predicates on the two triangles
     patch,      ///< both are in one injective patch: docs/explanation/injective-patches.md

@@ -40,7 +40,7 @@ struct Field {
         bounds(own_bounds), in_project(is_in_project) {}
 };
 
-/// Tells what is wrong with a value, "must be at most 3"; none if nothing is. `may_be_0`: the 0
+/// Returns the flaw of a value, "must be at most 3"; nothing for a good one. `may_be_0`: the 0
 /// that stands for `otherwise` is allowed.
 std::optional<std::string> flaw_of(const Field& field, double value, bool may_be_0 = true);
 

@@ -13,7 +13,7 @@
 namespace terrane {
 
 /// Returns an error with a sentence made of two parts. Where memory does not even suffice for the
-/// texts, they are left out: what is left needs none.
+/// texts, they are left out: the rest needs none.
 inline Error error_within_memory(ErrorCode code, std::string_view sentence, std::string_view more,
                                  std::string_view place) noexcept {
     Error error{code, {}, {}};

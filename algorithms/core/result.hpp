@@ -35,7 +35,7 @@ enum class ErrorCode {
 /// An error caused by data, as a value.
 struct Error {
     ErrorCode code = ErrorCode::internal; ///< the kind of error
-    std::string sentence;                 ///< what is wrong, in a sentence without full stop
+    std::string sentence;                 ///< names the flaw, without full stop
     std::string place;                    ///< "basin.ts:1204", "triangle 812", or empty
 
     /// Returns the place and the sentence: "basin.ts:1204: VRTX needs 3 numbers".

@@ -96,8 +96,8 @@ PlanePools find_plane_pools(const TriangleSoup& soup, std::span<const CandidateP
 /// Performs steps (b) and (c): tests all candidates and collects the points and segments that must
 /// appear in each triangle. `points` are the soup's points; the store of the result takes them
 /// over. Pairs of triangles in different planes of one pencil need not be candidates. Equal points and, in triangles with many, equal segments are merged as they come. So the
-/// memory follows the distinct ones. tested: if not null, what is known per candidate, which is not tested
-/// again; afterwards, what is known of all but those within a pool.
+/// memory follows the distinct ones. tested: if not null, the known result per candidate, which is
+/// not tested again; afterwards, the results of all but those within a pool.
 Contacts find_contacts(const TriangleSoup& soup, std::vector<Point3> points,
                        std::span<const CandidatePair> candidates, const Pencils& pencils,
                        const Run& run, TestedPairs* tested = nullptr);

@@ -30,8 +30,8 @@ struct InjectivePatches {
                                    ///< projection; Zero if they differ
 };
 
-/// Finds injective patches. It tries (1) whole surfaces, (2) connected components of what remains,
-/// (3) connected parts of what remains whose normals are longest along the same axis; each in the
+/// Finds injective patches. It tries (1) whole surfaces, (2) connected components of the rest,
+/// (3) connected parts of the rest whose normals are longest along the same axis; each in the
 /// three projections. `triangles` are distinct, with area, over distinct points, and `edges` groups
 /// their sides. `turns` are their orientations seen along z, if these are known already. Patches are
 /// numbered in the order of their first triangles. Those of a surface depend on its triangles alone.

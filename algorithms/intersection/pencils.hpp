@@ -39,7 +39,7 @@ Pencils find_pencils(const TriangleSoup& soup, std::span<const std::uint32_t> bu
 std::vector<CandidatePair> coplanar_pairs(const TriangleSoup& soup, const Pencils& pencils,
                                           std::span<const std::uint32_t> groups, const Run& run);
 
-/// What triangles of different planes of a pencil share.
+/// The contacts of triangles of different planes of a pencil.
 struct PencilContacts {
     std::vector<Construction> points;   ///< distinct points
     std::vector<FaceConstraint> pieces; ///< ends are indices into points. Those that a triangle has

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What tests of the pairs of a soup have shown, to be taken over where another soup has the same
+// Results of tests of the pairs of a soup, which another soup takes over where it has the same
 // triangles.
 #pragma once
 
@@ -41,7 +41,7 @@ private:
     IndexLists<ContactPoint> points_;
 };
 
-/// Per pair of triangles what is known of it.
+/// The results per pair of triangles.
 struct TestedPairs {
     // Outcomes of a test:
     static constexpr std::uint32_t untested = 0, ///< nothing is known

@@ -55,8 +55,9 @@ EdgeSides group_edges(std::span<const Triangle> triangles, std::size_t vertex_co
                       const Run& run = {});
 
 /// Triangles of an old mesh that a mesh still has, with the same corners in the same order, by other
-/// numbers. What else it has are the others; so are triangles whose corners are numbered in another
-/// order than before, as the vertices of their sides are then lower or higher than before.
+/// numbers. All triangles without an old one are the others; so are those whose corners are
+/// numbered in another order than before, as the vertices of their sides are then lower or higher
+/// than before.
 struct RenamedTriangles {
     std::vector<std::uint32_t>
         number; ///< per old triangle: its number now (the first), or no_index

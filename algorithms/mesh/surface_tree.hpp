@@ -28,7 +28,7 @@ struct TrianglesOfSurfaces {
 /// Finds the surfaces near a point, in floating point, by one tree of boxes over the triangles of all
 /// surfaces. A node whose triangles belong to few surfaces names them; a search that looks for others
 /// passes over it. So neither the number of surfaces nor the size of the one that a border belongs to
-/// counts. What it is made of must outlive it. Several threads may search at a time.
+/// counts. The surfaces must outlive the tree. Several threads may search at a time.
 class SurfaceTree {
 public:
     /// Cost: O(n log n).

@@ -33,12 +33,13 @@ Status validate(std::span<const Point3> points, std::span<const Triangle> triang
 Status validate_areas(std::span<const Point3> points, std::span<const Triangle> triangles,
                       const Run& run = {});
 
-/// Checks that each array of a mesh has its length, that indices name what is there, and that coordinates are finite:
-/// each triangle has at least one surface, and a region in each of its surfaces unless there are no regions at all.
-/// Errors, with the place of the first one: bad_number, bad_index.
+/// Checks that each array of a mesh has its length, that all indices are below their counts, and
+/// that coordinates are finite: each triangle has at least one surface, and a region in each of its
+/// surfaces unless there are no regions at all. Errors, with the place of the first one:
+/// bad_number, bad_index.
 Status validate_indices(const Mesh& mesh, const Run& run = {});
 
-/// The same of tetrahedra.
+/// Checks the arrays and indices of a mesh of tetrahedra likewise.
 Status validate_indices(const TetrahedralMesh& mesh, const Run& run = {});
 
 /// Checks a mesh as validate_indices does; moreover, each triangle has an area, by an exact predicate.

@@ -70,7 +70,7 @@ Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& m
         if (!exact) return exact.error();
         const auto rounded = find_volumes(mesh, inner);
         if (!rounded) return rounded.error();
-        Model model{.mesh = mesh, .exact_volumes = exact->measures};
+        Model model{.mesh = mesh, .exact_volumes = exact->measures, .total_volume = exact->total};
         number(*rounded, match_volumes(arrangement, *exact, mesh, *rounded), model);
         const GivenNames given = names_given(arrangement, *exact, naming);
         timer.stop();
@@ -85,6 +85,7 @@ Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& r
         Model model{.mesh = improved.conforming.value()};
         if (!improved.report.sides_kept) {
             model.exact_volumes = improved.volumes.measures;
+            model.total_volume = improved.volumes.total;
             number(improved.volumes, own_numbers(improved.volumes), model);
             timer.stop();
             return finished(std::move(model), {.column = naming.column}, run);
@@ -97,6 +98,7 @@ Result<Model> make_model(const Arrangement& arrangement, const ConformingMesh& r
         for (const std::uint32_t before : improved.volume_before)
             match.push_back(of_rounded[before]);
         model.exact_volumes = exact->measures;
+        model.total_volume = improved.volumes.total;
         number(improved.volumes, match, model);
         for (std::size_t v = 0; v < match.size(); ++v)
             if (match[v] != UINT32_MAX)

@@ -26,8 +26,10 @@ namespace terrane {
 /// A mesh with its blocks.
 struct Model {
     ConformingMesh mesh;                 ///< rounded, and improved if that was asked for
-    std::vector<double> exact_volumes{}; ///< per block by number, [0]: of all; cubic unit: the
-                                         ///< doubles nearest to the volumes in the arrangement
+    std::vector<double> exact_volumes{}; ///< per block by number, in cubic units: the double
+                                         ///< nearest to its volume in the arrangement; [0] is
+                                         ///< infinite: the outside has no end
+    double total_volume = 0;             ///< of all blocks together, likewise
     Volumes volumes{}; ///< of the mesh, by the numbers of the exact blocks. A block too thin for
                        ///< doubles has no triangle; blocks that rounding made come last
     std::vector<std::uint32_t> number_of{}; ///< per volume as find_volumes(mesh) counts: its number

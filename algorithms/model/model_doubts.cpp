@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 
@@ -74,9 +75,9 @@ std::vector<PlausibilityWarning> find_model_doubts(const Model& model, bool bloc
         warnings.push_back(
             {Doubt::horizons_cross,
              {SurfaceId(pair.first), SurfaceId(pair.second)},
-             fmt::format(
-                 "horizons {} and {} run through each other along {:.4g}; there are {} blocks",
-                 labels[pair.first], labels[pair.second], length, model.block_count()),
+             fmt::format("horizons {} and {} run through each other along {}; there are {} blocks",
+                         labels[pair.first], labels[pair.second], figure(length, 4),
+                         model.block_count()),
              "The layer between them is cut into pieces, and turned over in some of them",
              "`terrane layer`, or the key layers of a project, makes the softer one give way"});
     return warnings;

@@ -18,7 +18,7 @@
 namespace terrane {
 
 /// Simplifies a mesh that is to be improved then. Improvement may deviate by options.max_deviation,
-/// or, where that is 0, by what improve() would allow, but at most a quarter of the resolution, which
+/// or, where that is 0, by the bound of improve(), but at most a quarter of the resolution, which
 /// options.max_deviation is set to; joining may move the surfaces by the rest of the resolution, or
 /// is refused. Errors: those of simplify(); bad_option (max_deviation is not less than the
 /// resolution).
@@ -47,13 +47,13 @@ Status simplify_to(const Resolution& resolution, ImproveOptions& options,
                    const RoundingOptions& rounding, Arranged& arranged, const Run& run = {});
 
 /// Returns the surfaces of the improved mesh, in their order, that are not shown to be within the
-/// resolution of what they were before simplify_to(), and those within the resolution of them.
+/// resolution of their places before simplify_to(), and those within the resolution of them.
 /// Surfaces that vanished do not count. Cost: that of is_within().
 std::vector<std::uint32_t> beyond_resolution(const AtResolution& simplified, const Mesh& improved,
                                              const Run& run = {});
 
-/// Tells whether each surface of the improved mesh is shown to be within the resolution of what it
-/// was before simplify_to(), and that within the resolution of it. Surfaces that vanished do not
+/// Tells whether each surface of the improved mesh is shown to be within the resolution of its
+/// place before simplify_to(), and that within the resolution of it. Surfaces that vanished do not
 /// count. Cost: that of is_within().
 bool is_within_resolution(const AtResolution& simplified, const Mesh& improved,
                           const Run& run = {});

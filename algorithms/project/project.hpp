@@ -171,7 +171,7 @@ struct Project {
                                         ///< the surfaces; none: see RoundingOptions
     std::optional<ProjectImprove> improve{};       ///< none: triangles stay as they are
     ProjectTetrahedra tetrahedra{};                ///< made where outputs.tetrahedra asks for them
-    ProjectOutputs outputs{};                      ///< what is written
+    ProjectOutputs outputs{};                      ///< files to write
     std::vector<ProjectUncertainty> uncertainty{}; ///< for ensembles; build() has no use for it
     unsigned threads = 0;                          ///< 0: all cores
     // What follows is no key of the file.

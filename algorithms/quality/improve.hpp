@@ -90,8 +90,8 @@ struct ImproveOptions {
     PairCheckOptions check{}; ///< how the improved mesh is checked
 
     /// Describes the options, see Field. The bound of layers_in_gaps is there since the search for
-    /// gaps compares a triangle with the sheets within so many wanted lengths of it: with more than
-    /// a thousand, these are all sheets of a model.
+    /// gaps compares a triangle with the sheets within this many wanted lengths of it: with more
+    /// than a thousand, these are all sheets of a model.
     static void describe(const auto& visit, auto& o) {
         constexpr double unlimited = std::numeric_limits<double>::infinity();
         constexpr FieldBounds angle{0, 180}, share{0, 1};

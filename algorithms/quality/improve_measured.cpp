@@ -6,7 +6,7 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
-#include <terrane/algorithms/quality/improve_back.hpp>
+#include <terrane/algorithms/quality/bounds_back.hpp>
 
 namespace terrane {
 bool ImprovedAndMeasured::is_near_back() const {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/is_external.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
@@ -88,13 +89,13 @@ public:
         const double least = *std::min_element(sizes_.bound_of.begin(), sizes_.bound_of.end());
         if (least < reference_.least_bound())
             return wrong(fmt::format(
-                "max_deviation is too small for coordinates of this size; the least is {:.3g}",
+                "max_deviation is too small for coordinates of this size; the least is {}",
                 reference_.least_bound()));
         if (const double count = expected_with_sizes(input_, features_, sizes_);
             count > options_.max_triangles)
-            return wrong(fmt::format("about {:.3g} triangles are to be expected, more than "
-                                     "max_triangles, {:.3g}",
-                                     count, options_.max_triangles));
+            return wrong(fmt::format("about {} triangles are to be expected, more than "
+                                     "max_triangles, {}",
+                                     figure(count, 3), figure(options_.max_triangles)));
         find_orientations();
         std::optional<Result<Volumes>> volumes;
         Run quiet = run_; // progress may only be reported by the calling thread

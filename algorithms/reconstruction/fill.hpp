@@ -88,14 +88,14 @@ struct NumberedHole {
 
 /// A filled surface: the given vertices and triangles come first, then the interpolated ones.
 struct HoledSurface {
-    FillTask task;                   ///< what was asked for
-    std::string label;               ///< its name, made unique among all surfaces
-    std::vector<BorderLoop> loops;   ///< all of the surface as it was given
-    Surface filled;                  ///< with the fillings
-    std::size_t given_vertices = 0;  ///< of `filled`, its first ones
-    std::size_t given_triangles = 0; ///< of `filled`, its first ones
-    std::vector<double> deviation;   ///< per vertex of `filled`: 0 for what was given, NaN where
-                                     ///< the method foresees none
+    FillTask task;                          ///< the wish
+    std::string label;                      ///< its name, made unique among all surfaces
+    std::vector<BorderLoop> loops;          ///< all of the surface as it was given
+    Surface filled;                         ///< with the fillings
+    std::size_t given_vertices = 0;         ///< of `filled`, its first ones
+    std::size_t given_triangles = 0;        ///< of `filled`, its first ones
+    std::vector<double> deviation;          ///< per vertex of `filled`: 0 for given ones, NaN where
+                                            ///< the method foresees none
     std::vector<std::int32_t> interpolated; ///< per triangle of `filled`: number of the hole, or 0
 };
 

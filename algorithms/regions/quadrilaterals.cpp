@@ -12,7 +12,7 @@
 namespace terrane {
 namespace {
 
-/// What a mesh has of the triangle on one side of a quadrilateral's diagonal.
+/// The triangle on one side of a quadrilateral's diagonal, as far as the mesh has it.
 struct Half {
     std::size_t parts = 0;          ///< number of triangles of the mesh
     std::uint32_t first = no_index; ///< the lowest of them

@@ -156,7 +156,7 @@ Result<Attempted> MovedWhole::attempt(const std::vector<Surface>& surfaces) {
     return Attempted::conforming;
 }
 
-/// What compares lengths can't be repeated in a frame.
+/// Comparisons of lengths can't be repeated in a frame.
 Result<std::optional<DecimalFrame>> MovedWhole::decimal_frame() {
     const ExactState& state = *arrangement_.state;
     if (state.restrict_again && state.measures) return std::optional<DecimalFrame>();

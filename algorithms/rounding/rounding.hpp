@@ -63,7 +63,7 @@ struct RoundingReport {
     /// more: they are then the first ones, in the order of their triangles.
     std::vector<ImproperContact> contacts;
     /// No point of the mesh is farther from the input triangles that it is part of, and no point of
-    /// an input triangle is farther from its parts, except for what vanished; unit of the input.
+    /// an input triangle is farther from its parts, except for vanished ones; unit of the input.
     double surface_deviation = 0;
     double max_allowed = 0; ///< the limit of surface_deviation: max_move of the options
     double sufficient_limit =

@@ -20,9 +20,9 @@
 // moves; strips that close no gap are removed. If no gap is small enough, the result is the
 // arrangement of the input itself.
 // Distances are in floating point, from the ends and midpoints of the free parts of border edges to
-// the nearest other surface. A part of an edge is extended as a whole or not at all. What stays open
-// is listed with the reason. Cost: one arrangement if nothing is to be done; otherwise two or three
-// more for each way of building strips.
+// the nearest other surface. A part of an edge is extended as a whole or not at all. Gaps
+// that stay open are listed with the reason. Cost: one arrangement if nothing is to be done;
+// otherwise two or three more for each way of building strips.
 #pragma once
 
 #include <cstddef>

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
@@ -55,7 +56,7 @@ Status check_options(const Mesh& mesh, const SimplifyOptions& options) {
     const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
     if (!(options.resolution < extent))
         return bad_resolution(
-            fmt::format("must be less than the extent of the model, {:.6g}", extent));
+            fmt::format("must be less than the extent of the model, {}", figure(extent)));
     return Done{};
 }
 

@@ -5,7 +5,7 @@
 //
 // It looks for corners nearer than the resolution, short curves, narrow strips between curves, thin
 // gaps between surfaces and sharp wedges, and zips them: both sides become one triangle of several
-// surfaces. What it finds and joins is not guaranteed; see the limits in
+// surfaces. It does not guarantee to find or join any place; see the limits in
 // docs/explanation/resolution.md.
 //
 // Guarantees, each of which is checked at the end:
@@ -13,7 +13,7 @@
 //     conforming (rounding.hpp).
 // (2) No point of a surface is farther than max_move from where the surface was, and no point
 //     where it was is farther than that from it, apart from rounding errors of distances. This is
-//     shown for all of each triangle, by code that shares nothing with what moved it; where it
+//     shown for all of each triangle, by code that shares nothing with the moves; where it
 //     can't be shown, there is an error and no result. Surfaces of which nothing is left do not
 //     count; they are listed.
 // (3) Each block of the result is matched with the block before, or the outside, that most of it

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Names of blocks: those that people gave, where there are any, and others by what bounds them.
+// Names of blocks: those that people gave, where there are any, and others by the surfaces that
+// bound them.
 //
 // (a) The unit of a stratigraphic column. A block is of the unit whose base it lies on; one without
 //     a base is of the unit below the lowest base above it. Where an erosive base is below a block,
@@ -9,12 +10,13 @@
 //     the base of the lowest unit is "below UNIT".
 // (b) The block that a file states (StatedBlock).
 // (c) "below top, above base": the surfaces above and below it, without the boundary of the model;
-//     "inside salt" and "around salt" for a surface that closes around the block, or in it; what is
-//     beside it if there is nothing else: "west of F1".
-// Blocks with the same name are told apart by surfaces beside them, each time by the one at which
-// most of them differ: "Unit A, west of F1". If that does not suffice, a number follows, in the
-// order of the blocks: "Unit A, 2". All names are different, and one line long. They do not depend
-// on the order of the surfaces if these have different names. Cost: linear, n log n in the blocks.
+//     "inside salt" and "around salt" for a surface that closes around the block, or in it; the
+//     surfaces at its sides if there are no others: "west of F1".
+// Blocks with the same name are told apart by surfaces at their sides, each time by the one at
+// which most of them differ: "Unit A, west of F1". If that does not suffice, a number follows, in
+// the order of the blocks: "Unit A, 2". All names are different, and one line long. They do not
+// depend on the order of the surfaces if these have different names. Cost: linear, n log n in the
+// blocks.
 #pragma once
 
 #include <cstdint>
@@ -83,7 +85,7 @@ struct StatedBlock {
 /// instance for a block of several stated ones. Of several such ones it is the one whose borders
 /// have the most in common with the boundary of the block, the first among equals. Files differ in
 /// what the front of a border is, so that sides do not count. A hundredth of the area is left to
-/// gaps and to what rounding made of the file. Cost: linear.
+/// gaps and to the effect of rounding on the file. Cost: linear.
 std::vector<std::uint32_t> match_blocks(const Arrangement& arrangement, const Volumes& volumes,
                                         std::span<const StatedBlock> stated);
 

@@ -111,7 +111,7 @@ struct Structure {
 };
 
 /// Builds the structure. `volumes` must be those of the mesh; roles come from its surfaces. Blocks
-/// are named by what bounds them; name_blocks() gives them names that people gave.
+/// are named by their surfaces; name_blocks() gives them names that people gave.
 Structure build_structure(const Mesh& mesh, const Volumes& volumes);
 
 /// Lists the constants that decide the result and are not options.

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/is_external.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
@@ -55,7 +56,7 @@ Status check_options(const TetrahedraOptions& options) {
     if (!options.box)
         if (Status margin = check_length("margin", options.margin); !margin) return margin;
     if (!options.box && options.margin > constants.most_enlargement)
-        return bad_option(fmt::format("margin must be at most {:.3g}, not {:.3g}",
+        return bad_option(fmt::format("margin must be at most {}, not {}",
                                       constants.most_enlargement, options.margin));
     if (options.box) {
         const auto& [low, high] = *options.box;
@@ -125,14 +126,14 @@ Result<Box3> box_around(std::span<const Point3> points, const TetrahedraOptions&
         return bad_option("margin makes the box larger than numbers can be");
     for (const Point3& p : points)
         if (!strictly_inside(p, box))
-            return bad_option(fmt::format("{} leaves ({}, {}, {}) on or outside of the box",
-                                          options.box ? "box" : "margin", p.x, p.y, p.z));
+            return bad_option(fmt::format("{} leaves {} on or outside of the box",
+                                          options.box ? "box" : "margin", place_text(p)));
     if (!options.box || points.empty()) return box;
     const double times = length_of(box) / length_of(bounds_of(points));
     if (times > constants.most_enlargement)
-        return bad_option(fmt::format("box is {:.3g} times as long as the surfaces; at most {:.3g} "
+        return bad_option(fmt::format("box is {} times as long as the surfaces; at most {} "
                                       "can be filled",
-                                      times, constants.most_enlargement));
+                                      figure(times, 3), figure(constants.most_enlargement)));
     return box;
 }
 
@@ -281,14 +282,13 @@ Error with_causes(Error error, const Mesh& mesh) {
     const auto sharp = sharpest_angle(mesh);
     if (!sharp) return error;
     const ShortEdge shortest = shortest_edge(mesh);
-    const auto text = [](const Point3& p) { return fmt::format("({}, {}, {})", p.x, p.y, p.z); };
     error.code = ErrorCode::unsupported;
-    error.sentence +=
-        fmt::format("; the sharpest angle between triangles, {:.2g} degrees, is here, the shortest "
-                    "edge, {:.3g}, at {}; meshers fail at such places; improved surfaces without "
-                    "gaps and slivers have fewer of them",
-                    sharp->degrees, shortest.length, text(shortest.place));
-    error.place = text(sharp->place);
+    error.sentence += fmt::format(
+        "; the sharpest angle between triangles, {} degrees, is here, the shortest "
+        "edge, {}, at {}; meshers fail at such places; improved surfaces without "
+        "gaps and slivers have fewer of them",
+        figure(sharp->degrees, 2), figure(shortest.length, 3), place_text(shortest.place));
+    error.place = place_text(sharp->place);
     return error;
 }
 
@@ -310,7 +310,7 @@ public:
         mesh_(mesh),
         volumes_(volumes), domain_(domain), input_(input), scale_(scale), run_(run) {}
 
-    /// Returns the first result that holds; none if there is none. An error ends the work.
+    /// Returns the first result that holds, if there is one. An error ends the work.
     Result<std::optional<TetrahedralMesh>> operator()(const std::vector<Way>& ways,
                                                       const std::filesystem::path& helper) {
         std::optional<Error> first;

@@ -172,7 +172,7 @@ struct FilledBlocks {
     TetrahedraReport report;                   ///< likewise; with the outside, before splitting
     std::vector<std::string> block_names;      ///< names of the blocks, by block
     std::size_t added_nodes = 0;               ///< number of nodes that splitting added
-    std::optional<OptimiseReport> optimised{}; ///< what was improved; none: options said so, or the
+    std::optional<OptimiseReport> optimised{}; ///< the improvement; none: options said so, or the
                                                ///< checks found violations before
 };
 

@@ -18,7 +18,7 @@ constexpr double allowed_spacings = 5;
 /// The distance between the doubles in the binade of x, at least that of the denormals.
 double spacing_at(double x);
 
-/// An edge of a triangle, or a triangle: what is allowed in each coordinate.
+/// An edge of a triangle, or a triangle: the allowance in each coordinate.
 Point3 allowance(const Point3& a, const Point3& b);
 Point3 allowance(const std::array<Point3, 3>& triangle);
 

@@ -28,7 +28,7 @@ void check_orientation(const Subject& subject) {
         const auto& [a, b, c, d] = subject.made.tetrahedra[t];
         if (orient3d(v[a], v[b], v[c], v[d]) != Sign::Positive)
             subject.findings.add(TetrahedraDefect::no_volume,
-                                 "tetrahedron {} at {} is inverted or flat", t, at(v[a]));
+                                 "tetrahedron {} at {} is inverted or flat", t, place_text(v[a]));
     }
 }
 

@@ -77,7 +77,7 @@ DoubleSoup double_soup(const Tile& b, const std::vector<DoubleFace>& parts,
     return soup;
 }
 
-/// What is in the way of a mesh of doubles.
+/// The contacts and triangles in the way of a mesh of doubles.
 struct Unclean {
     std::vector<bool> is_in_way; ///< per point of the soup
     std::uint64_t count = 0;

@@ -32,7 +32,7 @@ struct ToldPlace {
     std::uint32_t point = 0, unused = 0;
 };
 
-/// What a coordinate of an input vertex became.
+/// The new value of a coordinate of an input vertex.
 struct HomeCoordinate {
     double in_frame = 0, given = 0;
     std::uint64_t axis = 0;

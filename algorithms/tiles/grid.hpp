@@ -40,7 +40,7 @@ struct TileGrid {
     }
 };
 
-/// Returns the grid for so many tiles over a box.
+/// Returns the grid of this number of tiles over a box.
 TileGrid grid_over(const Box& box, std::size_t tiles);
 
 /// Faces of a surface whose lowest corners are in a cell.

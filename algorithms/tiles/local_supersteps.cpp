@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::uint64_t nowhere = UINT64_MAX;
 
-/// What precedes the bytes of a message in a file.
+/// The head before the bytes of a message in a file.
 struct MessageHead {
     std::uint64_t from = 0, channel = 0, size = 0;
     std::uint64_t before = nowhere; ///< where the message before to the same tile is

@@ -28,7 +28,7 @@ void append_record(Bytes& bytes, const T& record) {
     std::memcpy(bytes.data() + at, &record, sizeof(T));
 }
 
-/// What one tile sends to the others in one step.
+/// The messages of one tile to the others in one step.
 class Outbox {
 public:
     explicit Outbox(std::size_t tiles) : to_(tiles) {}
@@ -62,7 +62,7 @@ private:
     std::vector<std::array<Bytes, channels>> to_; ///< per tile
 };
 
-/// What one tile received in one step.
+/// The messages that one tile received in one step.
 class Inbox {
 public:
     explicit Inbox(std::size_t tiles) : from_(tiles) {}

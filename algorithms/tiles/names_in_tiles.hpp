@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Names the volumes of a mesh that lies in tiles, by what bounds them (block_names.hpp, (c)).
+// Names the volumes of a mesh that lies in tiles, by the surfaces that bound them (block_names.hpp,
+// (c)).
 //
 // Guarantee: the names are those that build_structure() gives in the mesh of all pieces together. They
 // follow from areas of surfaces at volumes, summed up with errors of 1e-30 of them, so that they do not

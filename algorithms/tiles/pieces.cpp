@@ -96,7 +96,8 @@ Result<Mesh> PieceJoiner::finish() && {
                                          missing - has->begin()));
     }
     if (with_volumes_ != 0 && with_volumes_ != has_triangle_.size())
-        return bad_piece("some pieces tell the volumes beside their triangles, and others do not");
+        return bad_piece(
+            "some pieces tell the volumes on the sides of their triangles, and others do not");
     mesh_.surfaces_of = std::move(surfaces_).lists();
     mesh_.regions_of = std::move(regions_).lists();
     mesh_.parents_of = std::move(parents_).lists();

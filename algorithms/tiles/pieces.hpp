@@ -20,7 +20,7 @@ namespace terrane::tiles {
 /// (1) The mesh does not depend on how it was cut into pieces, nor on their order.
 /// (2) Each number must occur: of vertices at least once, with the same coordinates, of triangles once.
 /// (3) Intersection edges are left out.
-/// (4) Either all pieces tell the volumes beside their triangles, or none does.
+/// (4) Either all pieces tell the volumes on the sides of their triangles, or none does.
 class PieceJoiner {
 public:
     PieceJoiner(std::size_t vertices, std::size_t triangles);

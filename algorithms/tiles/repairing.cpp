@@ -43,7 +43,7 @@ struct ParentOfTriangle {
     std::uint32_t first = 0; ///< the first input triangle with the same corners
 };
 
-/// What a tile has besides the triangles that it sends.
+/// The data of a tile besides the triangles that it sends.
 struct Remainder {
     std::uint64_t triangles = 0;
     std::array<double, 3> largest{}; ///< absolute coordinate of their corners, per axis
@@ -92,7 +92,7 @@ Status send_near(Tile& b, Inbox& in, Outbox& out) {
     return Done{};
 }
 
-/// What the first tile has gathered, and what it does with it.
+/// The triangles that the first tile has gathered, and their repair.
 class Gathering {
 public:
     Gathering(const TiledReport& report, const RepairInput& input) :
@@ -396,7 +396,7 @@ Status take_changes(Tile& b, Inbox& in, Outbox& out, double max_move) {
     return Done{};
 }
 
-/// What all processes learn of the first tile.
+/// The outcome that all processes learn from the first tile.
 struct Outcome {
     bool is_waiting = false, has_all = false, is_clean = false;
     double max_move = 0;

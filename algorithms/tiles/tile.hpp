@@ -109,7 +109,7 @@ void release(std::vector<T>& array) {
     std::vector<T>().swap(array);
 }
 
-/// The state of one tile. What the members of a group mean is said where they are computed.
+/// The state of one tile. The functions that compute the members of a group explain them.
 struct Tile {
     std::uint32_t index = 0, count = 1; ///< of tiles
     bool wants_digest = false;

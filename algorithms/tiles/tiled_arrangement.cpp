@@ -23,7 +23,7 @@ namespace {
 using Exchange = Status (*)(Tile&, Inbox&, Outbox&);
 using Computation = Status (*)(Tile&, Inbox&, Outbox&, const Run&);
 
-/// A step, with its name and the work beside it.
+/// A step, with its name and the work next to it.
 struct NamedStep {
     std::string_view name;
     Exchange exchange;

@@ -27,6 +27,7 @@
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/tiles/supersteps.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane::tiles {
 
@@ -37,8 +38,8 @@ using FileReader = std::function<Result<std::vector<Surface>>(std::size_t file)>
 struct TiledOptions {
     std::size_t files = 0; ///< number of input files
     bool digest = false;   ///< whether the digest is computed, which costs more than all else
-    /// So many triangles near what is in the way of a mesh of doubles the first tile gathers at most, or
-    /// twice the average of a tile.
+    /// The first tile gathers at most this many triangles near the contacts in the way of a mesh of
+    /// doubles, or twice the average of a tile.
     std::uint64_t most_gathered = 65'536;
 };
 
@@ -51,7 +52,7 @@ struct RepairInTiles {
     bool is_moved = false;        ///< whether the input was moved and arranged again
 };
 
-/// What all processes know of the result.
+/// The result as all processes know it.
 struct TiledReport {
     bool clean = false;         ///< the doubles are a conforming mesh, by exact check of all pairs
     std::uint64_t contacts = 0; ///< pairs, points and triangles that are in the way
@@ -63,8 +64,7 @@ struct TiledReport {
     std::string digest{};                  ///< if it is wanted
     std::optional<RepairInTiles> repair{}; ///< if the nearest doubles were not conforming, but are
                                            ///< repaired
-    /// As Volumes::measures, once they are found (volumes_in_tiles.hpp).
-    std::optional<std::vector<double>> volumes{};
+    std::optional<Volumes> volumes{}; ///< without sides, once they are found (volumes_in_tiles.hpp)
     std::vector<std::string> volume_names{}; ///< likewise (names_in_tiles.hpp); [0] is "outside"
     Work largest{};                          ///< of each count the largest of any tile
     Work total{}; ///< of each count the sum over all tiles; memory: as largest

@@ -463,7 +463,7 @@ Status receive_measures(Tile& b, Inbox& in, Outbox&) {
 
 } // namespace
 
-Result<std::vector<double>> find_volumes_in_tiles(Supersteps& tiles) {
+Result<Volumes> find_volumes_in_tiles(Supersteps& tiles) {
     const std::pair<std::string_view, Status (*)(Tile&, Inbox&, Outbox&)> steps[] = {
         {"shells", share_edges},         {"shells", pair_sides},
         {"shells", join_shells_within},  {"nesting", gather_shells},
@@ -481,9 +481,11 @@ Result<std::vector<double>> find_volumes_in_tiles(Supersteps& tiles) {
         return all;
     });
     if (!bytes) return bytes.error();
-    std::vector<double> measures(bytes->size() / sizeof(double));
-    std::memcpy(measures.data(), bytes->data(), bytes->size());
-    return measures;
+    Volumes volumes;
+    volumes.measures.resize(bytes->size() / sizeof(double));
+    std::memcpy(volumes.measures.data(), bytes->data(), bytes->size());
+    volumes.total = std::exchange(volumes.measures[0], Volumes().measures[0]);
+    return volumes;
 }
 
 } // namespace terrane::tiles

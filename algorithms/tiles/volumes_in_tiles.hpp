@@ -10,16 +10,16 @@
 // component). Cost: that of find_volumes(), divided by the number of tiles as far as triangles balance.
 #pragma once
 
-#include <vector>
-
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/tiles/supersteps.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane::tiles {
 
 /// Finds the volumes of the nearest doubles after arrange_in_tiles(), which must have reported a
-/// conforming mesh. Returns their measures in all processes; piece_of() then tells the volumes beside each
-/// triangle. Errors: internal if triangles overlap, so that the mesh is not conforming.
-Result<std::vector<double>> find_volumes_in_tiles(Supersteps& tiles);
+/// conforming mesh. Returns them without sides in all processes; piece_of() then tells the volumes on
+/// both sides of each triangle. Errors: internal if triangles overlap, so that the mesh is not
+/// conforming.
+Result<Volumes> find_volumes_in_tiles(Supersteps& tiles);
 
 } // namespace terrane::tiles

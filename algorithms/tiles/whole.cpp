@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What needs the whole model: it is gathered in the first tile.
+// Steps that need the whole model: it is gathered in the first tile.
 #include <numeric>
 #include <utility>
 

@@ -115,7 +115,7 @@ private:
         Side side;
     };
 
-    /// What a segment's insertion leaves empty on one side of it.
+    /// The region that the insertion of a segment leaves empty on one side of it.
     struct Polygon {
         std::vector<Local> points; ///< along it, both ends of the segment included
         std::vector<Rim> rims;     ///< rims[k] between points[k] and points[k + 1]

@@ -20,7 +20,8 @@ struct MapGrid {
     std::size_t columns = 1, rows = 1; ///< along x and along y
 };
 
-/// What vertical lines through the centres of cells meet. Cells are counted along x, then y.
+/// Blocks and heights along vertical lines through the centres of cells. Cells are counted along x,
+/// then y.
 struct ColumnMaps {
     std::vector<double>
         heights; ///< per surface and cell: z of the highest point of the surface; NaN: none

@@ -123,7 +123,7 @@ struct Leading {
 
 } // namespace
 
-/// What stays the same for all motions.
+/// The values that all motions share.
 struct SharedPlaces::State {
     /// A surface at a place that several share.
     struct Member {

@@ -9,7 +9,7 @@
 //     several leaders count by their mean.
 // (4) A place of horizons on a fault, or on a boundary, slides along it: its vertical motion follows
 //     the plane of the fault there, or the line in which two faults meet, unless that is nearly level.
-// (5) What a surface moves at shared places beyond its own motion fades into it: along its
+// (5) The part of a motion at shared places that exceeds the surface's own fades into it: along its
 //     border evenly from edge to edge, to 0 at the corners of the border, where it turns by 30 degrees or more;
 //     then it is harmonic on the graph of its edges. So a fault whose cutoff lines move keeps its
 //     shape, and its triangles are stretched evenly.

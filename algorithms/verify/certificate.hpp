@@ -191,7 +191,7 @@ struct RoundedClaim {
     std::vector<std::uint32_t> vanished; ///< input triangles, sorted
 };
 
-/// What a certificate is about.
+/// The subject of a certificate.
 enum class CertificateKind : std::uint8_t {
     arrangement, ///< the arrangement of the surfaces as they are in the input files
     volumes,     ///< this, and the blocks of the mesh of doubles
@@ -229,11 +229,11 @@ public:
     // About an arrangement, as all kinds are but filled and layered.
     ArrangementClaim exact;              ///< the arrangement in exact numbers
     std::optional<RoundedClaim> rounded; ///< the mesh of doubles, if there is one
-    std::string digest;                ///< "sha256:" and 64 hexadecimal digits; see arrangement.hpp
-    std::optional<CutClaim> cut;       ///< what was left out; always there with sealed
-    std::optional<SealedClaim> sealed; ///< what was added to surfaces before
+    std::string digest;                  ///< "sha256:" and 64 hexadecimal digits; see arrangement.hpp
+    std::optional<CutClaim> cut;         ///< the left-out part; always there with sealed
+    std::optional<SealedClaim> sealed;   ///< triangles added to surfaces before
 
-    /// What is claimed beside; of the kinds arrangement, cut and sealed nothing.
+    /// The further claim; the kinds arrangement, cut and sealed have none.
     std::variant<std::monostate, BlocksClaim, FilledBlocksClaim, ImprovedClaim, FilledClaim,
                  LayeredClaim>
         beside;
@@ -247,7 +247,7 @@ public:
         return kinds.at(beside.index());
     }
 
-    // Return what is claimed beside; nullptr: nothing of this.
+    // Return the further claim; nullptr: it is of another kind.
     [[nodiscard]] const BlocksClaim* blocks() const { return blocks_in(*this); }
     [[nodiscard]] BlocksClaim* blocks() { return blocks_in(*this); }
     [[nodiscard]] const TetrahedraClaim* tetrahedra() const { return tetrahedra_in(*this); }

@@ -80,7 +80,7 @@ enum class Rule : std::uint8_t {
                       ///< number is not finite
     R54_attached,     ///< an added part is not attached along the border of its surface
     R55_ends,      ///< an added part ends free elsewhere than at a lateral side, or meets nothing
-    R56_trimmed,   ///< what is missing of a surface is not a whole part beyond another surface
+    R56_trimmed,   ///< the missing part of a surface is not a whole part beyond another surface
     R57_only_kept, ///< doubles lie where nothing was kept
     // Layers: see detail/layered.hpp.
     R60_layer_lists = 59, ///< as R1, in layers, or a number is not finite
@@ -122,7 +122,7 @@ struct Violation {
                                          ///< R50: none; R51, R52: a triangle
                                          ///< R60, R63, R65, R66: a triangle or none; R61: as R3 to
                                          ///< R5; R62: two triangles; R64: a triangle or an edge
-    std::string sentence;                ///< what is wrong
+    std::string sentence;                ///< names the flaw
 };
 
 /// Once this many pairs violate R5, no more are searched for: the claim is sufficiently refuted.
@@ -162,7 +162,7 @@ struct SurfaceChange {
     double max_limit = 0; ///< the largest that was accepted
 };
 
-/// What the verifier found.
+/// The findings of the verifier.
 struct Verdict {
     std::vector<Violation> violations; ///< sorted by rule and elements; none: the claims are true
     std::optional<Measured> measured;  ///< of the mesh of doubles; none if it was not judged
@@ -171,7 +171,7 @@ struct Verdict {
         change; ///< of surfaces that were changed; none if it was not judged
 };
 
-/// What an output file was compared with.
+/// The comparison by which an output file was judged.
 enum class OutputCheck : std::uint8_t {
     doubles,  ///< with all coordinates and triangles (or tetrahedra)
     numbers,  ///< with the numbers of blocks, interfaces and patches; not with all that it holds
@@ -179,7 +179,7 @@ enum class OutputCheck : std::uint8_t {
     hash_only ///< with its SHA-256 only: the verifier has no reader for the format
 };
 
-/// What the verifier found about an output file.
+/// The findings of the verifier about an output file.
 struct OutputVerdict {
     OutputCheck check = OutputCheck::doubles; ///< what it was compared with
     std::vector<Violation> violations;        ///< of R21; none: the file is the one it should be

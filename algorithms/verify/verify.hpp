@@ -65,7 +65,7 @@ std::vector<Violation> verify_conforming(std::span<const Point3> vertices,
 // (7) Filled surfaces have all that was given, and new triangles close whole borders without
 //     meeting others (R28, R29, R35, R36).
 // (8) Layers are the pointwise stack of the surfaces that they were made of (R60 to R66).
-// (9) The mesh of a volume of interest is what is inside of it, all of that and nothing else (R50
+// (9) The mesh of a volume of interest is the part inside of it, all of that and nothing else (R50
 //     to R52); (3) and (4) hold for the parts inside.
 // (10) Sealed and extended surfaces differ from those of the files by added triangles and by whole
 //      parts beyond other surfaces only, and by no more than their limits (R26, R53 to R57).
@@ -116,8 +116,7 @@ Verdict verify_rounded(std::span<const Surface> inputs, const ArrangementClaim& 
 OutputVerdict verify_output(std::string_view contents, const Certificate& certificate,
                             std::size_t output);
 
-/// Does the same for several files. What follows from the certificate for all of them is computed
-/// once.
+/// Verifies several files. The consequences of the certificate for all of them are computed once.
 class OutputVerifier {
 public:
     /// The certificate must outlive the object.

@@ -13,6 +13,7 @@
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
@@ -26,10 +27,6 @@ namespace {
 
 constexpr std::size_t most_named_sides =
     volume_of_interest::detail::boundary_tuning.most_named_sides;
-
-std::string text_of(const Point3& p) {
-    return fmt::format("({}, {}, {})", p.x, p.y, p.z);
-}
 
 /// Builds a closed body from two rings of corners, counterclockwise seen from above, and the
 /// triangulation of one ring.
@@ -253,7 +250,7 @@ Error contact_error(const CheckReport& report, std::span<const Surface> surfaces
     return {ErrorCode::improper_contact,
             fmt::format("the boundary meets itself: {} and {}, {}", name(c.triangles[0]),
                         name(c.triangles[1]), name_of(c.kind)),
-            text_of(c.place)};
+            place_text(c.place)};
 }
 
 /// Finds an edge at which the boundary is open or a wall inside of it ends.
@@ -267,8 +264,8 @@ std::optional<Error> open_edge(std::span<const Surface> surfaces, const Run& run
         found = Error{ErrorCode::not_closed,
                       fmt::format("the boundary is not closed: {} {} the edge to {}", sides.size(),
                                   sides.size() == 1 ? "triangle has" : "triangles have",
-                                  text_of(soup.points[high])),
-                      text_of(soup.points[low])};
+                                  place_text(soup.points[high])),
+                      place_text(soup.points[low])};
     });
     return found;
 }

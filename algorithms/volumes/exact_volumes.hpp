@@ -29,7 +29,7 @@ std::vector<std::string> partial_measures(const TriangleComplex& sheets, VolumeS
 /// Returns the double nearest to the measure whose parts are given.
 double measure_of_parts(std::span<const std::string> parts);
 
-/// Returns the exact measures as reduced fractions.
+/// Returns the exact measures as reduced fractions; [0] is the sum of all blocks.
 std::vector<std::string> exact_measures(const TriangleComplex& sheets, VolumeSides of_sides,
                                         std::size_t count, int base);
 

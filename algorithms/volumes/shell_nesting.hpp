@@ -7,7 +7,7 @@
 // the components inside it and by one shell of the component around it, if any: statements (1) and
 // (2) of docs/explanation/shell-nesting.md. For each component a line along an axis passes through
 // the inside of one of its triangles, shifted by (epsilon, epsilon^2) so that it meets no edge.
-// join_nested goes down each line, from the lowest side of its component to what is next below:
+// join_nested goes down each line, from the lowest side of its component to the next one below:
 // statement (4). Where hits of lines come from several tiles, sides between all consecutive
 // hits are joined: statement (3). Either joins all shells of a volume.
 #pragma once

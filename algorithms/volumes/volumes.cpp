@@ -169,6 +169,7 @@ Result<Volumes> find(const TriangleComplex& sheets, const Run& run) {
     if (!report(0.7)) return interrupted();
     step.next("measures");
     volumes.measures = measure_volumes(sheets, volumes.of_sides, volumes.measures.size());
+    volumes.total = std::exchange(volumes.measures[0], Volumes().measures[0]);
     step.stop();
     TERRANE_ASSERT(volumes.of_sides.size() == sheets.triangles.size());
     TERRANE_ASSERT_PARANOID(corners_below(volumes.of_sides, volumes.measures.size()));
@@ -187,6 +188,12 @@ std::vector<Triangle> planes_of(const Arrangement& a) {
     for (std::size_t t = 0; t < a.triangles.size(); ++t)
         planes.push_back(a.state->corners[a.parents_of[t][0]]);
     return planes;
+}
+
+/// Takes the sum of all blocks out of the place of the outside.
+ExactVolumes with_total(std::vector<std::string> measures) {
+    std::string total = std::exchange(measures[0], {});
+    return {std::move(measures), std::move(total)};
 }
 
 } // namespace
@@ -208,18 +215,19 @@ Result<Volumes> find_volumes(const Mesh& mesh, const Run& run) {
     });
 }
 
-std::vector<std::string> exact_volumes(const Arrangement& a, const Volumes& volumes, int base) {
+ExactVolumes exact_volumes(const Arrangement& a, const Volumes& volumes, int base) {
     const StandardArithmetic guard;
     const auto planes = planes_of(a);
     const auto edges = group_edges(a.triangles, a.vertices.size());
-    return exact_measures({a.state->points, a.vertices, a.triangles, edges, planes, &a.parents_of},
-                          volumes.of_sides, volumes.measures.size(), base);
+    return with_total(
+        exact_measures({a.state->points, a.vertices, a.triangles, edges, planes, &a.parents_of},
+                       volumes.of_sides, volumes.measures.size(), base));
 }
 
-std::vector<std::string> exact_volumes(const Mesh& mesh, const Volumes& volumes, int base) {
+ExactVolumes exact_volumes(const Mesh& mesh, const Volumes& volumes, int base) {
     const StandardArithmetic guard;
-    return exact_measures(MeshSheets(mesh.vertices, mesh.triangles).view(), volumes.of_sides,
-                          volumes.measures.size(), base);
+    return with_total(exact_measures(MeshSheets(mesh.vertices, mesh.triangles).view(),
+                                     volumes.of_sides, volumes.measures.size(), base));
 }
 
 } // namespace terrane

@@ -18,6 +18,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,9 +36,9 @@ struct Volumes {
     /// the volume behind it. They are equal if the triangle dangles, as at a fault tip.
     std::vector<std::array<std::uint32_t, 2>> of_sides;
     /// Per volume, in cubic units of the input: the double nearest to the exact measure (ties to
-    /// even; infinite beyond the largest double). [0] is the measure of all blocks together; for
-    /// the exact measures [1] + [2] + ... = [0] (see exact_volumes).
-    std::vector<double> measures = std::vector<double>(1);
+    /// even; infinite beyond the largest double). [0] is infinite: the outside has no end.
+    std::vector<double> measures{std::numeric_limits<double>::infinity()};
+    double total = 0; ///< the double nearest to the sum of the exact measures of all blocks
 
     /// Returns the number of blocks, without the outside.
     [[nodiscard]] std::size_t block_count() const { return measures.size() - 1; }
@@ -56,13 +57,18 @@ Result<Volumes> find_volumes(const Arrangement& arrangement, const Run& run = {}
 /// Errors: as above; bad_index, bad_number.
 Result<Volumes> find_volumes(const Mesh& mesh, const Run& run = {});
 
-/// Returns the exact measures as reduced fractions in a base (see fraction.hpp): "1", "125/6".
+/// Exact measures as reduced fractions: "1", "125/6".
+struct ExactVolumes {
+    std::vector<std::string> measures; ///< per volume; [0] is empty: the outside has no end
+    std::string total;                 ///< of all blocks: measures[1] + measures[2] + ...
+};
+
+/// Returns the exact measures in a base (see fraction.hpp).
 /// Cost: a number has about as many digits as all constructed corners of its block together; 10 000
 /// such corners take seconds, 100 000 take minutes.
-std::vector<std::string> exact_volumes(const Arrangement& arrangement, const Volumes& volumes,
-                                       int base = 10);
+ExactVolumes exact_volumes(const Arrangement& arrangement, const Volumes& volumes, int base = 10);
 /// The same for a mesh of doubles.
-std::vector<std::string> exact_volumes(const Mesh& mesh, const Volumes& volumes, int base = 10);
+ExactVolumes exact_volumes(const Mesh& mesh, const Volumes& volumes, int base = 10);
 
 /// Matches the blocks of a rounded mesh with those of its exact arrangement: returns, per volume of
 /// the mesh, its number among `exact`, or UINT32_MAX if rounding made it. [0] is 0; no number

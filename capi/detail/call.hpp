@@ -18,10 +18,10 @@
 
 namespace terrane::capi::detail {
 
-/// What a caller did wrong. It is thrown within a call and never leaves it.
+/// A mistake of the caller. It is thrown within a call and never leaves it.
 struct BadArgument {
     const char* argument; ///< its name
-    const char* sentence; ///< what is wrong
+    const char* sentence; ///< names the flaw
 };
 
 /// Hands an error to the caller, where it is wanted, and returns its code. Where memory does not
@@ -29,7 +29,7 @@ struct BadArgument {
 terrane_code report(const Error& failure, terrane_error** error) noexcept;
 terrane_code report(const BadArgument& bad, terrane_error** error) noexcept;
 
-/// Runs the work of a function, which returns a Status, and returns the code of what comes of it.
+/// Runs the work of a function, which returns a Status, and returns the code of its outcome.
 template <class Work>
 terrane_code call(terrane_error** error, const Work& work) noexcept {
     if (error) *error = nullptr;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What is behind the opaque handles of the C interface.
+// The types behind the opaque handles of the C interface.
 #pragma once
 
 #include <array>
@@ -79,7 +79,7 @@ struct Handle {
     bool is_whole = false; ///< handed out to be freed; false for a part of another handle
 };
 
-/// What two handles share if one was made from the other.
+/// The identity that two handles share if one was made from the other.
 using Origin = std::shared_ptr<const char>;
 
 } // namespace terrane::capi::detail
@@ -166,7 +166,7 @@ struct terrane_improved : terrane::capi::detail::Handle<terrane::capi::detail::K
 struct terrane_simplified : terrane::capi::detail::Handle<terrane::capi::detail::Kind::simplified> {
     explicit terrane_simplified(terrane::Simplified made, const terrane_mesh& before);
 
-    terrane::AtResolution at; ///< the mesh before, and what was joined
+    terrane::AtResolution at; ///< the mesh before, and the joined places
     terrane_surfaces surfaces{};
     terrane_arrangement arrangement;
     terrane_mesh mesh;

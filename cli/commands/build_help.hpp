@@ -3,7 +3,7 @@
 
 namespace terrane::cli {
 
-/// What `terrane build --help` says below the options.
+/// The text of `terrane build --help` below the options.
 inline constexpr auto build_footer =
     R"(One command runs the whole chain from one file. It reads the surfaces; where the project asks for
 it, it fills holes as `terrane fill` does and puts horizons in order as `terrane layer` does. It cuts

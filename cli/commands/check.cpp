@@ -60,7 +60,7 @@ Result<ExitStatus> check_files(const CheckCommand& command, Session& session) {
 
 Command check_command(CLI::App& program) {
     auto options = std::make_shared<CheckCommand>();
-    auto* app = program.add_subcommand("check", "Say exactly what is wrong with triangles");
+    auto* app = program.add_subcommand("check", "Find all flaws of triangles, exactly");
     add_inputs(*app, options->files);
     app->add_flag("--json", options->json, "All findings as JSON on standard output");
     app->add_flag("--all", options->all, "List all findings, not only the first of each kind");

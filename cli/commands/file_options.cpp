@@ -247,12 +247,12 @@ Status check_files_beside(const CLI::App& command, const std::vector<Output>& ou
     for (const NamedFile& file : files.outputs) named.push_back(file);
     for (const Output& output : outputs) {
         const auto refused = [&](const fs::path& file, const std::string& option) {
-            return Error{ErrorCode::bad_option,
-                         fmt::format("{} may be one of the files beside {}, whose names begin with "
-                                     "{}_",
-                                     file.string(), output.path,
-                                     fs::path(output.path).stem().string()),
-                         option};
+            return Error{
+                ErrorCode::bad_option,
+                fmt::format("{} may be one of the files next to {}, whose names begin with "
+                            "{}_",
+                            file.string(), output.path, fs::path(output.path).stem().string()),
+                option};
         };
         for (const NamedFile& file : named)
             if (may_be_beside(output.format, output.path, followed(file.path)))
@@ -263,7 +263,7 @@ Status check_files_beside(const CLI::App& command, const std::vector<Output>& ou
                 path.parent_path() /
                 (path.stem().string() + "_" + (other.format == Format::ugi ? ".ss" : ".vtu"));
             if (&other != &output && may_be_beside(output.format, output.path, beside))
-                return refused("a file beside " + other.path, "--output");
+                return refused("a file next to " + other.path, "--output");
         }
     }
     return Done{};

@@ -21,7 +21,7 @@ Status check_file_options(const CLI::App& command);
 /// of its results, and keeps the files from being replaced later.
 Status check_project_files(const CLI::App& command, const Project& project);
 
-/// Refuses, before any work, a command of which an output or an input may be one of the files beside an
+/// Refuses, before any work, a command of which an output or an input may be one of the files next to an
 /// output of tetrahedra. Errors: bad_option with the option.
 Status check_files_beside(const CLI::App& command, const std::vector<Output>& outputs);
 
@@ -31,9 +31,9 @@ std::vector<std::filesystem::path> files_to_keep(const CLI::App& command);
 /// Makes a command read each number as the nearest double, as files are read.
 void round_numbers_once(CLI::App& command);
 
-/// Refuses values of options that are no number where a number is needed: nothing, nan, infinity, which
-/// is also what is too large for a double, hexadecimal numbers, and whole ones that begin with 0.
-/// Errors: bad_option with the option.
+/// Refuses values of options that are no number where a number is needed: nothing, nan, infinity,
+/// to which numbers too large for a double belong, hexadecimal numbers, and whole ones that begin
+/// with 0. Errors: bad_option with the option.
 Status check_values(const CLI::App& command);
 
 } // namespace terrane::cli

@@ -154,8 +154,7 @@ Command view_command(CLI::App& program) {
 
 Command report_command(CLI::App& program) {
     auto command = std::make_shared<ModelCommand>();
-    auto* app =
-        program.add_subcommand("report", "Show a model, and what is wrong with it, in a page");
+    auto* app = program.add_subcommand("report", "Show a model and its flaws in a page");
     add_model_options(*app, *command);
     app->add_option("-o,--output", command->files.report, "The page; - is standard output")
         ->required()

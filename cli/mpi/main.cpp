@@ -134,9 +134,9 @@ void declare(CLI::App& program, MpiCommand& command) {
         ->required()
         ->type_name("OUT.pvtp");
     arrange->add_flag("--digest", command.digest, "Say the digest of the exact result");
-    arrange->add_flag(
-        "--volumes", command.volumes,
-        "Find the volumes that the surfaces enclose, and tell those beside each triangle");
+    arrange->add_flag("--volumes", command.volumes,
+                      "Find the volumes that the surfaces enclose, and tell those on both sides of "
+                      "each triangle");
     arrange->add_option("--stats", command.stats, "Write counts of work and messages as JSON")
         ->type_name("FILE.json");
     add_output_options(*arrange);

@@ -10,7 +10,7 @@
 
 namespace terrane::cli {
 
-/// What the value of an option is.
+/// The kind of the value of an option.
 enum class ValueKind {
     none,   ///< a flag
     text,   ///< anything: a number, a name of a surface
@@ -34,8 +34,8 @@ struct CommandRow {
     std::vector<OptionRow> options;        ///< in the order of --help
 };
 
-/// Returns the commands in the order of --help. What a command of a command takes ("bench paper") is
-/// in the row of the outer one, after a positional argument that names the inner ones.
+/// Returns the commands in the order of --help. The arguments of a command of a command ("bench
+/// paper") are in the row of the outer one, after a positional argument that names the inner ones.
 std::vector<CommandRow> command_table(const CLI::App& program);
 
 /// Returns the rows of positional arguments, or of options.

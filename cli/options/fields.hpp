@@ -44,7 +44,7 @@ void add_fields(CLI::App& app, Options& options) {
         options);
 }
 
-/// Returns the number that is given for an option; none if there is none, or another text.
+/// Returns the number that is given for an option; nothing if it is not given, or is no number.
 std::optional<double> number_given(const CLI::App& app, const std::string& option);
 
 /// Refuses numbers of described options that can't be meant, before anything is read.

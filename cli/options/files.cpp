@@ -288,6 +288,9 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
 void describe(std::span<const Surface> surfaces, Inputs& inputs) {
     inputs.labels = unique_labels(infos_of(surfaces));
     inputs.unit = detail::common_unit(surfaces);
+    inputs.extent = 0;
+    for (const Surface& s : surfaces)
+        inputs.extent = std::max(inputs.extent, extent_of(s.vertices));
 }
 
 std::string name_of_inputs(const FileOptions& options) {

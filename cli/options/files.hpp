@@ -15,6 +15,7 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/cli/session/quantities.hpp>
 #include <terrane/cli/session/session.hpp>
 #include <terrane/io/files.hpp>
 
@@ -58,7 +59,7 @@ struct Output {
 
 enum class OutputKind { surfaces, tetrahedra };
 
-/// Makes a bad_option error: `sentence` says what is wrong with the call, `place` is the option or
+/// Makes a bad_option error: `sentence` names the flaw of the call, `place` is the option or
 /// file.
 Error usage(std::string sentence, std::string place = {});
 
@@ -77,17 +78,20 @@ struct Inputs {
     std::vector<std::size_t> surfaces_of_file; ///< per input: number of surfaces read from it
     std::vector<StatedBlock> stated_blocks;    ///< that files state, by the surfaces
     std::string unit;                ///< of all coordinates, where files state one; else empty
+    double extent = 0;               ///< longest side of the box of a surface
     std::vector<std::string> labels; ///< per surface: its name, made unique, on one line
     std::size_t vertices = 0, triangles = 0;
     bool statistics_wanted = false; ///< whether --stats is given
     bool strict = false;            ///< warnings about them are errors
+
+    [[nodiscard]] Quantities quantities() const { return Quantities(unit, extent); }
 };
 
 /// Reads all inputs. Errors: those of read_surfaces; interrupted; unsupported if 32 bits can't
 /// count all vertices or triangles.
 Result<Inputs> read_inputs(const FileOptions& options, Session& session);
 
-/// Sets the labels and the unit of the inputs by their surfaces.
+/// Sets the labels, the unit and the extent of the inputs by their surfaces.
 void describe(std::span<const Surface> surfaces, Inputs& inputs);
 
 /// Returns a short name of the inputs: "basin.ts", "basin.ts and 3 more files".
@@ -103,7 +107,7 @@ Result<std::vector<std::filesystem::path>> write_output(const TetrahedralMesh& m
 /// Returns a clause that names what an output lacks although its format could hold it: the regions
 /// of a model in a .ml file. It is empty for an output that lacks nothing.
 std::string left_out_of(const Output& output);
-/// Says that an output is written, and what is not in it; empty for standard output.
+/// Says that an output is written, and names the parts not in it; empty for standard output.
 std::string wrote(const Output& output);
 
 /// Returns the stream for the summary: standard error if a file goes to standard output.

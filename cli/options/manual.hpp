@@ -10,7 +10,7 @@
 
 namespace terrane::cli {
 
-/// What all pages state.
+/// The facts that all pages state.
 struct ManualSettings {
     std::string version;             ///< "0.1.0"
     std::string description;         ///< of the program, a sentence

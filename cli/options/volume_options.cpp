@@ -172,7 +172,7 @@ Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& 
 }
 
 std::string text_of(const VolumeReport& report, const Inputs& inputs) {
-    const Quantities quantities(inputs.unit);
+    const Quantities quantities = inputs.quantities();
     std::string text = "volume of interest: areas inside, of all, and where surfaces end inside\n";
     constexpr std::size_t least_width = 7;
     const std::size_t width = column_width(inputs.labels, least_width);
@@ -199,7 +199,7 @@ std::string text_of(const VolumeReport& report, const Inputs& inputs) {
     for (std::size_t b = 0; b < std::min(report.borders.size(), most_borders); ++b)
         text += fmt::format(
             "  {} ends inside: along {} at {}\n", inputs.labels[report.borders[b].surface],
-            quantities.length(report.borders[b].length), text_of(report.borders[b].place));
+            quantities.length(report.borders[b].length), quantities.place(report.borders[b].place));
     if (report.borders.size() > most_borders)
         text += fmt::format("  and {} more\n", report.borders.size() - most_borders);
     return text;
@@ -207,12 +207,13 @@ std::string text_of(const VolumeReport& report, const Inputs& inputs) {
 
 std::string text_of(std::span<const ExtendedBorder> borders, const Inputs& inputs) {
     if (borders.empty()) return "extended: no surface ends inside\n";
-    const Quantities quantities(inputs.unit);
+    const Quantities quantities = inputs.quantities();
     std::string text = "borders inside the volume, extended to its boundary or too far from it\n";
     for (std::size_t b = 0; b < std::min(borders.size(), most_borders); ++b)
-        text += fmt::format("  {}: along {} at {}: {}\n", inputs.labels[borders[b].surface],
-                            quantities.length(borders[b].length), text_of(borders[b].place),
-                            borders[b].reached ? "extended" : "too far");
+        text +=
+            fmt::format("  {}: along {} at {}: {}\n", inputs.labels[borders[b].surface],
+                        quantities.length(borders[b].length), quantities.place(borders[b].place),
+                        borders[b].reached ? "extended" : "too far");
     if (borders.size() > most_borders)
         text += fmt::format("  and {} more\n", borders.size() - most_borders);
     return text;

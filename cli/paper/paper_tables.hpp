@@ -26,10 +26,10 @@ constexpr std::array paper_trees{Search::ab, Search::ab_balanced, Search::ab_med
 using MethodTimes = std::array<double, paper_methods.size()>;
 constexpr double not_measured = -1;
 
-/// What the arrangement spends its time on.
+/// The steps of which the times are measured.
 constexpr std::array arrange_steps{"prepare", "search", "intersect", "triangulate", "stitch"};
 
-/// What an alternating tree of the red boxes looks like; zeros if it was not measured.
+/// The shape of an alternating tree of the red boxes; zeros if it was not measured.
 struct TreeShape {
     std::size_t depth = 0;     ///< levels
     double mean_looked_at = 0; ///< mean number of boxes that the query for a T tests

@@ -73,27 +73,28 @@ std::string_view at_least(std::size_t contacts) {
     return contacts > RoundingReport::most_counted ? "at least " : "";
 }
 
-std::string rounding_text(const RoundingReport& r) {
+std::string rounding_text(const RoundingReport& r, const Quantities& quantities) {
     std::string text = "doubles: every vertex is at its exact place";
     if (r.max_move > 0)
-        text =
-            fmt::format("doubles: no vertex is more than {:.3g} from its exact place", r.max_move);
+        text = fmt::format("doubles: no vertex is more than {} from its exact place",
+                           quantities.length(r.max_move, 3));
     if (r.arranged_again)
-        text += fmt::format(", where surfaces cross after they moved by up to {:.3g}",
-                            r.surface_deviation);
+        text += fmt::format(", where surfaces cross after they moved by up to {}",
+                            quantities.length(r.surface_deviation, 3));
     if (r.rounds > 0)
         text += fmt::format("; {} of snapping, for {}{} that met improperly",
                             counted(r.rounds, "round"), at_least(r.naive_contacts),
                             counted(r.naive_contacts, "pair"));
     text += '\n';
     if (r.rounds > 0)
-        text += fmt::format("doubles: no surface is more than {:.3g} from where it was, nor any of "
-                            "its parts; {:.3g} is allowed\n",
-                            r.surface_deviation, r.max_allowed);
+        text += fmt::format("doubles: no surface is more than {} from where it was, nor any of "
+                            "its parts; {} is allowed\n",
+                            quantities.length(r.surface_deviation, 3),
+                            quantities.length(r.max_allowed, 3));
     if (r.vanished_length > 0)
         text += fmt::format("doubles: slivers that doubles can't hold vanished, which reached up "
-                            "to {:.3g} beyond the rest\n",
-                            r.vanished_length);
+                            "to {} beyond the rest\n",
+                            quantities.length(r.vanished_length, 3));
     if (r.moved_input_vertices > 0)
         text += fmt::format("doubles: {} had to give way\n",
                             r.moved_input_vertices == 1
@@ -109,9 +110,10 @@ std::string rounding_text(const RoundingReport& r) {
                                 : fmt::format("{} surfaces have", r.vanished_regions.size()));
     text += r.clean ? good("verified:") + " the doubles are a conforming mesh, by exact check\n"
                     : fmt::format("{} {}{} of triangles still meet improperly, and no "
-                                  "surface may move by more than {:.3g} to separate them\n",
+                                  "surface may move by more than {} to separate them\n",
                                   bad("NOT verified:"), at_least(r.contacts.size()),
-                                  counted(r.contacts.size(), "pair"), r.max_allowed);
+                                  counted(r.contacts.size(), "pair"),
+                                  quantities.length(r.max_allowed, 3));
     if (r.sufficient_limit > 0)
         text += fmt::format("--max-move {} would do\n", r.sufficient_limit);
     return text + text_of(r.pairs);
@@ -162,7 +164,7 @@ std::string summary(const Inputs& inputs, const Arranged& arranged) {
     if (arranged.sealed) text += text_of(*arranged.sealed, inputs);
     if (arranged.cut) text += text_of(*arranged.cut, inputs);
     if (arranged.merged) text += text_of(*arranged.merged, inputs);
-    text += rounding_text(arranged.rounded.report);
+    text += rounding_text(arranged.rounded.report, inputs.quantities());
     return text;
 }
 
@@ -178,7 +180,7 @@ std::string offending_pairs(const Inputs& inputs, const Arranged& arranged) {
     for (std::size_t i = 0; i < std::min(most_pairs, contacts.size()); ++i) {
         const ImproperContact& c = contacts[i];
         text += fmt::format("  {} and {}: {} at {}\n", name(c.triangles[0]), name(c.triangles[1]),
-                            name_of(c.kind), text_of(c.place));
+                            name_of(c.kind), inputs.quantities().place(c.place));
     }
     if (contacts.size() > most_pairs)
         text += fmt::format("  and {}{} more\n", at_least(contacts.size()),

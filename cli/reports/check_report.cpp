@@ -50,20 +50,21 @@ public:
         return fmt::format("improper contacts: {}{}\n", r_.contacts.size(), kinds_text(r_)) +
                listing(r_.contacts, all_, [this](const ImproperContact& c) {
                    return fmt::format("{} and {}: {} at {}", name(c.triangles[0]),
-                                      name(c.triangles[1]), name_of(c.kind), text_of(c.place));
+                                      name(c.triangles[1]), name_of(c.kind),
+                                      inputs_.quantities().place(c.place));
                });
     }
     [[nodiscard]] std::string degenerate() const {
         return fmt::format("triangles without area: {}\n", r_.degenerate.size()) +
                listing(r_.degenerate, all_, [this](std::uint32_t t) {
-                   return name(t) + ": corner at " + text_of(corner(t));
+                   return name(t) + ": corner at " + inputs_.quantities().place(corner(t));
                });
     }
     [[nodiscard]] std::string repeated() const {
         return fmt::format("repeated triangles: {}\n", r_.repeated.size()) +
                listing(r_.repeated, all_, [this](const auto& pair) {
                    return name(pair[0]) + " repeats " + name(pair[1]) + ": corner at " +
-                          text_of(corner(pair[0]));
+                          inputs_.quantities().place(corner(pair[0]));
                });
     }
     [[nodiscard]] std::string no_flaws() const {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/io/text/xml.hpp>
 
 namespace terrane::cli {
@@ -146,10 +147,10 @@ std::string legend(const Scale& scale) {
         text += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"8\" "
                             "fill=\"{}\"/>\n",
                             double(i) * width, panel + 8, width + 0.2, colours[i]);
-    return text + fmt::format("<text x=\"0\" y=\"{0:.0f}\">{1:.5g}</text>"
-                              "<text x=\"{2:.0f}\" y=\"{0:.0f}\" text-anchor=\"end\">{3:.5g}"
+    return text + fmt::format("<text x=\"0\" y=\"{0:.0f}\">{1}</text>"
+                              "<text x=\"{2:.0f}\" y=\"{0:.0f}\" text-anchor=\"end\">{3}"
                               "</text>\n",
-                              panel + 28, scale.low, panel / 2, scale.high);
+                              panel + 28, figure(scale.low, 5), panel / 2, figure(scale.high, 5));
 }
 
 std::string panel_at(double x, double y, std::string_view title, const std::string& contents) {
@@ -170,7 +171,7 @@ std::string row_of(const FillMap& map, double y) {
     return panel_at(at(0), y, map.title + ", before",
                     picture(frame, before, heights) + borders + legend(heights)) +
            panel_at(at(1), y, "after", picture(frame, after, heights) + borders + legend(heights)) +
-           panel_at(at(2), y, "expected error of what was interpolated",
+           panel_at(at(2), y, "expected error of interpolated points",
                     picture(frame, error, errors) + borders + legend(errors));
 }
 

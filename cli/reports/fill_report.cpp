@@ -29,9 +29,9 @@ const char* name_of_kind(const BorderLoop& loop) {
 /// Reports the error that the method expects, else the one measured at data left out.
 std::string error_text(const FillReport& r) {
     if (std::isfinite(r.expected_error))
-        return fmt::format("expected error {:.4g}", r.expected_error);
+        return fmt::format("expected error {}", figure(r.expected_error, 4));
     if (std::isfinite(r.validated_error))
-        return fmt::format("error {:.4g} at data left out", r.validated_error);
+        return fmt::format("error {} at data left out", figure(r.validated_error, 4));
     return "error not known";
 }
 
@@ -59,11 +59,10 @@ std::string holes_table(const FillWork& work) {
     for (const NumberedHole& hole : work.holes) {
         const BorderLoop& loop = loop_of(work, hole);
         text += fmt::format("{:>6}  {:<10} {:>8} {:>12} {:>12} {:>10} {:>10}  "
-                            "({}, {}, {}) {}\n",
+                            "{} {}\n",
                             hole.number, name_of_kind(loop), loop.vertices.size(),
                             figure(loop.length, 6), figure(loop.area, 6), figure(loop.width, 4),
-                            figure(loop.fault_throw, 4), figure(loop.centre.x, 8),
-                            figure(loop.centre.y, 8), figure(loop.centre.z, 6),
+                            figure(loop.fault_throw, 4), place_text(loop.centre),
                             work.surfaces[hole.task].label);
     }
     return text;
@@ -105,7 +104,7 @@ std::string contacts_text(const FillWork& work, std::span<const NewContact> cont
     std::string text;
     for (const NewContact& c : contacts.first(std::min(most_contacts, contacts.size())))
         text += fmt::format("  {}, hole {}: {} at {}\n", work.surfaces[c.task].label, c.hole,
-                            name_of(c.kind), text_of(c.place));
+                            name_of(c.kind), place_text(c.place));
     if (contacts.size() > most_contacts)
         text += fmt::format("  and {} more\n", contacts.size() - most_contacts);
     return text;

@@ -25,14 +25,14 @@ std::string quality_row(const char* name, const QualityReport& q) {
                        figure(q.edge_length.mean, 4), figure(q.edge_length.max, 4));
 }
 
-std::string worst_text(const Improved& improved) {
+std::string worst_text(const Improved& improved, const Quantities& quantities) {
     const ImproveReport& r = improved.report;
     if (r.after.worst == UINT32_MAX) return {};
     const Mesh& m = improved.mesh;
     const Triangle& t = m.triangles[r.after.worst];
     return fmt::format("worst: triangle {} of {}, q {:.4f}, at {}: {}\n", r.after.worst,
                        one_line(m.surfaces[m.surfaces_of[r.after.worst][0]].name), r.after.q.min,
-                       text_of(m.vertices[t[0]]), name_of(r.worst_cause));
+                       quantities.place(m.vertices[t[0]]), name_of(r.worst_cause));
 }
 
 /// Explains why edges may be longer or shorter than wanted.
@@ -55,7 +55,7 @@ std::string deviation_text(const ImprovedAndMeasured& measured, const Inputs& in
         share = deviations[s].out / r.bound_of[s];
         where = s;
     }
-    const Quantities quantities(inputs.unit);
+    const Quantities quantities = inputs.quantities();
     return fmt::format("deviation: {} is shown to be within {} of what it was, measured {}; "
                        "the others keep farther below their bounds; from old to new measured {}, "
                        "{}\n{} the improved mesh is conforming, by exact check\n",
@@ -99,14 +99,14 @@ std::string volumes_text(const Improved& improved, const Quantities& quantities)
         [](const VolumeChange& a, const VolumeChange& b) { return a.percent() > b.percent(); });
     auto text =
         fmt::format("volumes: {}, {} before, {} after{}\n", counted(changes.size(), "block"),
-                    quantities.volume(improved.volumes_before.measures[0], digits),
-                    quantities.volume(improved.volumes.measures[0], digits),
+                    quantities.volume(improved.volumes_before.total, digits),
+                    quantities.volume(improved.volumes.total, digits),
                     changes.size() > few ? "; those that changed most:" : "");
     if (changes.size() > few) changes.resize(few);
     for (const VolumeChange& c : changes)
-        text += fmt::format("  block {}: {} before, {} after, changed by {:.2g} %\n", c.block,
+        text += fmt::format("  block {}: {} before, {} after, changed by {} %\n", c.block,
                             quantities.volume(c.before, digits), quantities.volume(c.after, digits),
-                            c.percent());
+                            figure(c.percent(), 2));
     return text;
 }
 
@@ -146,9 +146,9 @@ bool keeps_volumes(const ImprovedAndMeasured& measured, bool strict,
         largest = std::max(largest, c.percent());
     const double most = options.max_volume_change;
     if (largest <= most) return true;
-    warn(fmt::format("the volume of a block changed by {:.3g} %, more than {:.3g} %; try a smaller "
+    warn(fmt::format("the volume of a block changed by {} %, more than {} %; try a smaller "
                      "deviation",
-                     largest, most));
+                     figure(largest, 3), figure(most, 3)));
     return !strict;
 }
 
@@ -159,13 +159,12 @@ std::string improve_text(const ImprovedAndMeasured& measured, const Inputs& inpu
                                    "max  edges min, mean, max{}\n",
                                    inputs.unit.empty() ? "" : ", " + inputs.unit);
     text += quality_row("before", r.before) + quality_row("after", r.after);
-    text += worst_text(improved);
+    text += worst_text(improved, inputs.quantities());
     text += lengths_text(r);
     text +=
         fmt::format("{} splits, {} collapses, {} swaps, {} moves; {} curves and {} corners kept\n",
                     r.splits, r.collapses, r.swaps, r.moves, r.curves, r.corners);
-    return text + volumes_text(improved, Quantities(inputs.unit)) +
-           deviation_text(measured, inputs);
+    return text + volumes_text(improved, inputs.quantities()) + deviation_text(measured, inputs);
 }
 
 void add_statistics(Json& json, const ImprovedAndMeasured& measured) {

@@ -15,17 +15,17 @@
 namespace terrane::cli {
 namespace {
 
-std::string line_of(const std::string& label, const LayerReport& r) {
+std::string line_of(const std::string& label, const LayerReport& r, const Quantities& quantities) {
     if (r.dropped == 0) return fmt::format("  {}: nothing to replace\n", label);
-    auto text =
-        fmt::format("  {}: {} in {} replaced by {} of harder ones; area {} by {}; "
-                    "moved by {:.4g} at most\n",
-                    label, counted(r.dropped, "triangle"), counted(r.parts, "part"), r.taken,
-                    figure(r.dropped_area, 6), figure(r.taken_area, 6), r.largest_move);
+    auto text = fmt::format("  {}: {} in {} replaced by {} of harder ones; area {} by {}; "
+                            "moved by {} at most\n",
+                            label, counted(r.dropped, "triangle"), counted(r.parts, "part"),
+                            r.taken, quantities.area(r.dropped_area, 6),
+                            quantities.area(r.taken_area, 6), quantities.length(r.largest_move));
     if (r.step_length > 0)
         text += fmt::format("  {}: harder ones end over or under it, which leaves steps along "
-                            "{:.4g}\n",
-                            label, r.step_length);
+                            "{}\n",
+                            label, quantities.length(r.step_length));
     return text;
 }
 
@@ -51,7 +51,8 @@ void add_statistics(Json& json, const Inputs& inputs, const Layered& layered) {
 std::string text_of(const Inputs& inputs, const Layered& layered) {
     const auto& reports = layered.reports;
     auto text = counted(reports.size(), "layer") + ", from the top down:\n";
-    for (const LayerReport& r : reports) text += line_of(inputs.labels[r.surface], r);
+    for (const LayerReport& r : reports)
+        text += line_of(inputs.labels[r.surface], r, inputs.quantities());
     const bool has_steps = std::any_of(reports.begin(), reports.end(),
                                        [](const LayerReport& r) { return r.step_length > 0; });
     if (layered.is_stack())
@@ -59,9 +60,9 @@ std::string text_of(const Inputs& inputs, const Layered& layered) {
             "{} the doubles are a conforming mesh, and no layer is above one that is higher in "
             "the order{}, by exact checks\n",
             good("verified:"),
-            has_steps
-                ? fmt::format(" (except within {:.2g} of the lines of steps)", layered.step_width)
-                : "");
+            has_steps ? fmt::format(" (except within {} of the lines of steps)",
+                                    inputs.quantities().length(layered.step_width, 2))
+                      : "");
     return text + text_of(layered.rounded.report.pairs);
 }
 
@@ -71,12 +72,12 @@ std::string flaws_text(const Layered& layered) {
     if (report.clean && out_of_order.empty()) return {};
     if (report.clean)
         return complaint(fmt::format(
-            "{} of triangles of layers are out of order in doubles, the first at {}, by {:.3g}",
-            counted(out_of_order.size(), "pair"), text_of(out_of_order[0].place),
-            out_of_order[0].depth));
+            "{} of triangles of layers are out of order in doubles, the first at {}, by {}",
+            counted(out_of_order.size(), "pair"), place_text(out_of_order[0].place),
+            figure(out_of_order[0].depth, 3)));
     return complaint(fmt::format("{} of triangles meet improperly in doubles, the first at {}",
                                  counted(report.contacts.size(), "pair"),
-                                 text_of(report.contacts.at(0).place)));
+                                 place_text(report.contacts.at(0).place)));
 }
 
 } // namespace terrane::cli

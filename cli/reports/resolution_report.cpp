@@ -67,7 +67,7 @@ std::string contacts_text(const SimplifyReport& report, const Inputs& inputs) {
 } // namespace
 
 std::string text_of(const SimplifyReport& report, const Inputs& inputs) {
-    const Quantities quantities(inputs.unit);
+    const Quantities quantities = inputs.quantities();
     auto text = fmt::format(
         "resolution {}: {} joined, {} of curves and {} of surfaces zipped, {} divided\n",
         quantities.length(report.resolution), counted(report.corners, "corner"),
@@ -94,7 +94,7 @@ std::string text_of(const SimplifyReport& report, const Inputs& inputs) {
                         reasons_of(report));
     return text + listed(report.left, [&](const LeftAlone& left) {
                return fmt::format("    {} apart at {}: {}\n", quantities.length(left.distance, 3),
-                                  text_of(left.place), name_of(left.reason));
+                                  quantities.place(left.place), name_of(left.reason));
            });
 }
 

@@ -13,7 +13,7 @@
 
 namespace terrane::cli {
 
-/// Says what was joined, what changed by it, and what was left alone; 20 of each at most.
+/// Lists joined places, the changes by joining, and places left alone; 20 of each at most.
 std::string text_of(const SimplifyReport& report, const Inputs& inputs);
 
 /// Reports on arranged surfaces if they were simplified, as text and in `json`; empty otherwise.

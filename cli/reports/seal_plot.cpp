@@ -47,9 +47,9 @@ public:
         const double step = std::ceil((high_ - low_) / 10);
         for (double decade = low_; decade <= high_; decade += step)
             out += fmt::format("<path d=\"M{0:.1f} {1:.1f}v5\" stroke=\"black\"/>\n"
-                               "<text x=\"{0:.1f}\" y=\"{2:.1f}\" text-anchor=\"middle\">{3:g}"
+                               "<text x=\"{0:.1f}\" y=\"{2:.1f}\" text-anchor=\"middle\">{3}"
                                "</text>\n",
-                               at(std::pow(10, decade)), y0, y0 + 20, std::pow(10, decade));
+                               at(std::pow(10, decade)), y0, y0 + 20, figure(std::pow(10, decade)));
         return out;
     }
 
@@ -137,7 +137,7 @@ std::string blocks(const SealAdvice& advice, const Axis& axis, const Quantities&
 
 std::string seal_plot(const SealAdvice& advice, const Inputs& inputs) {
     const Axis axis(advice);
-    const Quantities quantities(inputs.unit);
+    const Quantities quantities = inputs.quantities();
     const double whole_width = plot_left + plot_width + plot_right,
                  whole_height = plot_top + 2 * plot_height + plot_between + below;
     std::string out =

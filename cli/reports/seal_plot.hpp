@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Draws what is known about gaps, to choose the distance within which they are closed.
+// Draws the widths of gaps, so that a distance for closing them can be chosen.
 #pragma once
 
 #include <string>

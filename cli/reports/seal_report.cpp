@@ -37,26 +37,26 @@ const char* sentence_for(OpenReason reason) {
 
 /// Names the distances: "20 m", "20 m, F1/F2 10 m" or, by rules alone, "F1/F2 10 m".
 std::string distances_text(const SealReport& report, const Inputs& inputs) {
-    const Quantities quantities(inputs.unit);
-    std::string text = report.distance > 0 ? quantities.length(report.distance, 15) : "";
+    const Quantities quantities = inputs.quantities();
+    std::string text = report.distance > 0 ? quantities.length(report.distance, 6) : "";
     for (const SealRule& rule : report.rules) {
         text += text.empty() ? "" : ", ";
         text += inputs.labels[rule.surface];
         if (rule.other) text += "/" + inputs.labels[*rule.other];
-        text += " " + quantities.length(rule.distance, 15);
+        text += " " + quantities.length(rule.distance, 6);
     }
     return text;
 }
 
 std::string open_text(const SealReport& report, const Inputs& inputs) {
-    const Quantities quantities(inputs.unit);
+    const Quantities quantities = inputs.quantities();
     std::string text;
     for (std::size_t i = 0; i < std::min(report.open.size(), most_open); ++i) {
         const OpenGap& gap = report.open[i];
         text += fmt::format(
             "  left open: {} by {} along {}, up to {} apart at {}: {}\n", inputs.labels[gap.from],
             gap.from == gap.to ? "itself" : inputs.labels[gap.to], quantities.length(gap.length),
-            quantities.length(gap.width, 2), text_of(gap.place), sentence_for(gap.reason));
+            quantities.length(gap.width, 2), quantities.place(gap.place), sentence_for(gap.reason));
     }
     if (report.open.size() > most_open)
         text += fmt::format("  and {} more\n", report.open.size() - most_open);
@@ -66,7 +66,7 @@ std::string open_text(const SealReport& report, const Inputs& inputs) {
 } // namespace
 
 std::string text_of(const SealReport& report, const Inputs& inputs) {
-    const Quantities quantities(inputs.unit);
+    const Quantities quantities = inputs.quantities();
     const auto distance = distances_text(report, inputs);
     if (report.changes.empty())
         return fmt::format("sealed by at most {}: no gap is so small\n", distance) +
@@ -79,7 +79,7 @@ std::string text_of(const SealReport& report, const Inputs& inputs) {
         const SealChange& c = report.changes[i];
         text += fmt::format("  {} {} along {}, by up to {} at {}: {} {}\n",
                             inputs.labels[c.surface], name_of(c.kind), quantities.length(c.length),
-                            quantities.length(c.largest, 2), text_of(c.place),
+                            quantities.length(c.largest, 2), quantities.place(c.place),
                             counted(c.triangles, "triangle"),
                             c.kind == SealKind::extended ? "more" : "less");
     }
@@ -120,7 +120,7 @@ Json json_of(const SealReport& report) {
 }
 
 std::string text_of(const SealChoice& choice, const Inputs& inputs) {
-    const Quantities quantities(inputs.unit);
+    const Quantities quantities = inputs.quantities();
     auto text = fmt::format("gaps up to {}, a fifth of the median edge:\n",
                             quantities.length(choice.widest, 3));
     for (const GapBreak& b : choice.breaks)
@@ -128,7 +128,7 @@ std::string text_of(const SealChoice& choice, const Inputs& inputs) {
                             counted(b.gaps, "border edge"), quantities.length(b.low, 3),
                             quantities.length(b.length), quantities.length(b.high, 3));
     if (choice.breaks.empty()) return text + "  no natural break: nothing is sealed\n";
-    return text + fmt::format("  chosen distance: {}\n", quantities.length(choice.distance, 15));
+    return text + fmt::format("  chosen distance: {}\n", quantities.length(choice.distance, 6));
 }
 
 void add_statistics(Json& json, const SealChoice& choice) {
@@ -146,7 +146,7 @@ void add_statistics(Json& json, const SealChoice& choice) {
 }
 
 std::string text_of(const SealAdvice& advice, const Inputs& inputs) {
-    const Quantities quantities(inputs.unit);
+    const Quantities quantities = inputs.quantities();
     auto text = text_of(advice.choice, inputs);
     text += fmt::format("  {:>10}  {:>6}  {:>5}  {:>7}  {:>9}  {:>10}  {:>10}\n", "distance",
                         "blocks", "small", "changes", "triangles", "along", "left open");

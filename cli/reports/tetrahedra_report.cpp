@@ -33,18 +33,20 @@ Comparison compared(const TetrahedraReport& report) {
     return result;
 }
 
-std::string volumes_text(const TetrahedraReport& report) {
+std::string volumes_text(const TetrahedraReport& report, const Quantities& quantities) {
     const Comparison c = compared(report);
     auto text = fmt::format("volumes: {} of {} exactly their tetrahedra", c.equal,
                             counted(c.blocks, "block"));
     if (c.equal < c.blocks)
-        text += fmt::format(", the others within {:.3g} (vertices rounded)", c.most_difference);
+        text += fmt::format(", the others within {} (vertices rounded)",
+                            quantities.volume(c.most_difference, 3));
     return text + "\n";
 }
 
 std::string dihedral_text(const TetrahedraShape& shape) {
-    auto text = fmt::format("dihedral angles {:.3g} to {:.4g} degrees, mean {:.3g}\n",
-                            shape.dihedral.least, shape.dihedral.largest, shape.dihedral.mean);
+    auto text =
+        fmt::format("dihedral angles {} to {} degrees, mean {}\n", figure(shape.dihedral.least, 3),
+                    figure(shape.dihedral.largest, 4), figure(shape.dihedral.mean, 3));
     for (std::size_t i = 0; i < dihedral_bins; ++i)
         if (shape.dihedral_histogram[i] > 0)
             text += fmt::format("  {:>4} - {:<5} {:>9}\n", 10 * i, 10 * (i + 1),
@@ -69,10 +71,10 @@ std::string radius_edge_text(const TetrahedraShape& shape) {
 }
 
 std::string quality_text(const TetrahedraShape& shape) {
-    return fmt::format(
-        "SICN {:.3g} to {:.3g}, mean {:.3g}; mean ratio {:.3g} to {:.3g}, mean {:.3g}\n",
-        shape.sicn.least, shape.sicn.largest, shape.sicn.mean, shape.mean_ratio.least,
-        shape.mean_ratio.largest, shape.mean_ratio.mean);
+    return fmt::format("SICN {} to {}, mean {}; mean ratio {} to {}, mean {}\n",
+                       figure(shape.sicn.least, 3), figure(shape.sicn.largest, 3),
+                       figure(shape.sicn.mean, 3), figure(shape.mean_ratio.least, 3),
+                       figure(shape.mean_ratio.largest, 3), figure(shape.mean_ratio.mean, 3));
 }
 
 constexpr std::array<const char*, bad_causes> cause_keys{"input_angle", "thin_triangle", "gap",
@@ -87,16 +89,16 @@ std::size_t bad_count(const TetrahedraShape& shape) {
     return all;
 }
 
-std::string bad_text(const TetrahedraShape& shape) {
+std::string bad_text(const TetrahedraShape& shape, const Quantities& quantities) {
     const std::size_t all = bad_count(shape);
     const double share =
         shape.count == 0 ? 0 : 100 * static_cast<double>(all) / static_cast<double>(shape.count);
-    auto text = fmt::format("{} of {} tetrahedra have an angle below {} degrees ({:.3g} %)\n", all,
-                            shape.count, bad_angle, share);
+    auto text = fmt::format("{} of {} tetrahedra have an angle below {} degrees ({} %)\n", all,
+                            shape.count, bad_angle, figure(share, 3));
     for (std::size_t i = 0; i < bad_causes; ++i)
         if (const BadTetrahedra& bad = shape.bad[i]; bad.count > 0)
-            text += fmt::format("  {:>9} {}, down to {:.2g} at {}\n", bad.count, cause_texts[i],
-                                bad.least, text_of(bad.place));
+            text += fmt::format("  {:>9} {}, down to {} at {}\n", bad.count, cause_texts[i],
+                                figure(bad.least, 2), quantities.place(bad.place));
     return text;
 }
 
@@ -139,12 +141,13 @@ std::vector<std::size_t> counts_of_blocks(const TetrahedralMesh& mesh) {
 }
 
 std::string optimised_text(const OptimiseReport& report) {
-    return fmt::format(
-        "shapes improved in {}{}: dihedral angles were {:.3g} to {:.4g} degrees, "
-        "and are {:.3g} to {:.4g}\n",
-        report.passes == 1 ? std::string("a pass") : fmt::format("{} passes", report.passes),
-        report.is_cut_short ? ", up to the limit of effort" : "", report.before.least_angle,
-        report.before.largest_angle, report.after.least_angle, report.after.largest_angle);
+    return fmt::format("shapes improved in {}{}: dihedral angles were {} to {} degrees, "
+                       "and are {} to {}\n",
+                       report.passes == 1 ? std::string("a pass")
+                                          : fmt::format("{} passes", report.passes),
+                       report.is_cut_short ? ", up to the limit of effort" : "",
+                       figure(report.before.least_angle, 3), figure(report.before.largest_angle, 4),
+                       figure(report.after.least_angle, 3), figure(report.after.largest_angle, 4));
 }
 
 Json worst_json(const WorstShapes& worst) {
@@ -170,17 +173,19 @@ Json optimised_json(const OptimiseReport& report) {
             {"after", worst_json(report.after)}};
 }
 
-} // namespace
-
-std::string report_text(const TetrahedraReport& report) {
+/// Reports the verdict, the volumes and both histograms, whose empty classes are left out.
+std::string report_text(const TetrahedraReport& report, const Quantities& quantities) {
     const auto verdict =
         report.violations.empty()
             ? std::string("checked: each triangle is a union of faces, each block is one that "
                           "surfaces enclose\n")
             : fmt::format("not good: {}\n", counted(count_of(report), "violation"));
-    return verdict + volumes_text(report) + dihedral_text(report.shape) +
-           radius_edge_text(report.shape) + quality_text(report.shape) + bad_text(report.shape);
+    return verdict + volumes_text(report, quantities) + dihedral_text(report.shape) +
+           radius_edge_text(report.shape) + quality_text(report.shape) +
+           bad_text(report.shape, quantities);
 }
+
+} // namespace
 
 std::string violations_text(const TetrahedraReport& report) {
     std::string text;
@@ -212,8 +217,8 @@ Json report_json(const TetrahedraReport& report) {
 }
 
 std::string filled_text(const FilledBlocks& filled, const std::string& unit) {
-    const Quantities quantities(unit);
     const TetrahedralMesh& mesh = filled.tetrahedra;
+    const Quantities quantities(unit, extent_of(mesh.vertices));
     const auto counts = counts_of_blocks(mesh);
     const std::size_t first = counts[0] == 0 ? 1 : 0;
     auto text = fmt::format(
@@ -230,7 +235,7 @@ std::string filled_text(const FilledBlocks& filled, const std::string& unit) {
     if (!mesh.twins.empty())
         text += fmt::format("cut: {} more, {} of faces\n", counted(filled.added_nodes, "node"),
                             counted(mesh.twins.size(), "pair"));
-    return text + report_text(filled.report);
+    return text + report_text(filled.report, quantities);
 }
 
 void add_statistics(Json& json, const FilledBlocks& filled) {

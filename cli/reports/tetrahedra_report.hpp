@@ -12,9 +12,6 @@
 
 namespace terrane::cli {
 
-/// Reports the verdict, the volumes and both histograms, whose empty classes are left out.
-std::string report_text(const TetrahedraReport& report);
-
 /// Lists the violations, a line per kind.
 std::string violations_text(const TetrahedraReport& report);
 
@@ -29,8 +26,8 @@ std::string filled_text(const FilledBlocks& filled, const std::string& unit);
 /// Adds counts, volumes, checks and times of the tetrahedra.
 void add_statistics(Json& json, const FilledBlocks& filled);
 
-/// Says what was done to the improved surfaces where tetrahedra were bad: what the rounds came to in
-/// which triangles became smaller, and how far vertices moved; empty if nothing was done.
+/// Reports the changes of improved surfaces where tetrahedra were bad: the rounds in which
+/// triangles became smaller, and how far vertices moved; empty without a change.
 std::string changes_text(const Built& built, const std::string& unit);
 
 /// Adds these changes to the statistics of the tetrahedra, which are there.

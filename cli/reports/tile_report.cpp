@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/cli/session/console.hpp>
 
 namespace terrane::cli {
@@ -58,43 +59,43 @@ Json rounding_json(const TiledReport& r, const RoundingReport* whole) {
 std::string rounding_text(const TiledReport& r, const RoundingReport* whole) {
     if (whole != nullptr)
         return fmt::format("doubles: repaired in one process, in {}; no surface moved farther than "
-                           "{:.3g}\n",
-                           counted(whole->rounds, "round"), whole->surface_deviation);
+                           "{}\n",
+                           counted(whole->rounds, "round"), figure(whole->surface_deviation, 3));
     if (r.repair && r.repair->is_moved)
         return fmt::format("doubles: {} in the way; the input was moved and arranged again, in {}; "
-                           "no surface moved farther than {:.3g}\n",
+                           "no surface moved farther than {}\n",
                            counted(r.repair->contacts, "pair"), counted(r.repair->rounds, "round"),
-                           r.repair->surface_deviation);
+                           figure(r.repair->surface_deviation, 3));
     if (r.repair && r.repair->contacts == 0)
         return fmt::format("doubles: triangles without area dropped; no surface moved farther than "
-                           "{:.3g}\n",
-                           r.repair->surface_deviation);
+                           "{}\n",
+                           figure(r.repair->surface_deviation, 3));
     if (r.repair)
         return fmt::format("doubles: {} in the way repaired, in {}, with {} near; no surface moved "
-                           "farther than {:.3g}\n",
+                           "farther than {}\n",
                            counted(r.repair->contacts, "pair"), counted(r.repair->rounds, "round"),
-                           counted(r.repair->triangles, "triangle"), r.repair->surface_deviation);
-    return fmt::format("doubles: no vertex is more than {:.3g} from its exact place\n",
-                       r.deviation);
+                           counted(r.repair->triangles, "triangle"),
+                           figure(r.repair->surface_deviation, 3));
+    return fmt::format("doubles: no vertex is more than {} from its exact place\n",
+                       figure(r.deviation, 3));
 }
 
 /// Lists the blocks from 1 on, as there is nothing to say of the outside.
-Json volumes_json(const std::vector<double>& measures, const std::vector<std::string>& names) {
-    return {{"all", measures[0]},
-            {"blocks", std::vector(measures.begin() + 1, measures.end())},
+Json volumes_json(const Volumes& volumes, const std::vector<std::string>& names) {
+    return {{"all", volumes.total},
+            {"blocks", std::vector(volumes.measures.begin() + 1, volumes.measures.end())},
             {"names", std::vector(names.begin() + 1, names.end())}};
 }
 
-std::string volumes_text(const std::vector<double>& measures,
-                         const std::vector<std::string>& names) {
+std::string volumes_text(const Volumes& volumes, const std::vector<std::string>& names) {
     constexpr std::size_t most = 50; // listed on the terminal
-    auto text = fmt::format("{}, volume {:.9g} in all\n",
-                            counted(measures.size() - 1, "closed block"), measures[0]);
-    for (std::size_t v = 1; v <= std::min(measures.size() - 1, most); ++v)
-        text += fmt::format("  block {:<4} volume {:<16} {}\n", v,
-                            fmt::format("{:.9g}", measures[v]), names.at(v));
-    if (measures.size() - 1 > most)
-        text += fmt::format("  and {} more\n", measures.size() - 1 - most);
+    const std::size_t count = volumes.block_count();
+    auto text = fmt::format("{}, volume {} in all\n", counted(count, "closed block"),
+                            figure(volumes.total));
+    for (std::size_t v = 1; v <= std::min(count, most); ++v)
+        text += fmt::format("  block {:<4} volume {:<16} {}\n", v, figure(volumes.measures[v]),
+                            names.at(v));
+    if (count > most) text += fmt::format("  and {} more\n", count - most);
     return text;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What an arrangement in tiles did, as JSON and as text.
+// Reports an arrangement in tiles as JSON and as text.
 #pragma once
 
 #include <cstddef>

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/session/styles.hpp>
@@ -33,8 +34,8 @@ std::string output_text(const JudgedOutput& output, const std::string& what) {
                            "names, exact volumes, gaps and leaks are not verified{}\n",
                            path, names);
     case OutputCheck::float32:
-        return fmt::format("{}: holds these triangles rounded to float32, at most {:.3g} away{}\n",
-                           path, output.verdict.float32_move, names);
+        return fmt::format("{}: holds these triangles rounded to float32, at most {} away{}\n",
+                           path, figure(output.verdict.float32_move, 3), names);
     case OutputCheck::hash_only:
         break;
     }
@@ -50,7 +51,7 @@ std::string doubles_text(const Judgement& judged) {
     auto text = counted(rounded->triangles.size(), "triangle") + " of doubles, " +
                 (rounded->clean ? "conforming" : "not conforming, as it says");
     text += measured.deviation > 0
-                ? fmt::format(", at most {:.3g} from the exact result", measured.deviation)
+                ? fmt::format(", at most {} from the exact result", figure(measured.deviation, 3))
                 : ", at their exact places";
     if (measured.vanished > 0)
         text += fmt::format("; {} vanished", counted(measured.vanished, "input triangle"));
@@ -65,14 +66,13 @@ std::string blocks_text(const Judgement& judged) {
     const MeasuredBlocks& measured = *judged.verdict.blocks;
     auto text = counted(measured.blocks, "block") + " with their exact volumes";
     if (measured.tetrahedra > 0)
-        text += fmt::format("; {} that fill them, {}",
-                            measured.tetrahedra == 1
-                                ? std::string("1 tetrahedron")
-                                : fmt::format("{} tetrahedra", measured.tetrahedra),
-                            measured.volume_difference > 0
-                                ? fmt::format("with volumes that differ by {:.3g} at most",
-                                              measured.volume_difference)
-                                : "with the same volumes");
+        text += fmt::format(
+            "; {} that fill them, {}",
+            measured.tetrahedra == 1 ? std::string("1 tetrahedron")
+                                     : fmt::format("{} tetrahedra", measured.tetrahedra),
+            measured.volume_difference > 0 ? fmt::format("with volumes that differ by {} at most",
+                                                         figure(measured.volume_difference, 3))
+                                           : "with the same volumes");
     return text + "\n";
 }
 
@@ -83,9 +83,9 @@ std::string change_text(const Judgement& judged) {
     if (!change || improved == nullptr) return "";
     const auto& limits = improved->limits;
     return fmt::format("\nimproved: {}, conforming; the same regions, curves and corners, at most "
-                       "{:.3g} away, both ways",
+                       "{} away, both ways",
                        counted(improved->triangles.size(), "triangle"),
-                       limits.empty() ? 0 : *std::ranges::max_element(limits));
+                       figure(limits.empty() ? 0 : *std::ranges::max_element(limits), 3));
 }
 
 /// Says that layers are in their order: "2 layers: shale, salt".
@@ -101,12 +101,12 @@ std::string layers_text(const Judgement& judged) {
     text += fmt::format("; {}, conforming, in this order, ",
                         counted(layered.triangles.size(), "triangle"));
     if (!layered.thickness)
-        return text + fmt::format("at most {:.3g} from their surfaces or from the harder ones that "
+        return text + fmt::format("at most {} from their surfaces or from the harder ones that "
                                   "replace these",
-                                  layered.deviation);
+                                  figure(layered.deviation, 3));
     return text + fmt::format("with a thickness of at least {} where harder ones leave room; at "
-                              "most {:.3g} from where they must be",
-                              *layered.thickness, layered.deviation);
+                              "most {} from where they must be",
+                              figure(*layered.thickness), figure(layered.deviation, 3));
 }
 
 /// Says what was added to surfaces, with a line end before it; nothing if they were not changed.
@@ -119,7 +119,8 @@ std::string sealed_text(const Certificate& certificate) {
             if (s == certificate.sealed->surfaces.size()) return text;
             const SealedPart& part = certificate.sealed->surfaces[s++];
             if (part.limit > 0)
-                text += fmt::format(" {} by at most {:.4g}", one_line(surface.name), part.limit);
+                text +=
+                    fmt::format(" {} by at most {}", one_line(surface.name), figure(part.limit, 4));
         }
     return text;
 }
@@ -135,14 +136,15 @@ std::string cut_text(const Certificate& certificate) {
                     ? fmt::format("a polygon of {} corners", volume.corners.size())
                     : std::string("the polygon");
         if (volume.corners.size() <= 12)
-            for (const auto& [x, y] : volume.corners) text += fmt::format(" ({}, {})", x, y);
-        text += fmt::format(" between {} and {}", volume.between[0], volume.between[1]);
+            for (const auto& [x, y] : volume.corners) text += " " + place_text({x, y});
+        text +=
+            fmt::format(" between {} and {}", figure(volume.between[0]), figure(volume.between[1]));
     } else if (volume.shape == "hexahedron") {
         std::set<Point3> corners;
         for (const Surface& s : volume.boundary)
             corners.insert(s.vertices.begin(), s.vertices.end());
         text += "the box with the corners";
-        for (const Point3& p : corners) text += fmt::format(" ({}, {}, {})", p.x, p.y, p.z);
+        for (const Point3& p : corners) text += " " + place_text(p);
     } else {
         text += "the surface of";
         for (const CertifiedInput& input : std::span(certificate.inputs).last(volume.files))
@@ -164,9 +166,9 @@ std::string subject_text(const Judgement& judged) {
         for (const CertifiedInput& input : judged.certificate.inputs)
             for (const CertifiedSurface& s : input.surfaces) given += s.triangles;
         return fmt::format("{} given and kept; {} new, which close borders and meet no others of "
-                           "their surface, at most {:.3g} out of the boxes around these borders",
+                           "their surface, at most {} out of the boxes around these borders",
                            counted(given, "triangle"), filled->triangles.size() - given,
-                           judged.verdict.change->limit);
+                           figure(judged.verdict.change->limit, 3));
     }
     return fmt::format("{} exact triangles; {}{}{}", judged.certificate.exact.triangles.size(),
                        doubles_text(judged), change_text(judged), cut_text(judged.certificate));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What the verifier found about a certificate, as text and as JSON.
+// Reports the findings of the verifier about a certificate as text and as JSON.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace terrane::cli {
 
-/// An output file of the certificate, and what was found about it.
+/// An output file of the certificate, and the findings about it.
 struct JudgedOutput {
     std::size_t number = 0; ///< in the certificate
     std::string path;       ///< where it was looked for

@@ -96,10 +96,6 @@ ExitStatus finish(ExitStatus status) {
     return fail({ErrorCode::write_failed, "not all could be written", "standard output"});
 }
 
-std::string text_of(const Point3& p) {
-    return fmt::format("({}, {}, {})", p.x, p.y, p.z);
-}
-
 std::string counted(std::size_t count, std::string_view noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }

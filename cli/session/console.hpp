@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include <terrane/algorithms/core/result.hpp>
-#include <terrane/kernel/point.hpp>
 
 namespace terrane::cli {
 
@@ -59,9 +58,6 @@ bool has_standard_output();
 /// Returns `status`, or bad_input if standard output did not take all that was printed. Where the
 /// caller has closed it only results are missed, no summary.
 ExitStatus finish(ExitStatus status);
-
-/// Returns "(1.5, 2, -300.25)", with as many digits as are needed to read the same doubles back.
-std::string text_of(const Point3& p);
 
 /// Returns the count with its noun: "1 triangle", "2 triangles".
 std::string counted(std::size_t count, std::string_view noun);

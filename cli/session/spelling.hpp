@@ -14,7 +14,7 @@
 namespace terrane::cli {
 
 /// Returns a sentence about the first word of the command line that is no command, or no option of
-/// the command; none if there is none.
+/// the command; without such a word no sentence.
 std::optional<std::string> misspelt(const CLI::App& program, std::span<char* const> words);
 
 } // namespace terrane::cli

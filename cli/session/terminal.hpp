@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What the program shows, and where: colours, silence, and the progress line, which other output
+// The output of the program: colours, silence, and the progress line, which other output
 // never runs into. There is one terminal per process, so its state is the process's, too.
 #pragma once
 

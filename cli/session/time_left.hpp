@@ -10,9 +10,9 @@ namespace terrane::cli {
 /// Estimates how long a stage still takes, from the share of it that is done.
 ///
 /// (1) It says nothing before a twentieth of the stage is done and two seconds have passed.
-/// (2) What it says never rises. Where the estimate does rise, the last value stays; where it rises
-///     to more than twice that, nothing is said until it has come down again.
-/// (3) What it says is at least half a second: an estimate that time has overtaken is not said.
+/// (2) The estimate that it gives never rises. Where the estimate does rise, the last value stays;
+///     where it rises to more than twice that, nothing is said until it has come down again.
+/// (3) It gives at least half a second: an estimate that time has overtaken is not said.
 class TimeLeft {
 public:
     /// Takes the share that is done after `seconds`. A smaller share than before begins a new

@@ -18,14 +18,14 @@ constexpr std::size_t most_leaks = 20;
 constexpr std::size_t most_dangling = 40; ///< surfaces
 
 std::string blocks_text(const Inputs& inputs, const Model& model) {
-    const Quantities quantities(inputs.unit);
+    const Quantities quantities = inputs.quantities();
     const auto& blocks = model.structure.blocks;
     const std::size_t count = model.block_count();
     auto text = fmt::format("{}, volume {} in all\n", counted(count, "closed block"),
-                            quantities.volume(model.exact_volumes[0], 9));
+                            quantities.volume(model.total_volume));
     for (std::size_t b = 1; b <= std::min(count, most_listed_blocks); ++b)
         text += fmt::format(
-            "  block {:<4} volume {:<16} {}\n", b, quantities.volume(model.exact_volumes[b], 9),
+            "  block {:<4} volume {:<16} {}\n", b, quantities.volume(model.exact_volumes[b]),
             blocks[b].interfaces.empty() ? "(too thin for doubles)" : blocks[b].name);
     if (count > most_listed_blocks)
         text += fmt::format("  and {} more\n", count - most_listed_blocks);
@@ -56,7 +56,7 @@ std::string structure_text(const Model& model) {
 std::string dangling_text(const Inputs& inputs, const Model& model) {
     std::vector<double> area(inputs.labels.size()), dangling(inputs.labels.size()),
         border(inputs.labels.size());
-    const Quantities quantities(inputs.unit);
+    const Quantities quantities = inputs.quantities();
     for (const ModelInterface& i : model.structure.interfaces)
         for (const std::uint32_t s : i.surfaces) {
             area[s] += i.area;
@@ -76,10 +76,10 @@ std::string dangling_text(const Inputs& inputs, const Model& model) {
 }
 
 std::string leak_line(const Inputs& inputs, const Leak& l) {
-    const Quantities quantities(inputs.unit);
+    const Quantities quantities = inputs.quantities();
     return fmt::format("  {} ends by {}: along {}, {} apart, most at {}\n", inputs.labels[l.from],
                        l.from == l.to ? "itself" : inputs.labels[l.to], quantities.length(l.length),
-                       quantities.lengths(l.least, l.largest, 2), text_of(l.place));
+                       quantities.lengths(l.least, l.largest, 2), quantities.place(l.place));
 }
 
 std::string leak_lines(const Inputs& inputs, std::span<const Leak> leaks, const char* rest) {
@@ -93,8 +93,8 @@ std::string leak_lines(const Inputs& inputs, std::span<const Leak> leaks, const 
 
 /// Lists the leaks that separate blocks, counts the harmless ones, and returns the others.
 std::string judged_text(const Inputs& inputs, const LeakAdvice& advice, std::vector<Leak>& leaks) {
-    const Quantities quantities(inputs.unit);
-    const auto distance = quantities.length(advice.distance, 15);
+    const Quantities quantities = inputs.quantities();
+    const auto distance = quantities.length(advice.distance, 6);
     auto text =
         advice.separating.empty()
             ? fmt::format("leaks: no gap of up to {} separates blocks\n", distance)
@@ -138,7 +138,7 @@ void add_statistics(Json& json, const Model& model) {
     for (std::size_t b = 1; b < model.exact_volumes.size(); ++b)
         volumes.push_back(model.exact_volumes[b]);
     const Structure& s = model.structure;
-    json["volumes"] = {{"all", model.exact_volumes[0]},
+    json["volumes"] = {{"all", model.total_volume},
                        {"blocks", volumes},
                        {"too_thin", model.lost},
                        {"made_by_rounding", model.made},

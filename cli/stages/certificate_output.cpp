@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
@@ -82,10 +83,9 @@ void warn_of_deviation(const std::string& certificate, double deviation,
                        std::span<const Surface> inputs) {
     const double accepted = default_max_deviation(inputs);
     if (!(deviation > accepted)) return;
-    warn(fmt::format(
-        "{} states a deviation of {}, and terrane verify accepts at most {:.3g} unless it "
-        "is given --max-deviation {}",
-        certificate, deviation, accepted, deviation));
+    warn(fmt::format("{} states a deviation of {}, and terrane verify accepts at most {} unless it "
+                     "is given --max-deviation {}",
+                     certificate, figure(deviation), figure(accepted, 3), deviation));
 }
 
 namespace {

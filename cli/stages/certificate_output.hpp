@@ -53,7 +53,7 @@ bool is_certifiable(Format format, unsigned order);
 /// Returns the input files of a result.
 std::vector<SourceFile> certified_inputs(const std::vector<std::string>& files,
                                          const Inputs& inputs);
-/// Returns the files that were written. What went to a standard stream, which can't be read again,
+/// Returns the files that were written. Output to a standard stream, which can't be read again,
 /// is made once more.
 Result<std::vector<ResultFile>> certified_outputs(const std::vector<Output>& outputs,
                                                   const Mesh& mesh, bool ascii);

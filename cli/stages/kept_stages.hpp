@@ -20,8 +20,8 @@ std::filesystem::path stages_folder(const std::filesystem::path& results);
 
 /// The folder of kept results. It is made when the first stage is kept. Each file has a line with the
 /// format, the version of the program, the stage, the key of the result, the number and the hash of its
-/// bytes, and the code of all this by the user's key; then these bytes. What has no such line, or
-/// another one than the stage that is looked for, is not taken.
+/// bytes, and the code of all this by the user's key; then these bytes. A file without such a line,
+/// or with that of another stage, is not taken.
 class KeptStages {
 public:
     /// Keeps them next to the folder `results`. None, after a warning, if the user has no key.

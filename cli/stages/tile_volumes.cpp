@@ -28,8 +28,8 @@ Status find_tile_volumes(Supersteps& tiles, TiledReport& report, TilePiece& whol
         if (!volumes) return volumes.error();
         const Structure structure = build_structure(whole.mesh, *volumes);
         for (const ModelBlock& block : structure.blocks) report.volume_names.push_back(block.name);
-        report.volumes = std::move(volumes->measures);
         whole.volumes_of_sides = std::move(volumes->of_sides);
+        report.volumes = std::move(*volumes);
         return Done{};
     });
 }

@@ -66,9 +66,9 @@ Status check_outputs(const FileOptions& files) {
     return Done{};
 }
 
-/// Chooses so many tiles that one of them, with what is computed in it, takes half of the memory. A
-/// triangle is in 20 bytes of a file or more (binary STL has 50, OBJ 55), and takes 800 bytes in its
-/// tile at most, unless it meets many others.
+/// Chooses the number of tiles such that one of them, with its computation, takes half of the
+/// memory. A triangle is in 20 bytes of a file or more (binary STL has 50, OBJ 55), and takes 800
+/// bytes in its tile at most, unless it meets many others.
 std::size_t tiles_for(const FileOptions& files, std::uint64_t memory) {
     constexpr std::uint64_t per_byte = 800 / 20, most = 512;
     std::uint64_t bytes = 0;
@@ -107,7 +107,7 @@ Result<RepairedWhole> repair_whole(Supersteps& tiles, const TiledReport& report,
     return repair_in_one_process(tiles, run);
 }
 
-/// The mesh of all pieces, and the volumes beside each triangle, if they were found.
+/// The mesh of all pieces, and the volumes on the sides of each triangle, if they were found.
 struct Joined {
     Mesh mesh;
     std::vector<CellArray> volumes;
@@ -166,7 +166,7 @@ Status write_in_tiles(const FileOptions& files, Supersteps& tiles, InTiles& made
 void add_tilewise(CLI::App& command, TilewiseOptions& options) {
     command
         .add_option(memory_option, options.memory,
-                    "Work in tiles of space, one after the other, with files beside the output, "
+                    "Work in tiles of space, one after the other, with files next to the output, "
                     "in about so much memory; writes .vtp and .pvtp (default: the whole model in "
                     "memory)")
         ->check([](const std::string& text) {
@@ -178,7 +178,7 @@ void add_tilewise(CLI::App& command, TilewiseOptions& options) {
                      "With --memory: say the digest of the exact result");
     command.add_flag("--volumes", options.volumes,
                      "With --memory: find the volumes that the surfaces enclose; .pvtp files then "
-                     "tell those beside each triangle");
+                     "tell those on both sides of each triangle");
 }
 
 std::optional<std::uint64_t> bytes_of_size(std::string_view text) {

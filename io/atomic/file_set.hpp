@@ -20,7 +20,7 @@ namespace terrane {
 class FileSet {
 public:
     FileSet();
-    ~FileSet(); ///< removes what was not published
+    ~FileSet(); ///< removes the files that were not published
     FileSet(const FileSet&) = delete;
     FileSet& operator=(const FileSet&) = delete;
 
@@ -31,7 +31,7 @@ public:
     /// target, which is not added: bad_option where it would replace another result or a kept file,
     /// or one of them would be in the other.
     Status add(std::filesystem::path temporary, std::filesystem::path target);
-    /// Keeps a file from being replaced by what is added later.
+    /// Keeps a file from being replaced by files that are added later.
     void keep(const std::filesystem::path& file);
     /// Calls `tell` after publish() has succeeded, in order.
     void then(std::function<void()> tell);

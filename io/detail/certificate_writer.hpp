@@ -71,7 +71,7 @@ private:
     std::string& out_;
 };
 
-/// What all kinds of certificates begin with.
+/// The beginning of all kinds of certificates.
 struct CertificateHead {
     std::span<const InputRecord> files;    ///< in the order in which they were read
     std::span<const Surface> surfaces;     ///< of all files, in order

@@ -86,7 +86,7 @@ private:
     double least_ = 0; ///< the largest distance of a point that was looked at
 };
 
-/// What became of the triangles of an arrangement of grown surfaces.
+/// The origins of the triangles of an arrangement of grown surfaces.
 class Growth {
 public:
     Growth(const Arrangement& whole, const std::vector<std::uint32_t>& dropped,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What certificates say about surfaces that were sealed or extended.
+// Writes the claims of certificates about surfaces that were sealed or extended.
 #pragma once
 
 #include <cstdint>

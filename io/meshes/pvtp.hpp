@@ -16,8 +16,8 @@
 
 namespace terrane {
 
-/// Writes a piece: the file of to_vtp(), and the numbers of its points and cells; with the volumes beside
-/// each triangle, if there are any.
+/// Writes a piece: the file of to_vtp(), and the numbers of its points and cells; with the volumes
+/// on both sides of each triangle, if there are any.
 std::string to_vtp_piece(const tiles::TilePiece& piece, bool has_volumes = false);
 
 /// Writes the file that names the pieces, by their paths from its folder.

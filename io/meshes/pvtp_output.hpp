@@ -16,9 +16,9 @@ Status check_pvtp(const std::filesystem::path& path);
 
 /// Writes a piece per block into a folder next to `path` (folder_of_pieces), then the file that names them.
 /// Both get their names when all pieces are complete. All processes call it, and see the same folder.
-/// `has_volumes`: whether volumes were found (volumes_in_tiles.hpp); pieces then tell those beside each
-/// triangle. `whole`: if it is not null, it is the piece of the first tile, and those of others are
-/// empty.
+/// `has_volumes`: whether volumes were found (volumes_in_tiles.hpp); pieces then tell those on both
+/// sides of each triangle. `whole`: if it is not null, it is the piece of the first tile, and those
+/// of others are empty.
 /// Errors: cannot_open, write_failed, out_of_memory; then nothing is left.
 Status write_pvtp(tiles::Supersteps& tiles, const std::filesystem::path& path,
                   bool has_volumes = false, const tiles::TilePiece* whole = nullptr);

@@ -14,7 +14,7 @@ namespace terrane::page {
 
 /// Adds lines of the kind "improper contact" to the scene of a mesh, for the first `most` contacts
 /// of its triangles: where two triangles meet along a segment, this segment; where they overlap, the
-/// border of what they share; else a small cross.
+/// border of their common part; else a small cross.
 void add_contact_lines(Scene& scene, const Mesh& mesh, std::span<const ImproperContact> contacts,
                        std::size_t most = 100'000);
 

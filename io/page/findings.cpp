@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
@@ -153,9 +154,9 @@ void add_fillings(Findings& findings, const FillWork& work) {
         const auto where = fmt::format("hole {} of {}", hole.number, label);
         if (hole.report)
             findings.push_back({"filled hole",
-                                fmt::format("{}: {}, expected error {:.3g}", where,
+                                fmt::format("{}: {}, expected error {}", where,
                                             counted(hole.report->interpolated, "new vertex"),
-                                            hole.report->expected_error),
+                                            figure(hole.report->expected_error, 3)),
                                 loop.area, "area", loop.centre, loop.length / 2});
         else
             findings.push_back(
@@ -168,11 +169,11 @@ void add_fillings(Findings& findings, const FillWork& work) {
 void add_leaks(Findings& findings, const Model& model, const std::optional<LeakAdvice>& advice,
                const std::vector<std::string>& labels) {
     const auto add = [&](const char* kind, const Leak& l) {
-        findings.push_back(
-            {kind,
-             fmt::format("{} ends by {}, {:.3g} to {:.3g} apart", labels[l.from],
-                         l.from == l.to ? "itself" : labels[l.to], l.least, l.largest),
-             l.length, "length", l.place, std::max(8 * l.largest, l.length / 4)});
+        findings.push_back({kind,
+                            fmt::format("{} ends by {}, {} to {} apart", labels[l.from],
+                                        l.from == l.to ? "itself" : labels[l.to],
+                                        figure(l.least, 3), figure(l.largest, 3)),
+                            l.length, "length", l.place, std::max(8 * l.largest, l.length / 4)});
     };
     if (advice)
         for (const Leak& l : advice->separating) add("leak between blocks", l);
@@ -189,20 +190,21 @@ void add_seal(Findings& findings, const std::optional<SealReport>& sealed,
     if (sealed) {
         for (const ClosedGap& gap : sealed->closed)
             findings.push_back({"closed gap",
-                                fmt::format("{} was extended to {} across {:.3g}", labels[gap.from],
-                                            labels[gap.to], gap.width),
+                                fmt::format("{} was extended to {} across {}", labels[gap.from],
+                                            labels[gap.to], figure(gap.width, 3)),
                                 gap.length, "length", gap.place,
                                 std::max(8 * gap.width, gap.length)});
         for (const OpenGap& gap : sealed->open)
             findings.push_back(
                 {"open gap",
-                 fmt::format("between {} and {}, up to {:.3g} wide: {}", labels[gap.from],
-                             labels[gap.to], gap.width, in_words(name_of(gap.reason))),
+                 fmt::format("between {} and {}, up to {} wide: {}", labels[gap.from],
+                             labels[gap.to], figure(gap.width, 3), in_words(name_of(gap.reason))),
                  gap.length, "length", gap.place, std::max(8 * gap.width, gap.length / 4)});
     }
     if (!merged) return;
     for (const MergedBlock& block : merged->merged)
-        findings.push_back({"merged block", fmt::format("too small, {:.3g} thick", block.thickness),
+        findings.push_back({"merged block",
+                            fmt::format("too small, {} thick", figure(block.thickness, 3)),
                             block.volume, "volume", block.place, 4 * std::cbrt(block.volume)});
 }
 
@@ -226,9 +228,10 @@ void add_thin_blocks(Findings& findings, const Model& model) {
         if (thickness >= thin) continue;
         const auto& outline = model.structure.interfaces[block.interfaces[0]];
         const auto corners = corners_of(mesh.vertices, mesh.triangles[outline.triangles[0]]);
-        findings.push_back({"thin block",
-                            fmt::format("block {}, {}: {:.3g} thick", b, block.name, thickness),
-                            block.volume, "volume", centre_of(corners), 4 * std::sqrt(block.area)});
+        findings.push_back(
+            {"thin block",
+             fmt::format("block {}, {}: {} thick", b, block.name, figure(thickness, 3)),
+             block.volume, "volume", centre_of(corners), 4 * std::sqrt(block.area)});
     }
 }
 
@@ -243,8 +246,8 @@ void add_worst_triangles(Findings& findings, const Mesh& mesh,
         const auto angles = angles_of(corners[0], corners[1], corners[2]);
         findings.push_back(
             {"worst triangle",
-             fmt::format("{}: smallest angle {:.3g} degrees", surfaces_text(mesh, t, labels),
-                         std::min({angles[0], angles[1], angles[2]})),
+             fmt::format("{}: smallest angle {} degrees", surfaces_text(mesh, t, labels),
+                         figure(std::min({angles[0], angles[1], angles[2]}), 3)),
              1 - q[t], "1 - q", centre_of(corners), 4 * longest_edge(corners)});
     }
 }

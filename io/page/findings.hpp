@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What a page lists as findings: each with its kind, a sentence, a place, and a size by which its
+// The findings that a page lists: each with its kind, a sentence, a place, and a size by which its
 // kind is sorted.
 #pragma once
 
@@ -21,7 +21,7 @@ namespace terrane::page {
 struct Finding {
     std::string kind;    ///< "improper contact", "leak", ...
     std::string text;    ///< says what it is and which surfaces or blocks take part, but not the
-                         ///< size, which stands beside it
+                         ///< size, which stands next to it
     double size = 0;     ///< by which its kind is sorted, the largest first
     std::string measure; ///< what the size is: "length", "area", "volume", "angle", "quality"
     Point3 place{};      ///< to which a click flies

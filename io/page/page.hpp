@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The report page of a run: one HTML file with the model, what is wrong with it, and its numbers.
+// The report page of a run: one HTML file with the model, its flaws, and its numbers.
 #pragma once
 
 #include <functional>
@@ -26,7 +26,7 @@
 
 namespace terrane::page {
 
-/// What is known of a run before its results.
+/// The facts of a run that are known before its results.
 struct PageFacts {
     std::string command;                                      ///< that makes the page
     std::string title;                                        ///< of the inputs; may be empty
@@ -35,7 +35,7 @@ struct PageFacts {
     std::vector<std::string> files; ///< per surface of the input: its file; may be empty
 };
 
-/// What the verifier says of a certificate.
+/// The verdict of the verifier about a certificate.
 struct CertificateVerdict {
     std::string file;               ///< of the certificate
     std::optional<bool> valid;      ///< none: it could not be judged
@@ -48,7 +48,7 @@ const char* filling_verdict(bool all);
 /// Checks that this build can make pages. Errors: unsupported, with the reason.
 Status check_pages();
 
-/// What one run shows. Add what there is, in any order, and take the page at the end. Nothing
+/// The page of one run. Add its results in any order, and take the page at the end. Nothing
 /// happens unless a page is wanted.
 class Page {
 public:
@@ -68,12 +68,12 @@ public:
 
     /// Lists the holes of the surfaces as they are. Errors: those of find_border_loops.
     Status add_holes(std::span<const Surface> surfaces, const Run& run);
-    /// Draws the surfaces as they are, with what an exact check says of them, and their holes.
+    /// Draws the surfaces as they are, with the findings of an exact check, and their holes.
     /// Errors: those of find_border_loops.
     Status add_check(std::span<const Surface> surfaces, const CheckReport& report, const Run& run);
-    /// Draws a rounded mesh, and what is left to mend.
+    /// Draws a rounded mesh, and the places left to mend.
     void add_rounded(const SharedMesh& mesh, const RoundingReport& report);
-    /// Draws the rounded mesh, what is left to mend, and what sealing and merging did.
+    /// Draws the rounded mesh, the places left to mend, and the changes by sealing and merging.
     void add_arranged(const Arranged& arranged);
     /// Lists the gaps that sealing closed or left open, and the blocks that were merged. It follows
     /// add_rounded().
@@ -89,7 +89,7 @@ public:
     void add_filled(const FillWork& work);
     /// Draws another conforming mesh of the surfaces.
     void add_mesh(const SharedMesh& mesh);
-    /// States the verdict about the result, a sentence; `good`: it is what was asked for.
+    /// States the verdict about the result, a sentence; `good`: the wish was fulfilled.
     void set_verdict(std::string sentence, bool good);
     /// Adds what the verifier says of a certificate. One that it refutes makes the page's verdict
     /// a bad one.

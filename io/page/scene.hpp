@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What a page draws: triangles in parts that belong to the same surfaces and blocks, lines, and
-// tetrahedra.
+// The scene that a page draws: triangles in parts that belong to the same surfaces and blocks,
+// lines, and tetrahedra.
 #pragma once
 
 #include <array>

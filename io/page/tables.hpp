@@ -36,7 +36,7 @@ Json fill_table(const FillWork& work);
 /// Lists all single values of a document by their paths.
 Json value_table(const char* title, const Json& document);
 
-/// Makes what was filled a part of its own behind the part of each surface.
+/// Makes the fillings of each surface a part of their own behind its part.
 void split_filled(Scene& scene, const FillWork& work);
 
 } // namespace terrane::page

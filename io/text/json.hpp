@@ -100,7 +100,7 @@ public:
     [[nodiscard]] std::size_t size() const;
     [[nodiscard]] bool empty() const { return size() == 0; }
 
-    // Entries of an array. What is null becomes one when an entry is added.
+    // Entries of an array. A null value becomes an array when an entry is added.
     void push_back(Json entry);
     [[nodiscard]] std::span<const Json> entries() const;
     [[nodiscard]] auto begin() const { return entries().begin(); }
@@ -116,7 +116,7 @@ public:
         return own_entries()[static_cast<std::size_t>(index)];
     }
 
-    // Members of an object. What is null becomes one when a member is added.
+    // Members of an object. A null value becomes an object when a member is added.
     [[nodiscard]] std::vector<Member> items() const;
     /// Returns the value of a key; null if there is none.
     [[nodiscard]] const Json* find(std::string_view key) const;
@@ -177,7 +177,7 @@ private:
     mutable Json value_;
 };
 
-/// What became of a text.
+/// The value of a text, or its flaw.
 struct ParsedJson {
     enum class State { good, no_json, number_too_large, nested_too_deeply };
 

@@ -32,10 +32,10 @@ inline constexpr std::array<std::string_view, 4> role_names{"unknown", "horizon"
 [[nodiscard]] std::string one_line(std::string_view name);
 
 /// Makes names of one word, for input files of simulators and for names of files. Letters, digits,
-/// '-' and characters beyond ASCII are kept; what is between them becomes one '_'. A word begins
-/// with no digit, since programs take such names for numbers, and has at most 200 bytes before the
-/// ending _2, _3, ... that tells it from an earlier one, also from one with other capital letters:
-/// some file systems do not distinguish these.
+/// '-' and characters beyond ASCII are kept; the characters between them become one '_'. A word
+/// begins with no digit, since programs take such names for numbers, and has at most 200 bytes
+/// before the ending _2, _3, ... that tells it from an earlier one, also from one with other
+/// capital letters: some file systems do not distinguish these.
 class WordNames {
 public:
     /// Returns the word for a name: `kind` where nothing of it can be kept, and after `kind` and '_'

@@ -219,6 +219,7 @@ void bind_model(py::module_& module) {
                                })
         .def("part", &part, "of_block"_a, "number"_a)
         .def("save", &save, "folder"_a, "format"_a, "how"_a);
+    bound.def_property_readonly("total_volume", [](const M& m) { return m.model.total_volume; });
     add_array<M>(
         bound, "exact_volumes", [](const M& m) -> auto& { return m.model.exact_volumes; });
     module.def("improve_model", &improved, "model"_a, "options"_a, "how"_a);

@@ -4,6 +4,7 @@
 // what people use, checks arguments and gives results their names.
 #include <pybind11/pybind11.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/process_memory.hpp>
 
 #include "handles.hpp"
@@ -18,6 +19,7 @@ PYBIND11_MODULE(_core, module) {
     module.attr("version") = TERRANE_VERSION;
     terrane::throw_on_gmp_out_of_memory(); // else lack of memory in GMP ends the interpreter
     translate_errors();
+    module.def("figure", &terrane::figure, py::arg("value"), py::arg("digits") = 6);
     module.def("keep_freed_memory", &terrane::keep_freed_memory);
     py::class_<HowToRun>(module, "HowToRun")
         .def(py::init([](unsigned threads, const py::object& progress) {

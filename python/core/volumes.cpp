@@ -72,18 +72,19 @@ std::vector<std::string> exact_measures(const std::shared_ptr<Whole>& whole,
         require_fitting(*volumes, whole->mesh->triangles.size());
     return run_plainly(how, [whole, volumes](const Run&) {
         if constexpr (std::is_same_v<Whole, Arrangement>)
-            return exact_volumes(*whole, *volumes);
+            return exact_volumes(*whole, *volumes).measures;
         else
-            return exact_volumes(*whole->mesh, *volumes);
+            return exact_volumes(*whole->mesh, *volumes).measures;
     });
 }
 
-VolumesPointer volumes_of(const py::array& of_sides, const py::array& measures) {
+VolumesPointer volumes_of(const py::array& of_sides, const py::array& measures, double total) {
     auto made = std::make_shared<Volumes>();
     made->of_sides = copied<std::array<std::uint32_t, 2>>(of_sides);
     made->measures = copied<double>(measures);
+    made->total = total;
     if (made->measures.empty())
-        throw Failure{{ErrorCode::bad_index, "there must be a measure of all blocks", ""}};
+        throw Failure{{ErrorCode::bad_index, "there must be a measure of the outside", ""}};
     for (const auto& sides : made->of_sides)
         for (const std::uint32_t side : sides)
             if (side >= made->measures.size())
@@ -122,11 +123,12 @@ py::dict to_dict(const Structure& s) {
 
 void bind_volumes(py::module_& module) {
     py::class_<Volumes, VolumesPointer> bound(module, "Volumes");
-    bound.def(py::init(&volumes_of), "of_sides"_a, "measures"_a);
+    bound.def(py::init(&volumes_of), "of_sides"_a, "measures"_a, "total"_a);
     add_array<Volumes>(
         bound, "of_sides", [](const Volumes& v) -> auto& { return v.of_sides; });
     add_array<Volumes>(
         bound, "measures", [](const Volumes& v) -> auto& { return v.measures; });
+    bound.def_readonly("total", &Volumes::total);
     module.def(
         "volumes_of_mesh",
         [](const MeshPointer& mesh, const HowToRun& how) {

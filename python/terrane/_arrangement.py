@@ -351,11 +351,11 @@ class RoundedMesh(Result):
     def _line(self) -> str:
         verdict = "conforming" if self.clean else f"{len(self.report.contacts)} improper contacts"
         return (f"{verdict}, {counted(len(self.mesh.triangles), 'triangle')}, "
-                f"{counted(len(self.regions), 'region')}, moved by {self.report.max_move:.3g} at most")
+                f"{counted(len(self.regions), 'region')}, moved by {_core.figure(self.report.max_move, 3)} at most")
 
     def _numbers(self) -> Dict[str, Any]:
         return {"conforming": "yes" if self.clean else "no", "regions": len(self.regions),
-                "moved at most": f"{self.report.max_move:.3g}", **self.mesh._numbers()}
+                "moved at most": _core.figure(self.report.max_move, 3), **self.mesh._numbers()}
 
     def _repr_html_(self) -> str:
         return card("RoundedMesh", self._numbers(), self.mesh.vertices, self.mesh.triangles,

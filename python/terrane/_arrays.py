@@ -10,6 +10,7 @@ from typing import Any, Iterable, Iterator, List, Mapping, NamedTuple, Optional,
 import numpy as np
 import numpy.typing as npt
 
+from . import _core
 from ._errors import Error, bad_option
 
 Float64Array = npt.NDArray[np.float64]
@@ -149,9 +150,9 @@ def as_number(value: Any, place: str, *, positive: bool = False, least: Optional
     if not np.isfinite(number):
         raise bad_option(f"{number} is not finite", place)
     if positive and not number > 0:
-        raise bad_option(f"{number:g} is not positive", place)
+        raise bad_option(f"{_core.figure(number)} is not positive", place)
     if least is not None and number < least:
-        raise bad_option(f"{number:g} is less than {least:g}", place)
+        raise bad_option(f"{_core.figure(number)} is less than {_core.figure(least)}", place)
     return number
 
 

@@ -26,7 +26,10 @@ class Volumes(Result):
     of_sides : ndarray, shape (m, 2), uint32
         Per triangle the volume in front of it (from where its corners are counterclockwise) and the one behind.
     measures : ndarray, shape (n,), float64
-        Per volume the double nearest to its exact measure, cubic unit of the input; [0] is that of all blocks.
+        Per volume the double nearest to its exact measure, cubic unit of the input; [0] is infinite: the outside has
+        no end.
+    total : float
+        The double nearest to the measure of all blocks together.
 
     Examples
     --------
@@ -34,8 +37,8 @@ class Volumes(Result):
     >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
     ...     [0, 2, 3]], "flat", "horizon")
     >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
-    >>> m.volumes.measures.tolist()
-    [48.0, 16.0, 32.0]
+    >>> m.volumes.measures.tolist(), m.volumes.total
+    ([inf, 16.0, 32.0], 48.0)
     """
 
     __slots__ = ("_core", "_source")
@@ -51,28 +54,33 @@ class Volumes(Result):
 
     @property
     def measures(self) -> Float64Array:
-        """Per volume its measure; [0]: that of all blocks."""
+        """Per volume its measure; [0] is infinite: the outside has no end."""
         return self._core.measures
+
+    @property
+    def total(self) -> float:
+        """The measure of all blocks together."""
+        return self._core.total
 
     def __len__(self) -> int:
         """Return the number of blocks, without the outside."""
         return len(self.measures) - 1
 
-    def exact(self, *, threads: Optional[int] = None) -> List[Fraction]:
-        """Return the measures as exact fractions; slow for blocks with many constructed corners.
+    def exact(self, *, threads: Optional[int] = None) -> Dict[int, Fraction]:
+        """Return the measure of each block as an exact fraction; slow for many constructed corners.
 
         Examples
         --------
         >>> import terrane
         >>> terrane.volumes(terrane.arrange(terrane.box((0, 0, 0), (1, 2, 3)))).exact()
-        [Fraction(6, 1), Fraction(6, 1)]
+        {1: Fraction(6, 1)}
         """
         run = how(threads, None)
         if isinstance(self._source, Arrangement):
             texts = _core.exact_volumes_of_arrangement(self._source._core, self._core, run)
         else:
             texts = _core.exact_volumes_of_mesh(self._source._core, self._core, run)
-        return [Fraction(text) for text in texts]
+        return {block: Fraction(text) for block, text in enumerate(texts) if block > 0}
 
     def points(self, *, threads: Optional[int] = None) -> List[Tuple[Point, int]]:
         """Return a point inside each block of a mesh, and the number of the block.
@@ -113,17 +121,17 @@ class Volumes(Result):
                     "doubles can do that: terrane.volumes(terrane.round(arrangement))")
 
     def _state(self) -> Tuple[Any, ...]:
-        return self.of_sides, self.measures, self._source
+        return self.of_sides, self.measures, self.total, self._source
 
     @classmethod
     def _from_state(cls, *state: Any) -> "Volumes":
-        return cls(_core.Volumes(state[0], state[1]), state[2])
+        return cls(_core.Volumes(*state[:3]), state[3])
 
     def _line(self) -> str:
-        return f"{counted(len(self), 'block')}, {self.measures[0]:.6g} in all"
+        return f"{counted(len(self), 'block')}, {_core.figure(self.total)} in all"
 
     def _numbers(self) -> Dict[str, Any]:
-        return {"blocks": len(self), "volume": f"{self.measures[0]:.6g}"}
+        return {"blocks": len(self), "volume": _core.figure(self.total)}
 
     def _shape(self) -> Tuple[Any, Any]:
         return self._source.vertices, self._source.triangles

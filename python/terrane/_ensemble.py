@@ -19,6 +19,7 @@ from ._ensemble_output import save, write_project
 from ._ensemble_results import Outcomes
 from ._ensemble_work import Record, Task, bounds_of, built, failure, file_of, packed, prepared
 from ._errors import Error
+from ._examples import with_ensemble
 from ._project import Built, project_text
 from ._results import counted
 from ._run import cores
@@ -27,6 +28,7 @@ from ._run import how as how_to_run
 _LARGEST = 2 ** 63 - 1
 
 
+@with_ensemble
 class Ensemble(Outcomes):
     """Realisations of a model, block by block.
 
@@ -57,13 +59,7 @@ class Ensemble(Outcomes):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[-1, -1, 0], [9, -1, 0], [-1, 9, 0]], [[0, 1, 2]], "top", "horizon")
-    >>> flat.save("top.ts")
-    >>> project = {"format": "terrane-project 1", "surfaces": [{"file": "top.ts"}],
-    ...     "volume_of_interest": {"box": {"low": [0, 0, -1], "high": [2, 2, 1]}}, "outputs": {"blocks": "vtp"},
-    ...     "uncertainty": [{"surface": "top", "shift": 0.1}]}
-    >>> made = terrane.ensemble(project, realisations=3, engine="serial")
+    >>> made = ...
     >>> made.count, sorted(made.blocks)
     (3, ['above top', 'below top'])
     >>> volume = made.blocks["below top"].measures["volume"]
@@ -73,17 +69,13 @@ class Ensemble(Outcomes):
 
     __slots__ = ()
 
+    @with_ensemble
     def realisation(self, number: int) -> Built:
         """Build a realisation again; 0 is the model as it was given.
 
         Examples
         --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[-1, -1, 0], [9, -1, 0], [-1, 9, 0]], [[0, 1, 2]], "top", "horizon")
-        >>> flat.save("top.ts")
-        >>> made = terrane.ensemble({"format": "terrane-project 1", "surfaces": [{"file": "top.ts"}],
-        ...     "volume_of_interest": {"box": {"low": [0, 0, -1], "high": [2, 2, 1]}}, "outputs": {"blocks": "vtp"},
-        ...     "uncertainty": [{"surface": "top", "shift": 0.1}]}, realisations=3, engine="serial")
+        >>> made = ...
         >>> again = made.realisation(2)
         >>> row = made.table["block"] == "below top"
         >>> bool(again.model.blocks["below top"].volume == made.table["volume"][row][1])
@@ -91,6 +83,7 @@ class Ensemble(Outcomes):
         """
         return built(self._task, as_count(number, "number", 0, self.count))
 
+    @with_ensemble
     def save(self, folder: Path, *, report: bool = True) -> None:
         """Write tables, percentiles, maps, failures and a report into a new folder, which appears complete.
 
@@ -98,13 +91,7 @@ class Ensemble(Outcomes):
 
         Examples
         --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[-1, -1, 0], [9, -1, 0], [-1, 9, 0]], [[0, 1, 2]], "top", "horizon")
-        >>> flat.save("top.ts")
-        >>> project = {"format": "terrane-project 1", "surfaces": [{"file": "top.ts"}],
-        ...     "volume_of_interest": {"box": {"low": [0, 0, -1], "high": [2, 2, 1]}}, "outputs": {"blocks": "vtp"},
-        ...     "uncertainty": [{"surface": "top", "shift": 0.1}]}
-        >>> made = terrane.ensemble(project, realisations=3, engine="serial")
+        >>> made = ...
         >>> made.save("run", report=False)
         >>> import pathlib
         >>> pathlib.Path("run", "blocks.csv").is_file()
@@ -112,18 +99,13 @@ class Ensemble(Outcomes):
         """
         save(self, os.fspath(folder), report=report)
 
+    @with_ensemble
     def write_project(self, number: int, folder: Path) -> None:
         """Write the moved surfaces of a realisation, and a project that builds them, into a folder.
 
         Examples
         --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[-1, -1, 0], [9, -1, 0], [-1, 9, 0]], [[0, 1, 2]], "top", "horizon")
-        >>> flat.save("top.ts")
-        >>> project = {"format": "terrane-project 1", "surfaces": [{"file": "top.ts"}],
-        ...     "volume_of_interest": {"box": {"low": [0, 0, -1], "high": [2, 2, 1]}}, "outputs": {"blocks": "vtp"},
-        ...     "uncertainty": [{"surface": "top", "shift": 0.1}]}
-        >>> made = terrane.ensemble(project, realisations=3, engine="serial")
+        >>> made = ...
         >>> made.write_project(2, "two")
         >>> terrane.build("two/project.json").model == made.realisation(2).model
         True
@@ -273,7 +255,7 @@ def task_of(project: Union[Path, Mapping[str, Any]], folder: Optional[Path], see
 
 
 def _with_frame(task: Task, grid: int, threads: int) -> Tuple[Task, bytes]:
-    """Build the model as it was given, with so many threads, and lay the map over it."""
+    """Build the model as it was given, with this number of threads, and lay the map over it."""
     if prepared(task).moved == 0:
         raise Error("bad_option", "is missing: it says how the surfaces move", f"{task.source}: uncertainty")
     model = built(task._replace(threads=threads), 0).model

@@ -14,7 +14,7 @@ import numpy as np
 
 #: Share of common sides from which on blocks are the same.
 LEAST_COMMON = 2 / 3
-#: What can become of a block: there in one piece, in several, gone, or one with another block.
+#: The outcomes of a block: there in one piece, in several, gone, or one with another block.
 STATES = ("whole", "split", "vanished", "merged")
 #: P90 is exceeded with a probability of 90 %.
 PERCENTILES = (("p90", 10.0), ("p50", 50.0), ("p10", 90.0))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What the program's command ``terrane ensemble`` runs; the program has checked the options."""
+"""Runs the program's command ``terrane ensemble``; the program has checked the options."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-# What could move the cursor, choose a colour, or turn the text round, as in cli/session/styles.cpp.
+# Characters that move the cursor, choose a colour, or turn the text round, as in cli/session/styles.cpp.
 _HARMFUL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
 
 
@@ -139,7 +139,7 @@ def _one(arguments: Any, folder: str, interrupts: "_Interrupts") -> int:
         _fail(arguments, f"realisation {arguments.only} can't be built: {values['reason']}")
         return _NEGATIVE
     for block in [] if arguments.quiet else values["blocks"]:
-        _print(f"  {block['name']}: {block['volume']:.6g}")
+        _print(f"  {block['name']}: {_core.figure(block['volume'])}")
     return 0
 
 
@@ -150,7 +150,7 @@ def _text_of(made: Ensemble) -> str:
     rows: List[Tuple[str, ...]] = [("block", "P90", "P50", "P10", "split", "gone", "merged")]
     for name, block in made.blocks.items():
         volume = block.measures["volume"]
-        rows.append((_visible(name), *(f"{volume[p]:.6g}" for p in ("p90", "p50", "p10")),
+        rows.append((_visible(name), *(_core.figure(volume[p]) for p in ("p90", "p50", "p10")),
                      *(str(block.states[s]) for s in ("split", "vanished", "merged"))))
     widths = [max(len(r[i]) for r in rows) for i in range(len(rows[0]))]
     for row in rows:

@@ -16,7 +16,7 @@ from ._errors import ERROR_CODES
 
 Form = Callable[[Any], bool]
 
-#: A record's text has at most so many bytes, so that a small file cannot fill the memory.
+#: A record's text has at most this many bytes, so that a small file cannot fill the memory.
 _LONGEST = 1 << 28
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Realisations on disk, so that an interrupted ensemble goes on where it was.
 
-Each is a file of its own, ``FOLDER/HASH/000017.npz``, written beside its place first and then renamed. The hash is of all
+Each is a file of its own, ``FOLDER/HASH/000017.npz``, written next to its place first and then renamed. The hash is of all
 that decides the realisation, so that a file of another project, seed or version is never taken.
 """
 

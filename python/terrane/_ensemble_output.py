@@ -29,7 +29,7 @@ _unfinished: Set[str] = set()  # temporary folders
 
 
 def new_folder(folder: str) -> str:
-    """Return a temporary folder beside one that must not exist, or be empty."""
+    """Return a temporary folder next to one that must not exist, or be empty."""
     if os.path.exists(folder) and (not os.path.isdir(folder) or os.listdir(folder)):
         raise Error("cannot_open", "is there already, and is no empty folder", folder)
     made = f"{os.path.abspath(folder)}.part{secrets.token_hex(8)}"

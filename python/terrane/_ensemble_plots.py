@@ -11,6 +11,8 @@ from typing import Any, Dict, List, Sequence, Tuple
 
 import numpy as np
 
+from . import _core
+
 _WIDTH, _HEIGHT, _LEFT, _BOTTOM, _TOP = 420, 200, 12, 34, 18
 #: Colours of maps from low to high, evenly spaced and of rising lightness: those of viridis.
 _COLOURS = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (253, 231, 37))
@@ -18,16 +20,7 @@ _COLOURS = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (253, 231
 
 def number(value: float) -> str:
     """Return a number for readers, with four significant digits."""
-    if value != value:
-        return "–"
-    if value == 0 or 1e-3 <= abs(value) < 1e5:
-        return f"{value:.4g}"
-    mantissa, exponent = f"{value:.3e}".split("e")
-    return f"{mantissa} × 10<sup>{int(exponent)}</sup>"
-
-
-def _plain_number(value: float) -> str:
-    return f"{value:.4g}"
+    return "–" if value != value else _core.figure(value, 4)
 
 
 def histogram(values: Sequence[float], marks: Dict[str, float], given: float, label: str) -> str:
@@ -66,7 +59,7 @@ def histogram(values: Sequence[float], marks: Dict[str, float], given: float, la
     parts.append(f'<line class="axis" x1="{_LEFT}" x2="{_WIDTH - _LEFT}" y1="{y(0)}" y2="{y(0)}"/>')
     for at, anchor in ((there[0], "start"), (there[-1], "end")):
         parts.append(f'<text x="{_LEFT if anchor == "start" else _WIDTH - _LEFT}" y="{_HEIGHT - 16}" '
-                     f'text-anchor="{anchor}">{_plain_number(at)}</text>')
+                     f'text-anchor="{anchor}">{number(at)}</text>')
     return "".join(parts) + f'<text x="{_WIDTH / 2}" y="{_HEIGHT - 2}" text-anchor="middle">{html.escape(label)}</text></svg>'
 
 
@@ -95,8 +88,8 @@ def colour_map(values: Any, low: float, high: float, label: str, frame: Tuple[fl
     scale = _png(np.concatenate([_colour(np.linspace(0, 1, 64)), np.full((64, 1), 255)], 1)
                  .astype(np.uint8).reshape(1, 64, 4))
     return (f'<figure><svg class="map" role="img" aria-label="{html.escape(label)}" viewBox="0 0 {width:.1f} 1000">'
-            f'<image width="{width:.1f}" height="1000" preserveAspectRatio="none" href="{_png(pixels[::-1])}"/></svg><figcaption>{html.escape(label)}<br><span class="scale">{_plain_number(low)} '
-            f'<img src="{scale}" alt="colours from low to high"> {_plain_number(high)}</span></figcaption></figure>')
+            f'<image width="{width:.1f}" height="1000" preserveAspectRatio="none" href="{_png(pixels[::-1])}"/></svg><figcaption>{html.escape(label)}<br><span class="scale">{number(low)} '
+            f'<img src="{scale}" alt="colours from low to high"> {number(high)}</span></figcaption></figure>')
 
 
 def _colour(share: Any) -> Any:

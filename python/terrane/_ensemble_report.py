@@ -95,7 +95,7 @@ def _contacts(made: Outcomes) -> str:
             for measure, called in (("volume_above", "volume above"), ("column", "column")):
                 values = block.measures[measure + suffix]
                 rows.append([name, called, *(values[s] for s in ("p90", "p50", "p10", "mean", "sd"))])
-        parts.append(f"<h2>Above z = {contact:g}</h2>"
+        parts.append(f"<h2>Above z = {_core.figure(contact)}</h2>"
                      + table(["Block", "Measure", "P90", "P50", "P10", "Mean", "Standard deviation"], rows))
     return "".join(parts)
 

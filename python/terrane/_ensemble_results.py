@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What the realisations of an ensemble have in common: their blocks, failures, contacts and maps, added up."""
+"""Adds up the blocks, failures, contacts and maps of the realisations of an ensemble."""
 
 from __future__ import annotations
 
@@ -11,21 +11,17 @@ from ._arrays import Float64Array
 from ._ensemble_blocks import STATES, match, names_of_values, percentiles
 from ._ensemble_form import checked
 from ._ensemble_work import Record, Task
+from ._examples import with_ensemble
 from ._results import Result
 
 
+@with_ensemble
 class Failure(NamedTuple):
     """A realisation that could not be built: its number, the code and the reason of the error.
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[-1, -1, 0], [9, -1, 0], [-1, 9, 0]], [[0, 1, 2]], "top", "horizon")
-    >>> flat.save("top.ts")
-    >>> project = {"format": "terrane-project 1", "surfaces": [{"file": "top.ts"}],
-    ...     "volume_of_interest": {"box": {"low": [0, 0, -1], "high": [2, 2, 1]}}, "outputs": {"blocks": "vtp"},
-    ...     "uncertainty": [{"surface": "top", "shift": 0.1}]}
-    >>> made = terrane.ensemble(project, realisations=3, engine="serial")
+    >>> made = ...
     >>> made.failures
     []
     """
@@ -35,18 +31,13 @@ class Failure(NamedTuple):
     reason: str
 
 
+@with_ensemble
 class Juxtaposed(NamedTuple):
     """Two blocks that touch across a surface: in what share of realisations, and the area where they do.
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[-1, -1, 0], [9, -1, 0], [-1, 9, 0]], [[0, 1, 2]], "top", "horizon")
-    >>> flat.save("top.ts")
-    >>> project = {"format": "terrane-project 1", "surfaces": [{"file": "top.ts"}],
-    ...     "volume_of_interest": {"box": {"low": [0, 0, -1], "high": [2, 2, 1]}}, "outputs": {"blocks": "vtp"},
-    ...     "uncertainty": [{"surface": "top", "shift": 0.1}]}
-    >>> made = terrane.ensemble(project, realisations=3, engine="serial")
+    >>> made = ...
     >>> touching = made.juxtaposed[0]
     >>> touching.surface, touching.blocks, touching.probability
     ('top', ('above top', 'below top'), 1.0)
@@ -58,8 +49,9 @@ class Juxtaposed(NamedTuple):
     area: Dict[str, float]
 
 
+@with_ensemble
 class BlockOutcome(NamedTuple):
-    """What became of a block: in how many realisations it is whole, split, vanished or merged, and its measures.
+    """The outcome of a block: in how many realisations it is whole, split, vanished or merged, and its measures.
 
     ``measures`` has, by name, a dict with ``p90``, ``p50``, ``p10``, ``mean``, ``sd``, ``least``, ``largest`` and
     ``count``; P90 is exceeded with a probability of 90 %. Realisations in which the block is merged with another one
@@ -67,13 +59,7 @@ class BlockOutcome(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[-1, -1, 0], [9, -1, 0], [-1, 9, 0]], [[0, 1, 2]], "top", "horizon")
-    >>> flat.save("top.ts")
-    >>> project = {"format": "terrane-project 1", "surfaces": [{"file": "top.ts"}],
-    ...     "volume_of_interest": {"box": {"low": [0, 0, -1], "high": [2, 2, 1]}}, "outputs": {"blocks": "vtp"},
-    ...     "uncertainty": [{"surface": "top", "shift": 0.1}]}
-    >>> made = terrane.ensemble(project, realisations=3, engine="serial")
+    >>> made = ...
     >>> made.blocks["below top"].states
     {'whole': 3, 'split': 0, 'vanished': 0, 'merged': 0}
     """

@@ -28,7 +28,7 @@ _PASSING = ("out_of_memory", "interrupted")
 
 
 class Task(NamedTuple):
-    """What all realisations of an ensemble have in common; small, as it goes to every worker."""
+    """The task that all realisations of an ensemble share; small, as it goes to every worker."""
 
     text: bytes
     base: str
@@ -54,7 +54,7 @@ class Record(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """What an engine says about a realisation: its file, and the processor time that it took; or why it was not made."""
+    """The outcome of a realisation: its file, and the processor time that it took; or why it was not made."""
 
     number: int
     data: Optional[bytes]

@@ -20,7 +20,7 @@ from . import _core
 from ._ensemble_work import Outcome, Task, outcome_of
 from ._errors import Error
 
-#: What an interpreter runs: the path first, so that no module comes from the current folder.
+#: The program of an interpreter: the path first, so that no module comes from the current folder.
 _START = "import sys; sys.path[:] = {!r}; from terrane._ensemble_workers import serve; serve()"
 
 #: The interpreters that run.
@@ -103,7 +103,7 @@ class _Worker:
 
 
 class Workers:
-    """Computes realisations by so many workers; a worker that is lost is replaced, and loses nothing that others do."""
+    """Computes realisations by this number of workers; a worker that is lost is replaced, and loses nothing that others do."""
 
     def __init__(self, task: Task, count: int, retries: int) -> None:
         self._task, self._count, self._retries = task, count, retries

@@ -17,7 +17,7 @@ from ._surface import Surface, as_surfaces, parts_of_surfaces
 
 
 class LayerReport(NamedTuple):
-    """What became of one horizon; areas in squared units.
+    """The change of one horizon; areas in squared units.
 
     Examples
     --------

@@ -87,7 +87,7 @@ class Model(Parts):
 
     @property
     def sealed(self) -> Optional[Dict[str, Any]]:
-        """What sealing changed, as in `Sealed`; None where nothing was sealed."""
+        """The changes by sealing, as in `Sealed`; None where nothing was sealed."""
         report: Optional[Dict[str, Any]] = self._core.sealed
         return report
 
@@ -298,7 +298,7 @@ class Model(Parts):
     def _numbers(self) -> Dict[str, Any]:
         return {"blocks": len(self.blocks), "surfaces": len(self._core.mesh.surfaces),
                 "triangles": len(self.mesh.triangles), "leaks": len(self.leaks),
-                "volume": f"{self._core.exact_volumes[0]:.6g}"}
+                "volume": _core.figure(self._core.total_volume)}
 
     def _repr_html_(self) -> str:
         return card("Model", self._numbers(), self.mesh.vertices, self.mesh.triangles,

@@ -18,7 +18,7 @@ from ._surface import parts_of_surfaces
 
 
 class Parts(Result):
-    """What every `Model` holds; a class of its own, as blocks and tetrahedra refer to it and `Model` to them."""
+    """The parts of every `Model`; a class of its own, as blocks and tetrahedra refer to it and `Model` to them."""
 
     __slots__ = ("_core", "_made_by", "_mesh", "_structure", "_labels", "_blocks")
 
@@ -203,12 +203,12 @@ class Block(_Part):
         return hash((self.number, self.name))
 
     def __repr__(self) -> str:
-        return f"<Block {self.number} {self.name!r}: volume {self.volume:.6g}>"
+        return f"<Block {self.number} {self.name!r}: volume {_core.figure(self.volume)}>"
 
     def _repr_html_(self) -> str:
         mesh = self.mesh
-        return card(self.name, {"number": self.number, "volume": f"{self.volume:.6g}",
-                                "area": f"{self.area:.6g}", "neighbours": ", ".join(self.neighbours)},
+        return card(self.name, {"number": self.number, "volume": _core.figure(self.volume),
+                                "area": _core.figure(self.area), "neighbours": ", ".join(self.neighbours)},
                     mesh.vertices, mesh.triangles, mesh.surfaces_of.first)
 
 

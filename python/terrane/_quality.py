@@ -126,17 +126,17 @@ class Improved(Result):
         return self.mesh.plot(**options)
 
     def _state(self) -> Tuple[Any, ...]:
-        return (self.mesh._state(), self.volumes.of_sides, self.volumes.measures, self.near_of, self.bounds,
-                self.deviations, self.report, self.resolution)
+        return (self.mesh._state(), *self.volumes._state()[:3], self.near_of, self.bounds, self.deviations,
+                self.report, self.resolution)
 
     @classmethod
     def _from_state(cls, *state: Any) -> "Improved":
         mesh = Mesh._from_state(*state[0])
-        return cls(mesh, Volumes(_core.Volumes(state[1], state[2]), mesh), *state[3:])
+        return cls(mesh, Volumes(_core.Volumes(*state[1:4]), mesh), *state[4:])
 
     def _line(self) -> str:
         largest = float(np.max(self.bounds)) if len(self.bounds) else 0.0
-        return f"{len(self.mesh.triangles)} triangles, within {largest:.3g} of the mesh before"
+        return f"{len(self.mesh.triangles)} triangles, within {_core.figure(largest, 3)} of the mesh before"
 
     def _numbers(self) -> Dict[str, Any]:
         return {**self.mesh._numbers(), "splits": self.report["splits"],

@@ -37,7 +37,7 @@ class Leak(NamedTuple):
 
 
 class Relation(NamedTuple):
-    """What two surfaces do where they meet or nearly meet: "stops at", "crosses", "meets", "overlaps", "ends near".
+    """The relation of two surfaces where they meet or nearly meet: "stops at", "crosses", "meets", "overlaps", "ends near".
 
     Examples
     --------

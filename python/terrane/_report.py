@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What report pages say of the call that made a result."""
+"""Describes in report pages the call that made a result."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What all results have in common: representation, equality, pickling."""
+"""The base of all results: representation, equality, pickling."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What rounding says of itself."""
+"""The report of rounding."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ ROLES: Tuple[str, ...] = ("unknown", "horizon", "fault", "boundary")
 
 
 class Frame(NamedTuple):
-    """What the file of a surface states about its coordinates. It influences no geometry.
+    """The statements of a file about the coordinates of a surface. They influence no geometry.
 
     Examples
     --------
@@ -109,7 +109,7 @@ class Surface:
 
     @property
     def frame(self) -> Frame:
-        """What a file stated about the coordinates."""
+        """The statements of a file about the coordinates."""
         return Frame(*self._core.frame)
 
     @property

@@ -19,7 +19,7 @@ from ._run import how
 
 
 class Violation(NamedTuple):
-    """What the check of tetrahedra found wrong.
+    """A flaw that the check of tetrahedra found.
 
     Examples
     --------
@@ -159,7 +159,7 @@ class Tetrahedra(Result):
 
     @property
     def violations(self) -> List[Violation]:
-        """What the exact check found wrong; empty: the tetrahedra are what they should be.
+        """The flaws that the exact check found; empty: the tetrahedra are sound.
 
         Raises
         ------
@@ -177,7 +177,7 @@ class Tetrahedra(Result):
 
     @property
     def optimised(self) -> Optional[Dict[str, Any]]:
-        """What `tetrahedralize` did to make the mesher's shapes better; None: nothing.
+        """The changes of `tetrahedralize` that made the mesher's shapes better; None: it made none.
 
         Its ``before`` and ``after`` have the least ``quality`` (sine of a dihedral angle, 0.7 times that of an obtuse one),
         ``least_angle`` and ``largest_angle`` (degrees). The other keys count what was done, and what is ``left`` worse

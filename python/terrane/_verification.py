@@ -53,7 +53,7 @@ class VerifiedFile(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """What the verifier found. It is true if all is verified.
+    """The findings of the verifier. It is true if all is verified.
 
     ``outputs`` are the files that a certificate names; ``deviation`` is the verifier's own bound of the distance of
     the doubles from the exact result, unit of the input; ``digest`` is that of the arrangement.
@@ -100,7 +100,7 @@ def verify(result: Any, inputs: Sequence[Any] = (), *, max_deviation: Optional[f
         A certificate, which is judged with its files as ``terrane verify`` does; an arrangement, judged against its
         input surfaces by rules R1 to R8; or a mesh, judged to be conforming.
     inputs : list of paths, optional
-        The input files of a certificate, where they are not beside it. Of a certificate alone, as are the next two: an
+        The input files of a certificate, where they are not next to it. Of a certificate alone, as are the next two: an
         arrangement has its inputs and is exact, and of a mesh nothing is known but itself.
     max_deviation, max_change : float, optional
         The largest that are accepted, unit of the input.

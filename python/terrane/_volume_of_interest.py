@@ -17,7 +17,7 @@ from ._surface import Surface, as_surfaces, parts_of_surfaces, surface_of_parts
 
 
 class SurfaceCut(NamedTuple):
-    """What a cut did to one surface; areas in squared units, lengths in units of the input.
+    """The change of one surface by a cut; areas in squared units, lengths in units of the input.
 
     Examples
     --------

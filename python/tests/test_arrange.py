@@ -231,7 +231,7 @@ def test_volume_of_interest():
     assert len(inside.surfaces) == 9
     whole = terrane.arrange(stack())
     assert whole.vertices[:, 0].max() > 4.8 >= inside.arrangement.vertices[:, 0].max()
-    assert terrane.volumes(terrane.round(inside)).measures[0] == pytest.approx(4.6 * 4.6 * 4)
+    assert terrane.volumes(terrane.round(inside)).total == pytest.approx(4.6 * 4.6 * 4)
 
 
 @pytest.mark.parametrize("box", [((0, 0, 0), (0, 1, 1)), ((0, 0), (1, 1)), (1, 2, 3), "box", [None], ((0, 0, 0), (1, 1, np.nan))])

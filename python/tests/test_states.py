@@ -156,12 +156,12 @@ def test_the_state_of_tetrahedra_is_judged(index, change):
 
 
 def test_the_state_of_volumes_is_judged():
-    cls, (sides, measures, source) = states(MAKE["Volumes"]())
-    for bad in ((sides + 9, measures), (sides, measures[:0])):
+    cls, (sides, measures, total, source) = states(MAKE["Volumes"]())
+    for bad in ((sides + 9, measures, total), (sides, measures[:0], total)):
         with pytest.raises(terrane.Error) as raised:
             cls._from_state(*bad, source)
         assert raised.value.code == "bad_index"
-    short = cls._from_state(sides[:-1], measures, source)
+    short = cls._from_state(sides[:-1], measures, total, source)
     for use in (short.exact, short.points, lambda: short.locate([[0, 0, 0]]), lambda: terrane.structure(source, short)):
         with pytest.raises(terrane.Error, match="the volumes are those of"):
             use()

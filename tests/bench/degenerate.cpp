@@ -41,7 +41,7 @@ struct Settings {
     std::vector<std::string> names;
 };
 
-/// What one process measured; zeros if it failed.
+/// The measurements of one process; zeros if it failed.
 struct Measured {
     double input = 0, triangles = 0, parents = 0, neighbours = 0; ///< numbers
     double seconds = 0, bytes = 0;

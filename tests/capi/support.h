@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What the tests of the C interface share: checks that count failures, and small surfaces.
+// Functions that the tests of the C interface share: checks that count failures, and small
+// surfaces.
 #pragma once
 
 #include <stddef.h>
@@ -37,7 +38,7 @@ const char* path_in(const char* folder, const char* name);
 char* contents_of(const char* path, size_t* size);
 
 /// Returns three surfaces: a horizon of two triangles, a fault that cuts it, and a tetrahedron of
-/// volume 9/2 beside them.
+/// volume 9/2 next to them.
 terrane_surfaces* small_surfaces(void);
 /// Appends a square in the plane z with n by n cells from (0, 0) to (size, size), without the cells
 /// in the middle if `hole`.

@@ -72,6 +72,7 @@ static void test_getters(void* h) {
     CHECK(terrane_model_structure(h) == NULL && terrane_model_lost(h) == 0 &&
           terrane_model_made(h) == 0);
     NOTHING(terrane_model_exact_volumes(h, &n));
+    CHECK(terrane_volumes_total(h) == 0 && terrane_model_total_volume(h) == 0);
     NOTHING(terrane_holes_array(h, &n));
     NO_LISTS(terrane_holes_borders(h, &lists));
     CHECK(terrane_holes_refusal(h, 0) == NULL && terrane_holes_model(h, 0) == NULL);
@@ -237,7 +238,7 @@ static void test_unused(void) {
     terrane_surfaces_free(s);
 }
 
-/// What is wanted but missing: places for results, names of files, arrays.
+/// Arguments that are wanted but missing: places for results, names of files, arrays.
 static void test_missing(const terrane_surfaces* s) {
     terrane_surfaces* list = NULL;
     terrane_arrangement* a = NULL;

@@ -64,7 +64,7 @@ static int write_changed(const char* from, const char* to, const char* what, con
 }
 
 /// The certificate certified/model.json, which the program wrote, is about top.ts and fault.ts
-/// beside it, and model.obj.
+/// next to it, and model.obj.
 static void test_certificates(void) {
     const char* const path = path_in(work_folder, "certified/model.json");
     terrane_verdict* verdict = NULL;

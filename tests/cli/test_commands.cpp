@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <terrane/algorithms/core/figure.hpp>
+
 #include "program.hpp"
 #include "support/effort.hpp"
 
@@ -145,8 +147,8 @@ TEST_CASE("cli: no surface moves farther than --max-move", "[cli][once]") {
     const double below = std::nextafter(least, 0.0);
     const auto refused = other.run(fmt::format("{} --max-move {}", arrange_utm, below));
     CHECK(refused.status == 1);
-    CHECK(contains(refused.out,
-                   fmt::format("no surface may move by more than {:.3g} to separate them", below)));
+    CHECK(contains(refused.out, "no surface may move by more than " + terrane::figure(below, 3) +
+                                    " to separate them"));
     CHECK(contains(refused.err, "(part of "));
     CHECK(other.left() == std::set<std::string>{"s.json"});
     // It is more than where the nearest doubles are, at which some surfaces cross.

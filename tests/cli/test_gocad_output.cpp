@@ -38,7 +38,7 @@ TEST_CASE("cli: a model for GOCAD gives the same blocks when it is read again",
     CHECK(written_volumes(folder.read("two/model.json")) == before);
     CHECK(contains(folder.read("lines.pl"), "\nname: cutoff line of "));
     CHECK(folder.run("convert --max-edge 1e9 lines.pl lines.obj").status == 0);
-    // What is already conforming does not change.
+    // A conforming mesh does not change.
     REQUIRE(folder.run("volume n.ml -o three --gocad o.ml").status == 0);
     CHECK(written_volumes(folder.read("three/model.json")) == before);
 }

@@ -134,7 +134,7 @@ TEST_CASE("cli: volume: more than 1000 parts are two files", "[cli]") {
     CHECK(verified.status == 0);
     CHECK(contains(verified.out, "out/blocks.vtp: holds these triangles, bit for bit\n"));
 
-    // What is in the two files is what the single ones hold together, with its winding.
+    // The two files hold all that the single ones hold together, with its winding.
     REQUIRE(folder.run("volume " + in + " -o single --parts vtp").status == 0);
     CHECK(files_in(folder, "single").size() == 3 + 343 + 1176);
     for (const std::string kind : {"block", "interface"}) {

@@ -184,7 +184,7 @@ TEST_CASE("cli: edges of a filling that ask for too many points are refused befo
                 folder.run("fill " + in + " -o o.obj --mesh-size " + size + " --method " + method);
             INFO(r.err);
             CHECK(r.status == 2);
-            CHECK(contains(r.err, "points in a hole, more than 1e+06"));
+            CHECK(contains(r.err, "points in a hole, more than 1,000,000"));
             CHECK(folder.left().empty());
         }
 }
@@ -288,33 +288,33 @@ TEST_CASE("cli: build replaces no file that the project names", "[cli][outputs]"
     in.check_refused("build in/stages.json --resume", "--resume: would replace a file");
 }
 
-TEST_CASE("cli: files beside an output are not replaced by another one", "[cli][outputs]") {
+TEST_CASE("cli: files next to an output are not replaced by another one", "[cli][outputs]") {
     const Inputs in;
     const std::string mesh = "tetrahedralize" + bounded + "--quiet ";
     const std::string begins = ", whose names begin with t_";
     in.check_refused(mesh + "-o t.vtm --output-format geos --stats t_main.vtu",
-                     "--stats: t_main.vtu may be one of the files beside t.vtm" + begins);
+                     "--stats: t_main.vtu may be one of the files next to t.vtm" + begins);
     in.check_refused(mesh + "-o ./t.ugi --stats $PWD/t_below_base.txt",
-                     "may be one of the files beside ./t.ugi" + begins);
-    in.check_refused(mesh + "-o t.ugi --report t_below_base.ss", "beside t.ugi" + begins);
+                     "may be one of the files next to ./t.ugi" + begins);
+    in.check_refused(mesh + "-o t.ugi --report t_below_base.ss", "next to t.ugi" + begins);
     in.check_refused(mesh + "-o t.vtu --output-format ogs -o t_F_front.vtu", "t.vtu" + begins);
     for (const char* const other : {"t_a.vtm", "./t.vtu", "$PWD/t_.vtm"})
         in.check_refused(mesh + "-o t.vtm --output-format geos -o " + other, begins);
     in.check_refused("tetrahedralize in/in.obj t_below_base.txt --input-format obj --box "
                      "0,0,0,8,8,8 --quiet -o t.ugi",
-                     "IN: t_below_base.txt may be one of the files beside t.ugi" + begins);
+                     "IN: t_below_base.txt may be one of the files next to t.ugi" + begins);
     // A link to a name that may be taken is that name.
     REQUIRE(in.folder.shell("ln -s t_main.vtu other.json; mkdir t_more").status == 0);
-    in.check_refused(mesh + "-o t.vtm --output-format geos --stats other.json", "beside t.vtm");
+    in.check_refused(mesh + "-o t.vtm --output-format geos --stats other.json", "next to t.vtm");
     const auto apart = in.folder.run(mesh + "-o t.vtm --output-format geos -o t_more/t.vtm "
                                             "--stats t_main.json --report t.html");
     INFO(apart.err);
     CHECK(apart.status == 0);
 }
 
-TEST_CASE("cli: a file beside an output takes the place of no other, whatever names are",
+TEST_CASE("cli: a file next to an output takes the place of no other, whatever names are",
           "[cli][outputs]") {
-    // The program writes t_main.vtu beside t.vtm, and the link leads it to the statistics.
+    // The program writes t_main.vtu next to t.vtm, and the link leads it to the statistics.
     const Inputs in;
     REQUIRE(in.folder.shell("ln -s s.json t_main.vtu").status == 0);
     in.check_refused("tetrahedralize" + bounded +
@@ -389,7 +389,7 @@ TEST_CASE("cli: numbers that an option cannot have are refused with its name", "
              {fill_all + "--time-limit 0x10", "--time-limit: needs a decimal number, not 0x10"},
              {fill_all + "--threads 0x1", "--threads: needs a decimal number, not 0x1"},
              {fill_all + "--threads 010", "--threads: needs a number without a zero before it"},
-             {fill_all + "--margin 1e10", "--margin: margin must be at most 1e+09"},
+             {fill_all + "--margin 1e10", "--margin: margin must be at most 1000000000"},
              {fill_all + "--around -2,-2,-2,10,10,1e20", "--around: box is"},
              {improve + "--max-volume-change 1e999", "--max-volume-change: needs a finite number"},
              {improve + "--edge-length 0x10", "--edge-length: needs a decimal number"},

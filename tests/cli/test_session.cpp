@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What the progress line and tables are made of; terminal.py judges how they look on a terminal.
+// The parts of the progress line and of tables; terminal.py judges how they look on a terminal.
 #include <catch2/catch.hpp>
 
 #include <clocale>
@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <terrane/cli/session/quantities.hpp>
 #include <terrane/cli/session/styles.hpp>
 #include <terrane/cli/session/text_width.hpp>
 #include <terrane/cli/session/time_left.hpp>
@@ -157,4 +158,18 @@ TEST_CASE("styles: no name turns the text behind it round") {
     CHECK(width_of("a\u202eb") == width_of(rendered("a\u202eb", false)));
     CHECK(padded("\u2067", 8) == "\u2067  ");
     CHECK(cut_to("\u2067ab", 7) == "\u2067a");
+}
+
+TEST_CASE("quantities: metres become kilometres, other units stay", "[cli]") {
+    const Quantities metres("m", 12'000), feet("ft"), unknown("");
+    CHECK(metres.length(9999) == "9999 m");
+    CHECK(metres.length(12345.6) == "12.35 km");
+    CHECK(metres.lengths(7, 12'000, 2) == "0.007 to 12 km");
+    CHECK(metres.area(123456) == "0.1235 km2");
+    CHECK(metres.volume(12345678) == "12,345,700 m3");
+    CHECK(metres.volume(123456789) == "0.123457 km3");
+    CHECK(feet.length(12345.6) == "12350 ft");
+    CHECK(feet.volume(-123456789) == "-123,457,000 ft3");
+    CHECK(unknown.area(1e6) == "1,000,000");
+    CHECK(metres.place({457123.456, 5932123.4567, 0}) == "(457123.5, 5932123.5, 0)");
 }

@@ -72,7 +72,8 @@ void check_exact(const std::vector<terrane::Surface>& input, const terrane::Arra
             "a copy has the same points");
     const auto volumes = terrane::find_volumes(a);
     require(volumes && volumes->block_count() == 1, "there is one block");
-    require(volumes && terrane::exact_volumes(a, *volumes)[1] == "9/2", "its volume is 9/2");
+    require(volumes && terrane::exact_volumes(a, *volumes).measures[1] == "9/2",
+            "its volume is 9/2");
 }
 
 void check_rounded(const terrane::RoundedMesh& rounded) {

@@ -31,7 +31,7 @@ mpq_class pushed(const Filter& f, const Coordinates& x, double radius, int towar
     return f.exact(y);
 }
 
-/// What a filter of points within a radius says, and whether points within it can have another
+/// The answer of a filter of points within a radius, and whether points within it can have another
 /// sign.
 template <class Signed>
 void judge_balls(const Filter& f, int first_exponent, int last_exponent, std::uint64_t seed,

@@ -20,7 +20,7 @@
 namespace failing {
 namespace {
 
-/// What is known of a stage from calls in which nothing failed.
+/// The facts about a stage from calls in which nothing failed.
 struct Usual {
     std::string text;
     long allocations = 0;

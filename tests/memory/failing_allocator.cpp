@@ -91,7 +91,7 @@ long living() {
 
 } // namespace failing
 
-/// What an exception interrupts in GMP loses some of GMP's memory; see errors.md.
+/// A function of GMP that an exception interrupts loses some of GMP's memory; see errors.md.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
     return "leak:gmp_allocate\nleak:gmp_reallocate\n";

@@ -85,8 +85,8 @@ std::vector<Stage> all_stages();
 /// Models large enough, and texts nested deeply enough, that a recursion shows in the stack.
 std::vector<Stage> large_stages();
 
-/// Calls each stage in a thread with a stack of so many KiB and with all signals blocked, and then
-/// with a locale of commas. The results must be the usual ones. Returns the number of flaws.
+/// Calls each stage in a thread with a stack of this many KiB and with all signals blocked, and
+/// then with a locale of commas. The results must be the usual ones. Returns the number of flaws.
 int call_unusually(const std::vector<Stage>& stages, long stack_kib);
 
 } // namespace failing

@@ -69,9 +69,7 @@ std::vector<Stage> measuring() {
         "find_volumes, mesh", [&f] { return find_volumes(*f.mesh); }, as_text));
     stages.push_back(stage(
         "exact_volumes", [&f] { return exact_volumes(*f.mesh, f.volumes); },
-        [](const std::vector<std::string>& volumes) {
-            return volumes.back() + count_of(volumes);
-        }));
+        [](const ExactVolumes& volumes) { return volumes.total + count_of(volumes.measures); }));
     stages.push_back(stage(
         "locate_points", [&f] { return locate_points(f.mesh->vertices, *f.mesh, f.volumes); },
         [](const std::vector<std::uint32_t>& blocks) { return count_of(blocks); }));

@@ -6,7 +6,7 @@
 
 #include <terrane/algorithms/model/seal_advice.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
-#include <terrane/algorithms/quality/improve_back.hpp>
+#include <terrane/algorithms/quality/bounds_back.hpp>
 #include <terrane/algorithms/tetrahedra/edge_nodes.hpp>
 
 #include "fixture.hpp"

@@ -124,8 +124,8 @@ std::vector<Stage> dividing() {
             return tiles;
         },
         [](const std::unique_ptr<LocalSupersteps>& tiles) { return find_volumes_in_tiles(*tiles); },
-        [](const std::vector<double>& measures) {
-            const std::span bytes = std::as_bytes(std::span(measures));
+        [](const Volumes& volumes) {
+            const std::span bytes = std::as_bytes(std::span(volumes.measures));
             return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         }));
     stages.push_back(stage_of(

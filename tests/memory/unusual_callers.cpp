@@ -19,7 +19,7 @@ namespace {
 
 using namespace terrane;
 
-/// What a call gives: the result as text, or the error.
+/// The outcome of a call: the result as text, or the error.
 std::string outcome(const Stage& stage) {
     const Answer answer = stage.call(-1, Mode::once);
     return answer.error ? "error: " + answer.error->message() : answer.text;

@@ -244,7 +244,7 @@ mpq_class out_of_order(const Triangles& upper, const Triangles& lower) {
     return worst;
 }
 
-/// What a horizon is over a place: nothing, or its height; or the place is too near an edge.
+/// A horizon over a place: nothing, or its height; or the place is too near an edge.
 struct Over {
     bool doubtful = false;
     std::optional<double> z{};

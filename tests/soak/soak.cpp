@@ -3,8 +3,9 @@
 // soak [CALLS] [SEED]: calls the stages of the library CALLS times (default 10 000) in one process, on random
 // soups in which much coincides, and tells how much memory is in use. It must not grow. Half of the calls have
 // one thread: what is in use after the last quarter of them must not exceed what was after the second by more
-// than a KiB. The other half has two. What TBB keeps for each thread then varies by some KiB with what the threads
-// happen to do, so that the least of the last quarter counts, against the most of the second, and 64 KiB are allowed.
+// than a KiB. The other half has two. The memory that TBB keeps for each thread then varies by some
+// KiB with what the threads happen to do, so that the least of the last quarter counts, against the
+// most of the second, and 64 KiB are allowed.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,7 +67,7 @@ std::vector<terrane::Surface> soup(Random& random) {
     return surfaces;
 }
 
-/// What is kept until the end, so that no call is left out by the compiler.
+/// Results kept until the end, so that the compiler leaves no call out.
 std::size_t calls_with_volumes = 0, calls_stopped = 0, errors = 0;
 
 /// Calls the stages once; now and then they are stopped on the way, or refuse a number.

@@ -33,7 +33,7 @@ inline Mesh joined(tiles::Supersteps& tiles, const tiles::TiledReport& report) {
     return std::move(*mesh);
 }
 
-/// Two crossing waves with so many triangles that each of several tiles has some.
+/// Two crossing waves with enough triangles for several tiles.
 inline std::vector<Surface> waves(unsigned n, double turn) {
     std::vector<Surface> surfaces{{"top", Role::horizon, {}, {}}, {"fault", Role::fault, {}, {}}};
     for (Surface& s : surfaces) {

@@ -10,6 +10,7 @@
 #include <gmpxx.h>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
@@ -23,8 +24,7 @@ double LayerResolver::area(std::uint32_t t) const {
 }
 
 std::string LayerResolver::place(std::uint32_t t) const {
-    const Point3 p = corner(t, 0);
-    return fmt::format("{} ({}, {}, {})", a_.surfaces[a_.surfaces_of[t][0]].name, p.x, p.y, p.z);
+    return a_.surfaces[a_.surfaces_of[t][0]].name + " " + place_text(corner(t, 0));
 }
 
 /// Finds the corners in counterclockwise order, and the boxes, of all triangles of the layers.

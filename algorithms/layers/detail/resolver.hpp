@@ -66,7 +66,7 @@ private:
         std::uint32_t first, second;
         Sign side;
     };
-    /// What a harder layer changes in a softer one.
+    /// A change that a harder layer makes in a softer one.
     struct Replacement {
         Set dropped; ///< triangles of the softer layer
         Set taken;   ///< triangles of the harder layer

@@ -29,8 +29,8 @@ inline constexpr std::uint32_t none = UINT32_MAX;
 /// side.
 std::array<std::uint32_t, 3> face_opposite(const Corners& cell, unsigned k);
 
-/// What new cells must have: a quality above that of those that they replace, and no sine below the
-/// least one of the whole mesh.
+/// Limits that new cells must keep: a quality above that of those that they replace, and no sine
+/// below the least one of the whole mesh.
 struct Demand {
     double quality = 0;
     double sine = 0;

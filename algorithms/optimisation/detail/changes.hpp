@@ -20,13 +20,13 @@ struct Change {
     std::vector<Corners> added; ///< corner `none` - i stands for the new vertex i; empty for a move
     std::uint32_t vertex = none; ///< that moves
     std::vector<Point3> places;  ///< of the vertex that moves, or of new ones
-    double quality = 0; ///< least of what is new, by more than the least gain above that of `old`
+    double quality = 0; ///< least of the new cells, by more than the least gain above that of `old`
 };
 
-/// Makes a change, if what is new is as good as demanded. Returns whether it did.
+/// Makes a change, if the new cells are as good as demanded. Returns whether it did.
 bool make(Cells& cells, Change& change, const Demand& demand);
 
-// A change is proposed if the least quality of what is new is above the least one of what is old by
+// A change is proposed if the least quality of the new cells is above that of the old ones by
 // `gain`, and above the least gain. The number of tetrahedra that were measured is added to `effort`.
 
 /// Removes the edge between two corners of a cell. None if that is no gain, the edge is on a wall,

@@ -38,8 +38,8 @@ struct OptimiseConstants : Constants {
     /// Vertices on walls that are free move until tetrahedra are that good: the sine of 12 degrees.
     /// Larger: surfaces move farther.
     double loose_enough = add("loose_enough", 0.20791169081775934);
-    /// Largest step of such a vertex, as a share of the distance to the farthest one beside it: the
-    /// nearest one may be what is too near. Larger: surfaces move farther.
+    /// Largest step of such a vertex, as a share of the distance to its farthest neighbour: the
+    /// nearest one may be the one that is too near. Larger: surfaces move farther.
     double largest_step = add("largest_step", 0.25);
     /// First step, as a share of the largest one.
     double first_small_step = add("first_small_step", 1.0 / 128);
@@ -62,8 +62,8 @@ struct OptimiseConstants : Constants {
     std::size_t most_in_remeshing = add("most_in_remeshing", 100);
     /// Passes over such a copy, at most.
     unsigned remeshing_passes = add("remeshing_passes", 4);
-    /// Tetrahedra that may be measured in all: so many, or effort_per_good for each by which good ones
-    /// are more than bad ones, whichever is more. Larger: meshes of bad surfaces take longer, and a
+    /// This many tetrahedra may be measured in all, or effort_per_good times the surplus of good
+    /// ones over bad ones, whichever is more. Larger: meshes of bad surfaces take longer, and a
     /// little more is found.
     std::size_t least_effort = add("least_effort", 150'000'000);
     /// Where fewer may be measured for each tetrahedron that is worse than wanted, changes that take
@@ -75,8 +75,8 @@ struct OptimiseConstants : Constants {
     /// Larger: hopeless meshes take longer, and a little more is found.
     std::size_t effort_per_cell = add("effort_per_cell", 1000);
     std::size_t effort_per_change = add("effort_per_change", 2000);
-    /// Changes are proposed for so many cells or vertices at a time. Larger: more of them come too
-    /// late, since another one was made beside them; fewer: less for each thread.
+    /// Changes are proposed for this many cells or vertices at a time. Larger: more of them come
+    /// too late, after another change next to them; fewer: less for each thread.
     std::size_t batch = add("batch", 64);
 };
 inline constexpr OptimiseConstants constants{};

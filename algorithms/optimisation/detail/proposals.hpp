@@ -12,7 +12,7 @@
 
 namespace terrane::optimisation::detail {
 
-/// What may be proposed.
+/// The changes that may be proposed.
 struct Permission {
     bool may_grow = true;     ///< whether a new cell may be larger than all that it replaces
     double least_sine = 0;    ///< of the mesh: no new cell may have a smaller one

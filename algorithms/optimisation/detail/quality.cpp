@@ -80,7 +80,8 @@ Quality quality_of(const Point3& a, const Point3& b, const Point3& c, const Poin
                     volume * std::sqrt(least.sine / least.areas), false};
     // A normal is wrong by less than 2^-50 of the product of two edges, so its length by less than
     // 2^-20 of itself if its square is above 2^-60 of the longest edge's fourth power. The volume
-    // is wrong by less than 2^-49 of the product of three edges. What underflows is not trusted.
+    // is wrong by less than 2^-49 of the product of three edges. Products that underflow are not
+    // trusted.
     const double longest = std::max({e.ab, e.ac, e.ad, e.bc, e.bd, e.cd});
     const double volume_error = 0x1p-49 * std::sqrt(e.ab * e.ac * e.ad);
     quality.is_trusted =

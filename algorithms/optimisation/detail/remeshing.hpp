@@ -15,9 +15,9 @@ namespace terrane::optimisation::detail {
 bool is_between_walls(const Cells& cells, std::uint32_t c);
 
 /// Looks for several changes near a cell that are a gain together, though the first of them alone
-/// is none. In a copy of the cells around it, each possible first change is made and followed by
-/// such that are a gain; the best result counts, if it is better than what it replaces. Only reads
-/// the cells.
+/// is not. In a copy of the cells around it, each possible first change is made and followed by
+/// such that are a gain; the best result counts, if it is better than the cells that it replaces.
+/// Only reads the cells.
 Proposal remeshing_at(const Cells& cells, std::uint32_t c, const Permission& permission,
                       double wanted);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What is still to be tried, and how much effort that may take.
+// The changes still to be tried, and the effort that they may take.
 #pragma once
 
 #include <cstddef>

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/plausibility/detail/examination.hpp>
 #include <terrane/algorithms/plausibility/detail/thresholds.hpp>
 
@@ -96,8 +97,8 @@ void check_float32(Examination& e) {
         Doubt::float32, coarse,
         fmt::format(
             "the coordinates of {} were stored with 24 bits (float32): at their size they are "
-            "multiples of {:.3g}",
-            e.names(coarse), widest),
+            "multiples of {}",
+            e.names(coarse), figure(widest, 3)),
         "Points that should lie on a plane or on another surface are that far off it, which gives "
         "slivers and gaps",
         "Export doubles or text, or subtract a common origin before storing; --seal closes the "
@@ -109,12 +110,12 @@ void check_duplicates(Examination& e) {
     for (const auto s : e.used) {
         const auto [same, added] = first.try_emplace(fingerprint_of(e.surfaces[s]), s);
         if (added) continue;
-        e.warn(
-            Doubt::duplicate_surface, {same->second, s},
-            fmt::format("{} has the same {} triangles as {}", e.labels[s],
-                        e.surfaces[s].triangles.size(), e.labels[same->second]),
-            "It bounds nothing of its own, and every block beside it has two names for one surface",
-            "Leave one of the two files out");
+        e.warn(Doubt::duplicate_surface, {same->second, s},
+               fmt::format("{} has the same {} triangles as {}", e.labels[s],
+                           e.surfaces[s].triangles.size(), e.labels[same->second]),
+               "It bounds nothing of its own, and every block next to it has two names for one "
+               "surface",
+               "Leave one of the two files out");
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The surfaces under examination, with what all checks need of them. Each check adds at most one
+// The surfaces under examination, with the data that all checks need. Each check adds at most one
 // warning for each group of surfaces.
 #pragma once
 

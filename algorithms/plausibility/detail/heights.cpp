@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/plausibility/detail/examination.hpp>
 #include <terrane/algorithms/plausibility/detail/thresholds.hpp>
 
@@ -49,9 +50,10 @@ void check_heights(Examination& e) {
     const Side& rest = above_is_odd ? below : above;
     e.warn(
         Doubt::heights_mixed, odd.surfaces,
-        fmt::format("z of {} is between {:.6g} and {:.6g}, that of all others between {:.6g} and "
-                    "{:.6g}",
-                    e.names(odd.surfaces), odd.low, odd.high, rest.low, rest.high),
+        fmt::format("z of {} is between {} and {}, that of all others between {} and "
+                    "{}",
+                    e.names(odd.surfaces), figure(odd.low), figure(odd.high), figure(rest.low),
+                    figure(rest.high)),
         "If one of them counts depths downward, the surfaces lie on opposite sides of height 0 and "
         "never meet",
         "Read grids and points of depths with --depth; in GOCAD files, state ZPOSITIVE Depth");

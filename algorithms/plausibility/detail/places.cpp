@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/plausibility/detail/examination.hpp>
 #include <terrane/algorithms/plausibility/detail/left_extents.hpp>
 #include <terrane/algorithms/plausibility/detail/thresholds.hpp>
@@ -112,9 +113,9 @@ void check_distances(Examination& e) {
         const double gap = gap_from_above(model, extent);
         const bool exchanged = gap_from_above(model, with_exchanged_axes(extent)) == 0;
         e.warn(Doubt::far_apart, groups[g],
-               fmt::format("{} is {:.4g} away from {}, {:.3g} times the size of the larger",
-                           e.names(groups[g]), gap, e.names(groups.front()),
-                           gap / std::max(model.diagonal(), extent.diagonal())),
+               fmt::format("{} is {} away from {}, {} times the size of the larger",
+                           e.names(groups[g]), figure(gap, 4), e.names(groups.front()),
+                           figure(gap / std::max(model.diagonal(), extent.diagonal()), 3)),
                exchanged ? "It would lie among the others if its x and y were exchanged"
                          : "Surfaces that far away from the others meet none of them",
                "Compare the coordinate systems and units of the files, or leave the file out");
@@ -129,7 +130,7 @@ void check_volume(Examination& e) {
     const auto outside = [&](std::uint32_t s) { return gap_between(volume, e.extents[s]) > 0; };
     if (!std::ranges::all_of(e.used, outside)) return;
     const auto span = [](const Extent& extent, std::size_t axis) {
-        return fmt::format("{:.6g} to {:.6g}", extent.low[axis], extent.high[axis]);
+        return fmt::format("{} to {}", figure(extent.low[axis]), figure(extent.high[axis]));
     };
     e.warn(Doubt::volume_without_data, {},
            fmt::format(

@@ -8,9 +8,10 @@
 namespace terrane::plausibility::detail {
 
 struct Thresholds : Constants {
-    /// A surface is far away if its gap to the others exceeds so many diagonals of the larger box.
+    /// A surface is far away if its gap to the others exceeds this many diagonals of the larger
+    /// box.
     double far_apart = add("far_apart", 1);
-    /// Heights above and below 0 are two groups if the gap between them exceeds so many of their
+    /// Heights above and below 0 are two groups if the gap between them exceeds this many of their
     /// sizes.
     double height_gap = add("height_gap", 1);
     /// Turned over, a group of heights must come as near to the other, in shares of its distance
@@ -23,7 +24,7 @@ struct Thresholds : Constants {
     double layer_footprint = add("layer_footprint", 0.5);
     /// The largest layer spans the model if its footprint is such a share of the model's.
     double spanning_footprint = add("spanning_footprint", 0.3);
-    /// There may be two layers if all footprints together are so many times the largest.
+    /// There may be two layers if all footprints together are this many times the largest.
     double two_layers = add("two_layers", 1.5);
     /// Degrees of longitude and latitude that a model spans at most.
     double most_degrees = add("most_degrees", 40);

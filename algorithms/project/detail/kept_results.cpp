@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -35,8 +36,15 @@ static void fields(auto& archive, Is<TetrahedralMesh> auto& m) {
             m.surfaces_of, m.twins, m.block_count, m.mesher, m.failure);
 }
 
+/// The sum of all blocks has the place of the outside, since all kept numbers are finite.
 static void fields(auto& archive, Is<Volumes> auto& v) {
-    archive(v.of_sides, v.measures);
+    std::vector<double> measures = v.measures;
+    if (!measures.empty()) measures[0] = v.total;
+    archive(v.of_sides, measures);
+    if constexpr (!std::is_const_v<std::remove_reference_t<decltype(v)>>) {
+        if (!measures.empty()) v.total = std::exchange(measures[0], Volumes().measures[0]);
+        v.measures = std::move(measures);
+    }
 }
 
 static void fields(auto& archive, Is<Spread> auto& s) {

@@ -18,7 +18,7 @@
 
 namespace terrane::project::detail {
 
-/// Returns the key of what improve_and_measure makes of a mesh.
+/// Returns the key of the result of improve_and_measure for a mesh.
 std::string key_of(const ConformingMesh& mesh, const ImproveOptions& options);
 
 /// Returns the bytes of an improved mesh.

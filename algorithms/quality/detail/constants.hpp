@@ -55,15 +55,15 @@ struct RemeshConstants : Constants {
     /// Triangles that may decide the normal of a surface at a vertex. Larger: curvature is measured
     /// over the wanted length on finer meshes.
     unsigned turn_triangles = add("turn_triangles", 256);
-    /// Turns are measured over so many triangles, but not beyond the wanted length. Larger: bends
+    /// Turns are measured over this many triangles, but not beyond the wanted length. Larger: bends
     /// of few triangles count less.
     double turn_reach = add("turn_reach", 1);
     /// Least cosine of the angle between two triangles between which a block counts as thin: 30
     /// degrees. Larger: blocks are thin in fewer places, and triangles near intersections become
     /// better.
     double thin_cosine = add("thin_cosine", 0.866);
-    /// The thickness of a block is the largest one within so many target lengths. Larger: triangles
-    /// near intersections become better, blocks that end in wedges change more.
+    /// The thickness of a block is the largest one within this many target lengths. Larger:
+    /// triangles near intersections become better, blocks that end in wedges change more.
     double thin_reach = add("thin_reach", 1);
     /// Triangles that may decide about the thickness at a triangle.
     unsigned thin_triangles = add("thin_triangles", 256);
@@ -76,16 +76,16 @@ struct RemeshConstants : Constants {
     double thinnest = add("thinnest", 1e-6);
     /// Least tolerance that is accepted, in rounding errors of a distance.
     double least_bound = add("least_bound", 1e3);
-    /// Patches are found anew when more than one in so many triangles has left them. Larger:
+    /// Patches are found anew when more than one in this many triangles has left them. Larger:
     /// cheaper checks, more regrouping.
     unsigned regroup_part = add("regroup_part", 20);
-    /// Another pass is made if the last one changed more than one in so many triangles. Larger:
+    /// Another pass is made if the last one changed more than one in this many triangles. Larger:
     /// more passes.
     unsigned pass_part = add("pass_part", 10);
-    /// Another sweep of swaps is made if the last one swapped at least one edge per so many
+    /// Another sweep of swaps is made if the last one swapped at least one edge per this many
     /// triangles. Larger: more sweeps.
     unsigned sweep_part = add("sweep_part", 100);
-    /// Swaps and collapses follow a round of splits if it split at least one edge per so many
+    /// Swaps and collapses follow a round of splits if it split at least one edge per this many
     /// triangles. Larger: fewer slivers are halved, more work.
     unsigned cleanup_part = add("cleanup_part", 20);
     /// Number of passes with displacements.
@@ -103,9 +103,9 @@ struct RemeshConstants : Constants {
     /// Attempts with smaller bounds around blocks whose volumes have changed too much. Larger:
     /// fewer such blocks, more time.
     unsigned volume_attempts = add("volume_attempts", 3);
-    /// Input triangles up to so many target lengths from a bad triangle become strict.
+    /// Input triangles up to this many target lengths from a bad triangle become strict.
     double strict_lengths = add("strict_lengths", 2);
-    /// All input triangles become strict when more than one in so many triangles is bad.
+    /// All input triangles become strict when more than one in this many triangles is bad.
     unsigned strict_part = add("strict_part", 20);
     /// Rounds of splitting in a pass; a round halves an edge at most once.
     unsigned split_rounds = add("split_rounds", 32);

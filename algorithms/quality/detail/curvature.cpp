@@ -10,7 +10,7 @@
 namespace terrane::quality::detail {
 namespace {
 
-/// What a sheet is like around one of its vertices.
+/// The shape of a sheet around one of its vertices.
 struct Surroundings {
     std::uint32_t sheet = none;
     Point3 normal{}; ///< sum of the cross products of the triangles

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/reconstruction/holes/detail/constants.hpp>
 
 namespace terrane {
@@ -19,11 +20,10 @@ Status check_edge_length(const BorderLoop& loop, double edge_length) {
     if (!(edge_length > 0)) return Done{};
     const double count = expected_points(loop, edge_length);
     if (count <= most) return Done{};
-    return Error{
-        ErrorCode::bad_option,
-        fmt::format("edges of {:.3g} ask for about {:.3g} points in a hole, more than {:.3g}",
-                    edge_length, count, most),
-        "mesh_size"};
+    return Error{ErrorCode::bad_option,
+                 fmt::format("edges of {} ask for about {} points in a hole, more than {}",
+                             figure(edge_length), figure(count, 3), figure(most)),
+                 "mesh_size"};
 }
 
 } // namespace terrane

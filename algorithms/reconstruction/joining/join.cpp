@@ -10,6 +10,7 @@
 
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/progress.hpp>
@@ -106,7 +107,7 @@ Result<Border> border_of(const Surface& surface, const BorderLoop& loop) {
         const Point3& p = surface.vertices[loop.vertices[i]];
         if (normal == Point3{})
             return Error{ErrorCode::not_closed, "the surface is folded back at its border",
-                         "vertex " + std::to_string(loop.vertices[i]) + " " + text_of(p)};
+                         "vertex " + std::to_string(loop.vertices[i]) + " " + place_text(p)};
         border.line.points.push_back(p);
         border.line.normals.push_back(normal);
         border.line.vertices.push_back(loop.vertices[i]);
@@ -188,7 +189,7 @@ private:
             if (!changed)
                 return Error{ErrorCode::improper_contact,
                              "the filling can't be brought to the border without folding",
-                             text_of(part_.points[left[0]])};
+                             place_text(part_.points[left[0]])};
         }
         return Done{};
     }
@@ -281,7 +282,7 @@ Joined append(const Surface& surface, const BorderPoints& border, const InnerPar
 Status check_new(const Surface& surface, std::size_t old_triangles, const Run& run) {
     const Soup soup = merge_surfaces(std::span(&surface, 1), run);
     const auto place = [&](std::uint32_t t) {
-        return text_of(surface.vertices[surface.triangles[t][0]]);
+        return place_text(surface.vertices[surface.triangles[t][0]]);
     };
     for (const std::uint32_t t : soup.degenerate)
         if (t >= old_triangles)
@@ -312,7 +313,7 @@ Status check_new(const Surface& surface, std::size_t old_triangles, const Run& r
     for (const Found& found : blocks)
         if (!found.empty())
             return Error{ErrorCode::improper_contact, "a new triangle meets another one improperly",
-                         text_of(found[0])};
+                         place_text(found[0])};
     return Done{};
 }
 

@@ -48,7 +48,7 @@ struct JoinOptions {
                                          ///< nothing and lie in the hole (islands) are joined, too
 };
 
-/// Describes what was joined. Lengths and areas are in the unit of the surface, in floating point.
+/// Describes the joined part. Lengths and areas are in the unit of the surface, in floating point.
 struct JoinReport {
     double strip = 0;                 ///< half width used
     std::size_t curve_vertices = 0;   ///< vertices of the line that the strip cuts into the filling

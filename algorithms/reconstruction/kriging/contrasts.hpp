@@ -45,7 +45,7 @@ public:
     /// Finds the nugget, at most `most_nugget`, and the sill with the largest restricted likelihood
     /// (Harville 1977).
     [[nodiscard]] LikelyNugget most_likely(double most_nugget) const;
-    /// Computes the norm of what a fit misses, for a nugget in sills.
+    /// Computes the norm of the residual of a fit, for a nugget in sills.
     [[nodiscard]] double missed(double nugget) const;
     /// Computes the degrees of freedom that a fit uses beyond the trend, for a nugget in sills.
     [[nodiscard]] double freedom(double nugget) const;
@@ -85,8 +85,8 @@ struct SpreadPairs {
 /// taken.
 SpreadPairs well_spread_pairs(std::span<const Point3> points, std::size_t count, std::size_t pairs);
 
-/// Computes the standard deviation of what rounding to doubles adds to estimates of heights z with a
-/// trend of this degree.
+/// Computes the standard deviation of the error that rounding to doubles adds to estimates of
+/// heights z with a trend of this degree.
 double rounding_of(std::span<const Point3> data, unsigned degree = 1);
 
 } // namespace terrane

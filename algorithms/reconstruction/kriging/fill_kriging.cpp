@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/reconstruction/holes/expected_points.hpp>
 #include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
@@ -120,11 +121,12 @@ FittedModel model_of(const FlatHole& hole, const KrigingOptions& options, FillRe
                                  : std::numeric_limits<double>::quiet_NaN();
     report.model =
         fmt::format("trend of degree {}, {}; ", choice.degree, description(choice.variogram));
-    report.model += choice.validation.blocks > 0
-                        ? fmt::format("blocks as wide as the hole are missed by {:.4g}, {:.3g} "
-                                      "times what the model expects",
-                                      choice.validation.error, choice.validation.ratio)
-                        : "no blocks as wide as the hole can be left out";
+    report.model +=
+        choice.validation.blocks > 0
+            ? fmt::format("blocks as wide as the hole are missed by {}, {} "
+                          "times what the model expects",
+                          figure(choice.validation.error, 4), figure(choice.validation.ratio, 3))
+            : "no blocks as wide as the hole can be left out";
     return model;
 }
 

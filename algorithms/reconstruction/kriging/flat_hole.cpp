@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/reconstruction/holes/flatness.hpp>
@@ -75,7 +76,7 @@ Status check_sides(const KrigingData& data, std::span<const Point3> points,
                 return Error{ErrorCode::unsupported,
                              "the surface is no graph z = f(x, y) next to the hole: it reaches "
                              "into the hole, seen from above; --method rbf can fill it",
-                             fmt::format("({}, {}, {})", p.x, p.y, p.z)};
+                             place_text(p)};
         }
     return Done{};
 }
@@ -189,7 +190,7 @@ Result<FlatHole> FlatHole::of(const Surface& surface, const BorderLoop& loop,
     state->area = signed_area(state->data.points, state->data.borders[0]);
     if (state->area == 0 || !(median_edge(state->data.points, state->data.borders[0]) > 0))
         return Error{ErrorCode::nothing_to_do, "the hole has no area, seen from above",
-                     fmt::format("({}, {}, {})", loop.centre.x, loop.centre.y, loop.centre.z)};
+                     place_text(loop.centre)};
     return FlatHole(std::move(state));
 }
 

@@ -16,7 +16,7 @@
 
 namespace terrane {
 
-/// What a method says of places in the hole.
+/// The heights that a method finds at places in the hole.
 struct KnownHeights {
     std::vector<double> heights;  ///< per place
     std::vector<double> expected; ///< per place: expected error; NaN if unknown

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
@@ -253,13 +254,13 @@ double Variogram::at(double distance) const {
 }
 
 std::string description(const Variogram& v) {
-    auto text = fmt::format("{} model, range {:.4g}, sill {:.4g}, nugget {:.4g}", name_of(v.model),
-                            v.range, v.sill, v.nugget);
+    auto text = fmt::format("{} model, range {}, sill {}, nugget {}", name_of(v.model),
+                            figure(v.range, 4), figure(v.sill, 4), figure(v.nugget, 4));
     if (v.model == VariogramModel::power || v.model == VariogramModel::matern)
-        text += fmt::format(", exponent {:.3g}", v.exponent);
+        text += fmt::format(", exponent {}", figure(v.exponent, 3));
     if (v.ratio < 1)
-        text += fmt::format("; longest at {:.0f} degrees from x, {:.2g} of it across", v.angle,
-                            v.ratio);
+        text += fmt::format("; longest at {:.0f} degrees from x, {} of it across", v.angle,
+                            figure(v.ratio, 2));
     return text;
 }
 

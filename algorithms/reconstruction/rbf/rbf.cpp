@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
@@ -236,17 +237,19 @@ double area_of(const Surface& s) {
 
 std::string describe(const RbfReport& r, const RbfForm& form, bool smoothed) {
     const auto start = fmt::format(
-        "degree {}{}, {} of {} data are centres, {} constraints {:.4g} off the surface {}; ",
+        "degree {}{}, {} of {} data are centres, {} constraints {} off the surface {}; ",
         form.polynomial.degree, form.polynomial.in_space ? " in space" : "", r.centres, r.data,
-        r.offsets, r.offset, form.along_axis ? "across the hole" : "along normals");
+        r.offsets, figure(r.offset, 4), form.along_axis ? "across the hole" : "along normals");
     if (smoothed)
-        return start + fmt::format("smoothed with {:.0f} degrees of freedom; data missed by {:.2g} "
-                                   "at most, {} patches, then by {:.2g}",
-                                   r.freedom, r.missed, r.patches, r.largest_error);
-    return start + fmt::format("condition {:.2g}, residual {:.2g} after {} refinements; data "
-                               "missed by {:.2g} at most, {} patches, then by {:.2g}",
-                               r.solution.condition, r.solution.residual, r.solution.refinements,
-                               r.missed, r.patches, r.largest_error);
+        return start + fmt::format("smoothed with {:.0f} degrees of freedom; data missed by {} "
+                                   "at most, {} patches, then by {}",
+                                   r.freedom, figure(r.missed, 2), r.patches,
+                                   figure(r.largest_error, 2));
+    return start + fmt::format("condition {}, residual {} after {} refinements; data "
+                               "missed by {} at most, {} patches, then by {}",
+                               figure(r.solution.condition, 2), figure(r.solution.residual, 2),
+                               r.solution.refinements, figure(r.missed, 2), r.patches,
+                               figure(r.largest_error, 2));
 }
 
 /// Computes the root mean square over the vertices over the hole, which are those off the surface.
@@ -280,13 +283,14 @@ std::string describe(const RbfReport& r, const HeightFit& fit, bool smoothed) {
     auto text = fmt::format("heights by kernels {} and degree {}, {} of {} data are centres, ",
                             name_of(fit.kernel), r.degree, r.centres, r.data);
     text += smoothed ? fmt::format("smoothed with {:.0f} degrees of freedom", r.freedom)
-                     : fmt::format("noise {:.2g}", fit.noise);
-    text += std::isfinite(fit.validated)
-                ? fmt::format("; blocks as wide as the hole are missed by {:.4g}", fit.validated)
-                : "; no blocks as wide as the hole can be left out";
+                     : fmt::format("noise {}", figure(fit.noise, 2));
+    text +=
+        std::isfinite(fit.validated)
+            ? fmt::format("; blocks as wide as the hole are missed by {}", figure(fit.validated, 4))
+            : "; no blocks as wide as the hole can be left out";
     if (r.patches > 0)
-        text += fmt::format("; data missed by {:.2g} at most, {} patches, then by {:.2g}", r.missed,
-                            r.patches, r.largest_error);
+        text += fmt::format("; data missed by {} at most, {} patches, then by {}",
+                            figure(r.missed, 2), r.patches, figure(r.largest_error, 2));
     return text;
 }
 

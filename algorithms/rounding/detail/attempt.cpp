@@ -85,8 +85,8 @@ double Rounding::deviation() const {
 
 Error Rounding::too_far() const {
     return {ErrorCode::bad_option,
-            fmt::format("the nearest doubles are up to {:.3g} from the exact result, which is more "
-                        "than the {:.3g} allowed; allow more",
+            fmt::format("the nearest doubles are up to {} from the exact result, which is more "
+                        "than the {} allowed; allow more",
                         deviation(), task_.limit),
             "max_move"};
 }

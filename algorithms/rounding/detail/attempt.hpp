@@ -28,7 +28,7 @@
 
 namespace terrane::rounding::detail {
 
-/// What does not change between attempts to round one arrangement.
+/// The values that all attempts to round one arrangement share.
 struct Task {
     const RoundingOptions& options;
     double limit;           ///< of surface_deviation

@@ -13,7 +13,7 @@
 
 namespace terrane::rounding::detail {
 
-/// Returns unit normals of planes in which doubles decide at random what is above what: at most
+/// Returns unit normals of planes in which doubles decide at random which point is above: at most
 /// three, of which none is nearly in a plane with the others. They are, each time those of most
 /// contacts first,
 /// (1) those of clusters: two triangles in contact belong to one if no corner of the one is farther

@@ -38,7 +38,7 @@ public:
     /// Does the same for the chosen points alone: keep_places() and state_largest_errors() have to follow.
     static std::optional<DecimalFrame> of_chosen(std::span<const Point3> points);
 
-    /// What an input coordinate becomes.
+    /// The coordinate that an input coordinate becomes.
     struct Place {
         double in_frame = 0, given = 0;
         bool is_kept = false;

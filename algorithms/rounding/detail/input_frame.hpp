@@ -26,8 +26,8 @@ public:
 
     /// Returns the place of one of the input points in the frame.
     [[nodiscard]] virtual Point3 into(const Point3& p) const = 0;
-    /// Returns the doubles for a place in the frame. What an input point became goes to an input
-    /// point that became the same.
+    /// Returns the doubles for a place in the frame. The place of an input point goes to an input
+    /// point with the same place.
     [[nodiscard]] virtual Point3 back(const Point3& q) const = 0;
     /// Bounds the distance between an exact place in the frame and back(q), where no coordinate of
     /// q is farther from it than `errors` (in the frame).

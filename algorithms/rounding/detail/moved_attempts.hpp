@@ -13,7 +13,7 @@
 
 namespace terrane::rounding::detail {
 
-/// What came of an attempt.
+/// The outcome of an attempt.
 enum class Attempted {
     conforming, ///< within the limit
     in_contact, ///< triangles meet improperly, or surfaces moved too far
@@ -39,8 +39,8 @@ public:
     virtual Result<Attempted> attempt(const DecimalFrame& frame) = 0;
     virtual Result<Attempted> attempt(const ClusterFrame& frame) = 0;
     virtual Result<Attempted> attempt(const SnapGrid& grid) = 0;
-    /// Chooses the corners of what was in contact after the last attempt, too. Returns false if all of
-    /// them had been chosen before.
+    /// Chooses the corners of all triangles in contact after the last attempt, too. Returns false
+    /// if all of them had been chosen before.
     virtual Result<bool> choose_more() = 0;
 };
 

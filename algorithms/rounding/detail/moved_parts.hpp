@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What separation.hpp is asked about, and what it answers.
+// The questions to separation.hpp, and its answers.
 #pragma once
 
 #include <cstdint>

@@ -74,7 +74,7 @@ public:
     }
 
 private:
-    /// What is around a vertex that may move.
+    /// The surroundings of a vertex that may move.
     struct Around {
         std::vector<std::uint32_t> star;    ///< its triangles
         std::vector<CandidatePair> pairs;   ///< of one of its triangles with one near it

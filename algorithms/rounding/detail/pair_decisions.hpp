@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What decided each pair of triangles of a rounded mesh: a test, or what its first search, right
-// after rounding to nearest doubles, left to proof.
+// Tells for each pair of triangles of a rounded mesh whether a test decided it, or the proof to
+// which the first search, right after rounding to nearest doubles, left it.
 //
 // (1) A triangle of which a corner was dirty in a search that tests every pair was tested against
 //     all triangles whose boxes overlap its own: each change makes corners dirty, and each search

@@ -42,8 +42,8 @@ std::vector<std::uint32_t> sample_of_parts(const IndexLists<std::uint32_t>& pare
                                            std::size_t parts);
 
 /// Collects the parents of very many contacts, so that the contacts need neither be listed nor all
-/// be tested. Once it is full, a pair whose parents are known adds nothing. What is collected in
-/// the end does not depend on the order, so that threads may add at the same time.
+/// be tested. Once it is full, a pair whose parents are known adds nothing. The collection
+/// at the end does not depend on the order, so that threads may add at the same time.
 class CrowdedContacts {
 public:
     /// The collector is full once it has `most` contacts: more than

@@ -22,7 +22,7 @@
 
 namespace terrane::rounding::detail {
 
-/// What a repair of a part of a mesh has to know of the rest.
+/// The rest of a mesh, as the repair of a part of it needs it.
 struct Elsewhere {
     std::array<double, 3> largest{}; ///< absolute coordinate of the points there, per axis
     BoxCover covered;                ///< all triangles that overlap one of these are in the part
@@ -31,7 +31,7 @@ struct Elsewhere {
 /// How doubles are repaired.
 struct RepairTask {
     const KeptPlanes& kept;       ///< coordinates that stay
-    double limit = 0;             ///< of the deviation of the state, with what is used up
+    double limit = 0;             ///< of the deviation of the state, with the part that is used up
     double used = 0;              ///< of the limit, as the input was moved
     unsigned max_rounds = 0;      ///< of moving and snapping
     std::size_t hopeless = 0;     ///< least number of contacts that are not divided
@@ -65,7 +65,7 @@ public:
 
     /// Performs the rounds. `pairs`: those that meet improperly, before and after. With a whole
     /// arrangement it ends as soon as a round does not help much, as the input can be snapped instead.
-    /// What was removed from an arrangement would then have to be decided again, perhaps otherwise.
+    /// The removed part of an arrangement would then have to be decided again, perhaps otherwise.
     /// Therefore a part of one gets coarser grids, too, each as long as it removes contacts.
     void operator()(std::vector<CandidatePair>& pairs);
 

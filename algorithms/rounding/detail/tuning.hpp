@@ -21,10 +21,11 @@ namespace terrane::rounding::detail {
 /// (2) If a round does not reduce the contacts to a quarter, the input triangles concerned are
 ///     snapped instead, and the input is arranged again. If contacts are crowded from the start
 ///     (coplanar_half_turned), this happens at once, because fine rounds would only multiply them.
-/// (3) For a part of an arrangement (restricted.hpp) that is the last resort: what was removed would
-///     be decided again. It gets all grids in place first, each as long as it removes contacts.
-/// (4) If all that fails, it is done once more, and what is left at the end of each repair is repaired place by
-///     place (places.hpp), so that one that can't be repaired does not keep others from it.
+/// (3) For a part of an arrangement (restricted.hpp) that is the last resort: the removed part
+///     would be decided again. It gets all grids in place first, each as long as it removes
+///     contacts.
+/// (4) If all that fails, it is done once more, and the contacts left at the end of each repair are
+///     repaired place by place (places.hpp), so that one place does not keep others from it.
 /// (5) No grid moves a point farther than surfaces may move. By default that is 1024 spacings of
 ///     the doubles, which nearly coplanar surfaces need: snapped to a grid of 512 spacings, most of
 ///     their parts are so far from each other that rounding to doubles does not make them cross.
@@ -56,7 +57,7 @@ struct RoundingTuning : Constants {
     /// Inputs are decimals only if the spacing of doubles is less than this share of that of the
     /// decimals.
     double decimal_share = add("decimal_share", 0.125);
-    /// Triangles are nearly coplanar if they are so many spacings of the doubles from one plane.
+    /// Triangles are nearly coplanar within this many spacings of the doubles from one plane.
     double cluster_spacings = add("cluster_spacings", 16);
     /// So few contacts are separated by moves to doubles nearby first.
     std::size_t few = add("few", 64);

@@ -80,7 +80,7 @@ Piece piece_between(const PointStore& points, PointIndex a, PointIndex b) {
             {points.nearest(a), points.nearest(b)}};
 }
 
-/// What is left of all input triangles.
+/// The remains of all input triangles.
 class Remains {
 public:
     explicit Remains(const Mesh& mesh) :

@@ -24,7 +24,7 @@ Error nothing_left();
 
 /// Enlarges report.vanished_length, and report.deviation with it, until each point of the sides of each
 /// input triangle that vanished is shown to be at most report.deviation away from the mesh. Of an
-/// arrangement of which a part was removed, these are the sides of what was kept. Exact numbers
+/// arrangement of which a part was removed, these are the sides of the kept part. Exact numbers
 /// decide; where they show no smaller bound, it may be two times too large.
 /// Precondition: the mesh has a triangle.
 /// Cost: some exact distances per side, if the triangle collapsed onto others.

@@ -27,7 +27,7 @@ public:
         Point3 place{};         ///< that middle
     };
 
-    /// The arrangement and what is measured in it must outlive the object.
+    /// The arrangement and its measured edges must outlive the object.
     FacingBorders(const Arrangement& arrangement, std::vector<BorderEdge> edges,
                   const SealDistances& distances, const GapDistances& gaps);
     FacingBorders(const FacingBorders&) = delete; // the tree refers to places_

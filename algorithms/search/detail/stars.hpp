@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Finds pairs among triangles that share a crowded vertex. All their boxes overlap there, so boxes
-// say nothing. What tells the triangles apart is how they lie round the vertex:
+// say nothing. Their directions round the vertex tell the triangles apart:
 // (1) Two triangles with the vertex v meet elsewhere only if there is a direction from v along which
 //     both extend. A triangle's directions are an arc of a great circle, its edge of the link of v.
 //     So arcs whose boxes are apart show that the triangles meet in v only.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// A complex of triangles that can be divided and glued: what is simplified.
+// A complex of triangles that can be divided and glued, for simplification.
 //
 // Cells are triangles of one or more surfaces. Edges and cells are divided at points, and vertices
 // are merged; cells that lose a corner go, and cells with the same corners become one of all their
@@ -38,7 +38,7 @@ struct Cell {
     std::vector<CellLayer> layers{}; ///< by surface, ascending; empty: the cell is gone
 };
 
-/// What a vertex may do. Coordinates in which the boundary of a volume of interest lies stay as
+/// The freedom of a vertex. Coordinates in which the boundary of a volume of interest lies stay as
 /// they are, so that its planes and edges stay planar and straight.
 struct Freedom {
     unsigned fixed_axes = 0; ///< bit k: coordinate k stays

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Finds what is nearer than the resolution: places of a complex that are near in space but far
+// Finds contacts nearer than the resolution: places of a complex that are near in space but far
 // along it.
 //
 // A contact joins two places, of which each is a vertex, on an edge, or within a cell. It counts

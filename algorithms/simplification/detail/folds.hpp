@@ -6,7 +6,7 @@
 namespace terrane::simplification::detail {
 
 /// Removes the parts in which a surface lies folded on itself, an even number of times, and which
-/// stick out from the rest of it by no more than vertices may still move. They are what is left of
+/// stick out from the rest of it by no more than vertices may still move. They are the rest of
 /// strips between curves that became one.
 void remove_folds(Complex& complex, double max_move);
 

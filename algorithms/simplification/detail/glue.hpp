@@ -5,7 +5,7 @@
 // Pass by pass, contacts are found, and the nearest ones first become one vertex each: places on
 // edges and in cells become vertices, and both go to the one of them that has less freedom (a
 // corner, then a curve), or to the middle. Triangles longer than twice the resolution are divided
-// first where surfaces are near, so that what is glued ends where the gap opens. A contact is left
+// first where surfaces are near, so that the glued part ends where the gap opens. A contact is left
 // alone where a vertex would move too far or leave the boundary of a volume of interest, where
 // a triangle would turn over, and at locked blocks.
 #pragma once

@@ -28,7 +28,7 @@ bool is_boundary(const Mesh& mesh, const std::vector<std::uint32_t>& surfaces) {
                        [&](std::uint32_t s) { return mesh.surfaces[s].role == Role::boundary; });
 }
 
-/// Returns the triangles of the largest interface that may go; none if there is no such.
+/// Returns the triangles of the largest interface that may go; empty without such an interface.
 std::vector<std::uint32_t> largest(const Mesh& mesh, const Interfaces& interfaces, bool may_open) {
     const std::pair<double, std::vector<std::uint32_t>>* best = nullptr;
     for (const auto& [key, face] : interfaces.all)

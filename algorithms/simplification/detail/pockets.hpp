@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Dissolves blocks into neighbours without moving anything: what is left of thin blocks where they
+// Dissolves blocks into neighbours without moving anything: the rest of thin blocks where they
 // were zipped in part, and thin blocks where that was asked for.
 //
 // A block is dissolved by removing its largest interface, the triangles between it and one neighbour

@@ -25,7 +25,7 @@ struct Tuning : Constants {
     /// The same for edges.
     double to_edge = add("to_edge", 0.2);
     /// Edges longer than this multiple of the resolution are divided where surfaces are near.
-    /// Larger: fewer triangles, less exact limits of what is zipped.
+    /// Larger: fewer triangles, less exact limits of the zipped part.
     double longest_edge = add("longest_edge", 3);
     /// A triangle may turn by a larger angle than that of this cosine only if it is narrower than
     /// `narrow` times the resolution.
@@ -43,7 +43,7 @@ struct Tuning : Constants {
     double part_share = add("part_share", 0.25);
     /// Times that a vertex is joined with others at most, so that passes end.
     unsigned joins = add("joins", 12);
-    /// Passes over the complex, each of which glues what is nearest.
+    /// Passes over the complex, each of which glues the nearest contacts.
     unsigned passes = add("passes", 100);
     /// Arrangements of the moved surfaces.
     unsigned rounds = add("rounds", 5);

@@ -16,7 +16,8 @@
 
 namespace terrane::structure::detail {
 
-/// Units that follow each other. The number after the last one of the column is what is below it.
+/// Units that follow each other. The number after the last one of the column stands for all below
+/// it.
 struct UnitRange {
     std::size_t first = 0; ///< the uppermost, number in the column
     std::size_t last = 0;  ///< the lowest; the same for a block of one unit

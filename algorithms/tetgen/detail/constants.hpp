@@ -20,7 +20,7 @@ struct TetrahedraConstants : Constants {
     /// Largest expected number of tetrahedra; TetGen counts in int.
     double most_tetrahedra = add("most_tetrahedra", 5e8);
     /// Where TetGen has a bound on shapes and keeps all facets, it has this share of the time limit,
-    /// but so many seconds per point at least: 1.5.0 may then refine forever. Larger: longer waits.
+    /// but at least bounded_seconds per point: 1.5.0 may then refine forever. Larger: longer waits.
     double bounded_share = add("bounded_share", 0.1);
     /// See bounded_share.
     double bounded_seconds_per_point = add("bounded_seconds_per_point", 2e-3);

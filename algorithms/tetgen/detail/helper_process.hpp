@@ -89,7 +89,7 @@ private:
     pid_t pid_ = -1;
     Descriptor talk_;     ///< its standard input and output
     Descriptor errors_;   ///< its standard error, which this process reads
-    std::string said_;    ///< the start of what it wrote to standard error
+    std::string said_;    ///< the start of its standard error
     int exit_status_ = 0; ///< status from waitpid
     bool fed_ = true;     ///< whether it took all data that were sent
     bool heard_ = false;  ///< whether any data came from it

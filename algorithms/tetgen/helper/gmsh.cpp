@@ -30,7 +30,7 @@ constexpr auto usage =
 
 constexpr int triangle_type = 2, tetrahedron_type = 4; // as Gmsh numbers them
 
-/// What Gmsh made.
+/// The result of Gmsh.
 struct Made {
     std::vector<Coordinates> points; ///< those of the request first
     std::vector<std::uint32_t> tetrahedra;

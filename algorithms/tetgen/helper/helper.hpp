@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What the helper programs share. Each reads one request (see protocol.hpp) from standard input, has
-// a mesher carry it out, and writes one reply to standard output. The library starts it as a
-// process of its own, so that the mesher's asserts, crashes and prints cost the caller nothing, and
-// so that it can be killed.
+// Functions that the helper programs share. Each program reads one request (see protocol.hpp) from
+// standard input, has a mesher carry it out, and writes one reply to standard output. The library
+// starts it as a process of its own, so that the mesher's asserts, crashes and prints cost the
+// caller nothing, and so that it can be killed.
 #pragma once
 
 #include <algorithm>
@@ -69,7 +69,7 @@ inline void write_all(int fd, const void* data, std::size_t size) {
 
 // ---- The request ------------------------------------------------------------------------------
 
-/// What the library asks for; see protocol.hpp.
+/// A request of the library; see protocol.hpp.
 struct Request {
     RequestHeader header;
     std::vector<Coordinates> points;

@@ -143,7 +143,7 @@ private:
     using Sides = std::array<std::uint32_t, 2>; ///< tetrahedra in front and behind, or none
 
     [[nodiscard]] std::string at_face(const Triangle& key) const {
-        return fmt::format("the face at {}", at(subject_.made.vertices[key[0]]));
+        return fmt::format("the face at {}", place_text(subject_.made.vertices[key[0]]));
     }
     void stray(const ListedFace& listed) {
         subject_.findings.add(Defect::stray_face, "face {} is no face of a tetrahedron",
@@ -255,7 +255,7 @@ private:
             subject_.findings.add(Defect::box_not_filled,
                                   "the volumes of all tetrahedra do not add up to that of the box "
                                   "from {} to {}",
-                                  at(box_.low), at(box_.high));
+                                  place_text(box_.low), place_text(box_.high));
     }
 
     [[nodiscard]] IndexLists<std::uint32_t> lists() const {

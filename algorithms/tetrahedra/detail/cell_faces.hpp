@@ -13,7 +13,7 @@
 
 namespace terrane::tetrahedra::detail {
 
-/// What the faces tell about triangles and blocks.
+/// The relation of the faces to triangles and blocks.
 struct FaceResult {
     std::vector<Exact> six_volumes;     ///< per volume: six times that of its tetrahedra
     IndexLists<std::uint32_t> faces_of; ///< per triangle: faces that name it; of twins, the front

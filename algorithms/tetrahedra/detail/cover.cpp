@@ -133,7 +133,7 @@ private:
         if (faces.empty()) {
             if (subject_.needs_faces(triangle))
                 subject_.findings.add(Defect::uncovered_triangle, "triangle {}, at {}, has no face",
-                                      triangle, at(points_of(triangle)[0]));
+                                      triangle, place_text(points_of(triangle)[0]));
             return;
         }
         const Triangle corners = corners_of(triangle);
@@ -145,7 +145,7 @@ private:
             subject_.findings.add(Defect::broken_outline,
                                   "the outline of the faces of triangle {}, at {}, does not follow "
                                   "its sides",
-                                  triangle, at(points_of(triangle)[0]));
+                                  triangle, place_text(points_of(triangle)[0]));
             return;
         }
         check_nodes(triangle, faces, *outline);
@@ -175,7 +175,7 @@ private:
                     subject_.findings.add(Defect::node_off_edge,
                                           "node {}, at {}, is too far from the edge of triangle {} "
                                           "that it is on",
-                                          node, at(v[node]), triangle);
+                                          node, place_text(v[node]), triangle);
         Nodes nodes, on_outline = outline.corners;
         for (const Triangle& face : faces) nodes.insert(nodes.end(), face.begin(), face.end());
         sort_unique(nodes);
@@ -186,7 +186,7 @@ private:
                 subject_.findings.add(Defect::node_off_plane,
                                       "node {}, at {}, is too far from the plane of triangle {}, "
                                       "which it is on",
-                                      node, at(v[node]), triangle);
+                                      node, place_text(v[node]), triangle);
         }
     }
 
@@ -202,11 +202,11 @@ private:
                 subject_.findings.add(Defect::folded_faces,
                                       "a face of triangle {}, at {}, is folded over or flat in the "
                                       "projection",
-                                      triangle, at(v[i]));
+                                      triangle, place_text(v[i]));
         if (const auto node = crossing_of(outline.corners, v, axis))
             subject_.findings.add(Defect::folded_faces,
                                   "the outline of the faces of triangle {} meets itself near {}",
-                                  triangle, at(v[*node]));
+                                  triangle, place_text(v[*node]));
     }
 
     const Subject& subject_;

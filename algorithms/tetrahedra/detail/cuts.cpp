@@ -67,7 +67,7 @@ void CutCheck::pass(std::uint32_t face, const Triangle& key,
         subject_.findings.add(TetrahedraDefect::wrong_twins,
                               "tetrahedra {} and {} do not share the nodes of their face at {}, "
                               "and no cut is there",
-                              sides[0], sides[1], at(made.vertices[key[0]]));
+                              sides[0], sides[1], place_text(made.vertices[key[0]]));
     for (const std::uint32_t place : key)
         sets_.join(4 * sides[0] + corner_at(sides[0], place),
                    4 * sides[1] + corner_at(sides[1], place));
@@ -86,7 +86,7 @@ void CutCheck::finish() {
             if (set_of[node] != set)
                 subject_.findings.add(TetrahedraDefect::wrong_twins,
                                       "node {}, at {}, is shared across a cut", node,
-                                      at(made.vertices[node]));
+                                      place_text(made.vertices[node]));
         }
 }
 

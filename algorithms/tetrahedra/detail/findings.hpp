@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 
 namespace terrane::tetrahedra::detail {
@@ -39,7 +40,7 @@ private:
     std::array<TetrahedraViolation, static_cast<std::size_t>(last) + 1> of_kind_;
 };
 
-/// What is checked, and where the findings go.
+/// The subject of a check, and the list of its findings.
 struct Subject {
     const TetrahedralMesh& made;
     const Mesh& mesh;
@@ -53,11 +54,6 @@ struct Subject {
         return whole || front != 0 || back != 0;
     }
 };
-
-/// The coordinates of a node, for sentences.
-inline std::string at(const Point3& p) {
-    return fmt::format("({}, {}, {})", p.x, p.y, p.z);
-}
 
 constexpr std::uint32_t none = UINT32_MAX;
 

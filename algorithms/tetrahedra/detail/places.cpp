@@ -20,7 +20,7 @@ Places find_places(const Subject& subject) {
         places.of_node[v] = made.twins.empty() ? v : first;
         if (first != v && made.twins.empty())
             findings.add(TetrahedraDefect::doubled_node, "nodes {} and {} are both at {}", first, v,
-                         at(points[v]));
+                         place_text(points[v]));
     }
     for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
         const std::uint32_t first = table.enter(points, nodes + v);
@@ -38,8 +38,8 @@ void check_vertices(const Subject& subject, const Places& places) {
             if (places.of_vertex[v] != none || reported[v]) continue;
             reported[v] = true;
             subject.findings.add(TetrahedraDefect::missing_vertex,
-                                 "no node is at {}, vertex {} of the mesh", at(mesh.vertices[v]),
-                                 v);
+                                 "no node is at {}, vertex {} of the mesh",
+                                 place_text(mesh.vertices[v]), v);
         }
     }
 }

@@ -20,7 +20,7 @@ struct EdgeSide {
     friend auto operator<=>(const EdgeSide&, const EdgeSide&) = default;
 };
 
-/// What a tile found in the check of the doubles, and triangles of the result under the input
+/// The findings of a tile in the check of the doubles, and triangles of the result under the input
 /// triangles whose home it is.
 struct TileVerdict {
     std::uint64_t unclean = 0, triangles = 0;

@@ -9,8 +9,8 @@
 
 namespace terrane::tiles::detail {
 
-/// Returns the work beside the steps that takes the doubles of all tiles back from a frame. Tiles ask
-/// where the places of their points go, and those to which a hash points tell it.
+/// Returns the work next to the steps that takes the doubles of all tiles back from a frame. Tiles
+/// ask where the places of their points go, and those to which a hash points tell it.
 StepsBeside steps_back(const DecimalFrame& frame);
 StepsBeside steps_back(const ClusterFrame& frame);
 

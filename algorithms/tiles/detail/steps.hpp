@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // The steps of a distributed arrangement, in their order. Each takes what the one before has sent;
-// the channels are said beside the records.
+// the comments of the records name their channels.
 #pragma once
 
 #include <array>
@@ -95,14 +95,14 @@ Status join_across(Tile& b, Inbox& in, Outbox& out);
 Status number_regions(Tile& b, Inbox& in, Outbox& out);
 Status receive_regions(Tile& b, Inbox& in, Outbox& out);
 
-/// What the repair of few pairs has to know.
+/// The settings of the repair of few pairs.
 struct RepairInput {
-    std::uint64_t most_gathered = 0; ///< so many triangles, and pairs, are few
+    std::uint64_t most_gathered = 0; ///< most triangles, and pairs, that are few
     bool is_moved = false;           ///< whether the input was moved
     double used = 0;                 ///< no surface was moved farther
 };
 
-/// What came of the repair of few pairs.
+/// The outcome of the repair of few pairs.
 struct RepairOfFew {
     bool is_done = false; ///< whether the first tile could gather all that it takes
     RepairInTiles summary;
@@ -123,7 +123,7 @@ Result<RepairOfFew> repair_few(Supersteps& tiles, TiledReport& report, const Rep
 Status move_input(Supersteps& tiles, TiledReport& report, RepairOfFew first,
                   const RepairInput& input, const Run& run);
 
-/// Work for all tiles beside some steps of arrange_moved().
+/// Work for all tiles next to some steps of arrange_moved().
 struct StepsBeside {
     std::function<void(Tile&, Inbox&, Outbox&)> send_points, order_constructed, number_points;
 };

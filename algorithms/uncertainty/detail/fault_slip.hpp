@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What the throw of a fault moves.
+// Moves points by the throw of a fault.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What the files of a folder with blocks must hold, as it follows from a mesh and its blocks:
+// Derives from a mesh and its blocks the contents that the files of a folder with blocks must have:
 // result.vtp, blocks/block_N, interfaces/interface_N, or blocks.vtp and interfaces.vtp with all of these,
 // and the lists of model.json.
 #pragma once
@@ -68,7 +68,7 @@ PartMesh all_blocks_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>&
 PartMesh all_interfaces_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
                              const std::vector<Interface>& interfaces);
 
-/// What the lists of model.json are compared with.
+/// The lists that model.json must have.
 struct ModelLists {
     const WrittenMesh& mesh;
     const BlockParts& parts;
@@ -78,7 +78,7 @@ struct ModelLists {
     std::string part_format;     ///< "vtp" or "obj"; empty: all blocks are in one file
 };
 
-/// Compares model.json with what follows from a mesh and its blocks; the volumes of the exact
+/// Compares model.json with its contents by a mesh and its blocks; the volumes of the exact
 /// blocks, their names and the surfaces above, below and beside them, gaps and leaks are not
 /// compared. Throws Difference.
 void compare_model_json(std::string_view contents, const ModelLists& lists);

@@ -16,7 +16,7 @@
 
 namespace terrane::verifier {
 
-/// What all files of a folder with blocks need.
+/// The data that all files of a folder with blocks need.
 struct Folder {
     WrittenMesh mesh;
     std::vector<BlockSides> sides;

@@ -52,7 +52,7 @@ SideKey key_of(const Triangle& ranks, bool front) {
     return {sorted, (ranks[(least + 1) % 3] == sorted[1]) == front};
 }
 
-/// What the order of blocks depends on.
+/// The points that decide the order of blocks.
 struct BlockKey {
     Numbers vertices; ///< ranks, ascending
     SideKey least{{no_number, no_number, no_number}, true};

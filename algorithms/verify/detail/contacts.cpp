@@ -140,7 +140,7 @@ Position crossing(const Vector4& p, const Vector4& q, const mpz_class& height_p,
 
 /// Returns the intersection of a triangle with the plane over which its corners have these heights,
 /// as an interval of coordinate `axis`: the hull of the corners at height zero and of the points
-/// where edges cross the plane. It is none iff all corners lie strictly on one side.
+/// where edges cross the plane. It is empty iff all corners lie strictly on one side.
 /// Precondition: not all heights are zero.
 std::optional<Interval> section(const Corners& corners, const Heights& heights, std::size_t axis) {
     std::optional<Interval> result;

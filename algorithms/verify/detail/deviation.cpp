@@ -180,7 +180,7 @@ bool check_covered(const RoundedParts& parts, std::uint32_t input, const Remains
 
 // --- (3) for input triangles of which a part was left out ---------------------------------------
 
-/// What was kept of an input triangle, with points taken to integers.
+/// The kept part of an input triangle, with points taken to integers.
 struct KeptRegion {
     std::vector<Vector4> points;
     Triangles triangles; ///< indices into points

@@ -38,7 +38,8 @@ void append_utf8(std::string& out, std::uint32_t code) {
     }
 }
 
-/// Returns the length of the character in UTF-8 that a text begins with; 0 if it is none.
+/// Returns the length of the character in UTF-8 that a text begins with; 0 without such a
+/// character.
 std::size_t utf8_length(std::string_view text) {
     const auto byte = [&](std::size_t i) {
         return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;

@@ -33,7 +33,7 @@ struct WrittenMesh {
         nullptr; ///< its expected errors are in VTP files; nullptr: none are
 };
 
-/// What distinguishes a kind of certificate from the others.
+/// A kind of certificate: its name, reader and checks.
 struct Kind {
     CertificateKind kind;
     std::string_view name;                  ///< value of the key "kind"
@@ -47,9 +47,9 @@ struct Kind {
     /// Returns the mesh of the output files; none if the certificate has no mesh of doubles.
     /// Precondition: judge() found no violation.
     std::optional<WrittenMesh> (*written)(const Certificate& certificate);
-    /// Compares the contents of an output with what it must hold: fills in `check` and `renamed`,
-    /// and returns what is wrong, or nothing. nullptr: all outputs hold the mesh. Size and hash are
-    /// compared before. `folder` keeps what several outputs need.
+    /// Compares the contents of an output with those that it must have: fills in `check` and
+    /// `renamed`, and returns the flaw, or nothing. nullptr: all outputs hold the mesh. Size and
+    /// hash are compared before. `folder` keeps what several outputs need.
     std::string (*compare)(std::string_view contents, const Certificate& certificate,
                            const CertifiedOutput& output, std::shared_ptr<const Folder>& folder,
                            OutputVerdict& verdict) = nullptr;
@@ -81,7 +81,7 @@ void parse_cut_sections(const Node& node, Certificate& certificate);
 /// for that, too (R26, R50 to R57).
 void judge_surfaces(std::span<const Surface> files, const Certificate& certificate,
                     const VerifyOptions& options, Verdict& verdict);
-/// Returns the exact part without what was left out.
+/// Returns the exact part without its dropped triangles.
 ArrangementClaim kept_part(const Certificate& certificate);
 /// Returns the largest limit of a change that is accepted.
 double accepted_change(std::span<const Surface> files, const Certificate& certificate,
@@ -91,8 +91,8 @@ void judge_arrangement(std::span<const Surface> surfaces, const Certificate& cer
                        const VerifyOptions& options, Verdict& verdict);
 std::optional<WrittenMesh> rounded_mesh(const Certificate& certificate);
 
-/// Returns the surfaces that the exact part is about: those of the files, with what was added to
-/// them, then the boundary of a volume of interest. Precondition: R53 holds.
+/// Returns the surfaces that the exact part is about: those of the files, with the triangles added
+/// to them, then the boundary of a volume of interest. Precondition: R53 holds.
 std::vector<Surface> surfaces_of_exact(std::span<const Surface> files,
                                        const Certificate& certificate);
 

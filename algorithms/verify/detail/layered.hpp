@@ -18,7 +18,7 @@
 namespace terrane::verifier {
 
 /// Checks layers.
-/// (1) R60: indices are in range, numbers are finite, d is not above what is accepted.
+/// (1) R60: indices are in range, numbers are finite, d is not above the accepted one.
 /// (2) R61: the mesh is conforming.
 /// (3) R62: no layer is above one that is higher in the order. For two triangles of different
 ///     layers heights are compared at the corners of the common part of their projections. Exempt

@@ -42,7 +42,7 @@ private:
     std::string_view word();
 
     std::string_view rest_;  ///< after the current line
-    std::string_view line_;  ///< what is left of the current line
+    std::string_view line_;  ///< rest of the current line
     std::size_t number_ = 0; ///< of the current line, from 1
     bool first_word_ = true;
 };

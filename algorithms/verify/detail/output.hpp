@@ -2,7 +2,7 @@
 //
 // Rule R21 of the verifier: readers of output files. Each follows a file from its first byte to its
 // last and compares it with the mesh that it must hold. They read what Terrane writes, not all that
-// a format allows, and share no code with what writes it.
+// a format allows, and share no code with its writer.
 #pragma once
 
 #include <cstdint>

@@ -100,7 +100,7 @@ private:
         return surface_count() + 2 * std::uint64_t(surface) + static_cast<std::uint64_t>(side);
     }
 
-    /// The tag of a block as a physical volume, which is none of a surface.
+    /// The tag of a block as a physical volume, which no surface has.
     [[nodiscard]] std::uint64_t block_tag(std::uint32_t block) const {
         return 3 * surface_count() + block + 1;
     }

@@ -58,7 +58,7 @@ PlacePolygon part_where(const PlacePolygon& polygon, const PlanFunction& functio
 /// Tells whether a polygon has area; those that are clipped may be segments or points.
 bool has_area(const PlacePolygon& polygon);
 
-/// Returns convex polygons, all with area, that together are what is left of the area of a polygon
+/// Returns convex polygons, all with area, that together are the rest of the area of a polygon
 /// without another one.
 std::vector<PlacePolygon> without(PlacePolygon polygon, const PlacePolygon& removed);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The mesh of doubles of a certificate, in exact numbers, with what the rules about it need.
+// The mesh of doubles of a certificate, in exact numbers, with the data for the rules about it.
 #pragma once
 
 #include <array>
@@ -57,7 +57,7 @@ RoundedParts make_rounded_parts(const Inputs& inputs, const ArrangementClaim& ex
 /// Returns the largest deviation that is accepted where none is given; VerifyOptions defines it.
 double default_max_deviation(const Inputs& inputs);
 
-/// What check_distances() computes.
+/// The results of check_distances().
 struct Distances {
     double deviation = 0;            ///< upper bound, both ways; unit of the input
     std::size_t partly_vanished = 0; ///< input triangles of which a thin part is not left

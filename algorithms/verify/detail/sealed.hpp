@@ -19,11 +19,11 @@ namespace terrane::verifier {
 void check_sealed_lists(const SealedClaim& sealed, std::size_t surfaces, double accepted,
                         Violations& found);
 
-/// Returns the surfaces of the files with what was added to them: first the extended triangles,
-/// then those that seal, each with three vertices. Precondition: R53 holds.
+/// Returns the surfaces of the files with the triangles added to them: first the extended
+/// triangles, then those that seal, each with three vertices. Precondition: R53 holds.
 std::vector<Surface> grown_surfaces(std::span<const Surface> files, const SealedClaim& sealed);
 
-/// What the rules about the exact part need.
+/// The exact part and its relation to the inputs, for the rules about it.
 struct SealedParts {
     std::span<const Surface> surfaces; ///< grown, then the boundary of a volume
     std::span<const Surface> files;    ///< as given, without the boundary
@@ -34,14 +34,14 @@ struct SealedParts {
 };
 
 /// Checks the exact part. Call a triangle given for a surface if a given triangle of this contains
-/// it, and added if only added triangles contain it. What was dropped inside is trimmed, where it
+/// it, and added if only added triangles contain it. A dropped triangle inside is trimmed, where it
 /// is given.
 /// (1) R26: each kept triangle that lies in a surface without being given for it is within the
 ///     limit of the given triangles of this surface; each trimmed triangle is within it of what is
 ///     given and not trimmed. So the surface as it was and as it is are nowhere farther apart.
 /// (2) R54: kept added triangles are connected, over edges and within their surface, to an edge
 ///     that has exactly one given triangle of it, which is not trimmed: to its border. A way may
-///     lead through what is outside of the volume.
+///     lead through the outside of the volume.
 /// (3) R55: an edge at which only an added triangle was kept lies on a lateral side of an added
 ///     triangle: from a vertex of the border on which it was built to one that is none, or to
 ///     another one, unless that is an edge. Added triangles that are connected meet another surface,
@@ -57,7 +57,7 @@ void check_sealed(const SealedParts& parts, Violations& found);
 /// Checks that doubles with other triangles than those of the exact part lie only where something
 /// was kept (R57): the triangles that name an input triangle have at most the area of what was kept
 /// of it, up to the deviation times the lengths of all edges. Where the triangles are those of the
-/// exact part nothing is to be shown. `kept` is the exact part without what was dropped.
+/// exact part nothing is to be shown. `kept` is the exact part without its dropped triangles.
 void check_only_kept(std::span<const Surface> surfaces, const ArrangementClaim& kept,
                      const RoundedClaim& rounded, const std::vector<bool>& is_cut,
                      Violations& found);

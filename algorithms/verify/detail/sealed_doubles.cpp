@@ -90,10 +90,10 @@ void check_only_kept(std::span<const Surface> surfaces, const ArrangementClaim& 
             64 * deviation * deviation * mpq_class(children[p].size() + exact_children[p].size());
         const mpq_class slack = 8 * deviation * (now.length + before.length) + corners;
         if (now.twice_area > before.twice_area + slack)
-            found.push_back({Rule::R57_only_kept,
-                             {p},
-                             "the doubles of input triangle " + text(p) +
-                                 " are larger than what was kept of it"});
+            found.push_back(
+                {Rule::R57_only_kept,
+                 {p},
+                 "the doubles of input triangle " + text(p) + " are larger than its kept part"});
     }
 }
 

@@ -42,7 +42,7 @@ using SheetName = std::array<Numbers, 2>;        ///< surfaces, regions
 using CurveLabel = std::pair<Numbers, bool>;     ///< sheets, intersection edge or not
 using CurveClass = std::array<std::uint32_t, 3>; ///< label, and the corners at the ends
 
-/// What two meshes have in common: the numbers of sheets, labels and corners.
+/// The numbers of sheets, labels and corners that two meshes share.
 struct SharedNumbers {
     Numbering<SheetName> sheets;
     Numbering<CurveLabel> labels;

@@ -25,7 +25,7 @@ struct FilledMesh {
     std::span<const mpq_class> volumes; ///< per block; [0] of all
 };
 
-/// Tetrahedra with what follows from the coordinates of their nodes.
+/// Tetrahedra with values that follow from the coordinates of their nodes.
 struct TetrahedraParts {
     const TetrahedraClaim& claim;
     const FilledMesh& mesh;
@@ -59,7 +59,7 @@ std::vector<bool> check_cover(const TetrahedraParts& parts, const std::vector<Nu
 /// statements (5) and (8). It depends on the coordinates of the triangle only.
 mpq_class volume_within_reach(const std::array<Point3, 3>& triangle);
 
-/// What was measured of tetrahedra.
+/// Measured volumes of tetrahedra.
 struct MeasuredVolumes {
     std::size_t divided = 0;  ///< triangles that are not single faces
     mpq_class difference = 0; ///< the largest between a block and its tetrahedra

@@ -2,7 +2,7 @@
 //
 // Readers of files with tetrahedra, for rule R21. Each follows a file from its first byte to its
 // last, as Terrane writes it, and compares it with the tetrahedra of the certificate. They share no
-// code with what writes them.
+// code with their writers.
 #pragma once
 
 #include <span>

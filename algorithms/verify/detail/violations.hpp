@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What the checks of the verifier report, and the parts that they judge.
+// The reports of the checks of the verifier, and the parts that they judge.
 #pragma once
 
 #include <cstdint>

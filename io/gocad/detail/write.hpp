@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What the writers of GOCAD's objects have in common.
+// Functions that the writers of GOCAD's objects share.
 #pragma once
 
 #include <string>

@@ -23,7 +23,7 @@ struct LegacyType {
 /// The type of the corners of cells up to version 4.
 inline constexpr LegacyType legacy_int{"int", "Int32", 4};
 
-/// Goes through the contents of a file. What it returns are views into them.
+/// Goes through the contents of a file. It returns views into them.
 class LegacyVtkScanner {
 public:
     LegacyVtkScanner(std::string_view contents, std::string_view source) :

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What the readers of meshes have in common: polygons become triangles, and triangles surfaces.
+// Functions that the readers of meshes share: polygons become triangles, and triangles surfaces.
 #pragma once
 
 #include <cstdint>

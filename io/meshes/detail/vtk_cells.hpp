@@ -14,7 +14,7 @@
 
 namespace terrane::detail {
 
-/// What a cell of an unstructured grid is to a surface.
+/// The part that a cell of an unstructured grid has in a surface.
 enum class CellKind { passed_over, polygon, pixel, strip, curved };
 
 /// Returns the kind of a cell by its number in VTK.

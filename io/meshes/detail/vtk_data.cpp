@@ -184,7 +184,7 @@ std::optional<std::string> convert_to(std::string_view bytes, std::string_view t
     else if (type == "UInt8")
         convert_all<std::uint8_t>(bytes, order, values);
     else
-        return "the type of the array is none of Float32, Float64, Int8 to Int64, UInt8 to UInt64";
+        return "the type of the array must be Float32, Float64, Int8 to Int64, or UInt8 to UInt64";
     return std::nullopt;
 }
 

@@ -22,9 +22,9 @@ struct VtkEncoding {
 };
 
 /// Decodes the bytes of an array, which begin with their header at `at`. `base64`: `text` is base64
-/// without blanks, else raw bytes. Adds the size of what it has read to `used`. Returns a sentence
-/// about the flaw, if there is one. The bytes are at most some 1040 times as many as those in
-/// `text`, which is the most that zlib achieves.
+/// without blanks, else raw bytes. Adds the number of bytes that it has read to `used`. Returns a
+/// sentence about the flaw, if there is one. The bytes are at most some 1040 times as many as those
+/// in `text`, which is the most that zlib achieves.
 std::optional<std::string> decode_vtk(std::string_view text, bool base64, std::size_t at,
                                       const VtkEncoding& encoding, std::string& bytes,
                                       std::size_t& used);

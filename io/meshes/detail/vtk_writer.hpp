@@ -84,7 +84,7 @@ void append_nodes(std::vector<std::int64_t>& out, const std::vector<Cell>& cells
     }
 }
 
-/// Appends count, 2 * count, ..., after what is there.
+/// Appends count, 2 * count, ..., after the values that are there.
 void append_offsets(std::vector<std::int64_t>& out, std::size_t cells, std::int64_t count);
 
 } // namespace terrane::detail

@@ -19,7 +19,7 @@ std::vector<std::string_view> columns_of(std::string_view line);
 /// Splits a line at each `delimiter` outside of quotes, and removes blanks and quotes around cells.
 std::vector<std::string_view> cells_of(std::string_view line, char delimiter);
 
-/// What a heading says.
+/// The contents of a heading.
 struct Heading {
     std::array<std::size_t, 3> xyz{};  ///< columns of x, y and z
     std::optional<std::size_t> name{}; ///< column with names of surfaces

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What the readers of points in lines of text have in common.
+// Functions that the readers of points in lines of text share.
 #pragma once
 
 #include <cmath>

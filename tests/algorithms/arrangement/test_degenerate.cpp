@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Families in which everything coincides: planes through one line, stacks in one plane, lattices,
-// fans, copies. Each has so many triangles that planes are pooled or segments merged. The verifier
+// fans, copies. Each is so large that planes are pooled or segments merged. The verifier
 // judges the arrangements; counts come from formulas or from all pairs of edges in rationals.
 #include "support/oracle.hpp"
 #include "support/points.hpp"

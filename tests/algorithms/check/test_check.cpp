@@ -110,7 +110,7 @@ TEST_CASE("check: what no stage may be given") {
 }
 
 TEST_CASE("check: the progress of the search ascends, and a stop request ends the search") {
-    const Surface waves = test_support::sheet_of( // 80 000 triangles, each beside a few others
+    const Surface waves = test_support::sheet_of( // 80 000 triangles, each next to a few others
         200, 200, 1.0, [](int, int) { return true; },
         [](double x, double y) {
             return Point3{x, y, std::fmod(x * y, 7) / 16};

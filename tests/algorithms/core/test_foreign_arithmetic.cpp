@@ -77,7 +77,7 @@ std::string bits_of(const Surface& s) {
 /// The results of all stages, as bytes, by their names.
 using Results = std::map<std::string, std::string>;
 
-/// What the stages work on.
+/// The input of the stages.
 struct Subject {
     std::string crossing = contents_of({"top.ts", "base.ts", "fault.ts"});
     Surface dome = punched(sheet(graph([](double x, double y) {
@@ -140,7 +140,7 @@ private:
         if (sealed) all["seal"] = canonical_digest(sealed->surfaces, sealed->arrangement, run);
     }
 
-    /// What the verifier says of a certificate and of a file that it names.
+    /// The verdict about a certificate and about a file that it names.
     void add_verdict(Results& all, const std::vector<Surface>& surfaces, const Arrangement& exact,
                      const RoundedMesh& rounded) const {
         const InputFile file = input_file(crossing, surfaces);

@@ -7,7 +7,7 @@ namespace {
 
 using namespace terrane;
 
-/// What a stage returns that throws this.
+/// The result of a stage that throws this.
 template <class Thrown>
 ErrorCode code_of(const Thrown& thrown) {
     const auto work = [&]() -> Result<int> { throw thrown; };

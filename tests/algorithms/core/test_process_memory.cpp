@@ -178,8 +178,7 @@ TEST_CASE("memory: whichever allocation of GMP fails, a stage says so and stays 
         REQUIRE(mpfr_get_emin() == low);
         REQUIRE(mpfr_get_emax() == high);
         if (volumes) {
-            CHECK(volumes.value().measures ==
-                  std::vector<double>{1 + 0x1p-26 + 0x1p-27, 1 + 0x1p-26 + 0x1p-27});
+            CHECK(volumes.value().measures == std::vector<double>{HUGE_VAL, 1 + 0x1p-26 + 0x1p-27});
             break;
         }
         ++failures;

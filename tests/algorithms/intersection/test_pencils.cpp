@@ -109,7 +109,7 @@ TEST_CASE("pencils: planes through one line cost little, and are divided along i
 }
 
 TEST_CASE("pencils: a line that none of the triangles reaches") {
-    // Planes through the z axis, triangles beside it: nothing is divided.
+    // Planes through the z axis, triangles off it: nothing is divided.
     Surface s;
     for (int i = 0; i < 400; ++i) {
         const double x = 1 + i % 20, y = 1 + i / 20;

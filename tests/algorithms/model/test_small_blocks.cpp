@@ -110,7 +110,7 @@ TEST_CASE("small blocks: slivers between nearly equal sheets become part of the 
     const auto without = merged(surfaces, 1);
     const auto after = volumes_in(without.arrangement);
     REQUIRE(after.size() == 3); // the sheets still part the box: no hole was torn
-    CHECK(after[0] == 512);
+    CHECK(after[1] + after[2] == Approx(512).epsilon(1e-14));
     CHECK(after[1] == Approx(256).epsilon(1e-3));
     CHECK(without.report.merged.size() == before.size() - 3);
     CHECK(without.report.kept == 0);
@@ -142,7 +142,7 @@ TEST_CASE("small blocks: a sliver with one block on all sides leaves one of its 
     REQUIRE(m.surfaces.size() == 1);
     CHECK(m.surfaces[0] == 2); // its area is a little larger
     CHECK(m.triangles == 126); // two corner triangles are common to both sheets, and stay
-    CHECK(volumes_in(without.arrangement) == std::vector<double>{512, 512});
+    CHECK(volumes_in(without.arrangement) == std::vector<double>{HUGE_VAL, 512});
     std::size_t lower = 0;
     for (std::size_t t = 0; t < without.arrangement.triangles.size(); ++t)
         lower += std::ranges::count(without.arrangement.surfaces_of[t], 1U) > 0 ? 1 : 0;
@@ -154,7 +154,7 @@ TEST_CASE("small blocks: the boundary of a model stays", "[volumes]") {
         const auto without = merged({boundary_box(8), level(0.001, -1, -1, 9, 9, "sheet")}, 1);
         REQUIRE(without.report.merged.size() == 1);
         CHECK(without.report.merged[0].surfaces == std::vector<std::uint32_t>{1});
-        CHECK(volumes_in(without.arrangement) == std::vector<double>{512, 512});
+        CHECK(volumes_in(without.arrangement) == std::vector<double>{HUGE_VAL, 512});
     }
     SECTION("a model that is small itself") {
         const auto without = merged({boundary_box(0.001)}, 1);
@@ -165,7 +165,7 @@ TEST_CASE("small blocks: the boundary of a model stays", "[volumes]") {
         const auto without = merged({cube(0, 8), cube(20, 20.125)}, 1);
         REQUIRE(without.report.merged.size() == 1);
         CHECK(without.report.merged[0].into == std::numeric_limits<double>::infinity());
-        CHECK(volumes_in(without.arrangement) == std::vector<double>{512, 512});
+        CHECK(volumes_in(without.arrangement) == std::vector<double>{HUGE_VAL, 512});
     }
 }
 

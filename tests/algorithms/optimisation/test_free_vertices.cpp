@@ -146,7 +146,7 @@ TEST_CASE("optimise: a vertex of a surface moves where tetrahedra are needles, i
           "[optimisation]") {
     Cubes cubes(4, 2, 0, 1);
     const std::uint32_t near = 2 * 25 + 2 * 5 + 2;
-    cubes.mesh.vertices[near] = {2.96, 2, 2}; // beside (3, 2, 2)
+    cubes.mesh.vertices[near] = {2.96, 2, 2}; // next to (3, 2, 2)
     const TetrahedralMesh before = cubes.mesh;
     const auto least_ratio = [](const TetrahedralMesh& mesh) {
         double least = 1;

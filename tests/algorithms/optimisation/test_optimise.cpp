@@ -22,8 +22,8 @@ using namespace test_support;
 
 namespace {
 
-/// Checks what is promised of the tetrahedra, but for their shapes. `beside_wall`: the blocks beside
-/// faces that are not on the box.
+/// Checks the promises about the tetrahedra, but for their shapes. `beside_wall`: the blocks next
+/// to faces that are not on the box.
 void check_still_fills(const TetrahedralMesh& before, const TetrahedralMesh& after,
                        const std::vector<std::uint32_t>& beside_wall = {1, 2}) {
     for (const Cell& c : after.tetrahedra) {
@@ -189,7 +189,7 @@ TEST_CASE("optimise: where doubles are no help, tetrahedra stay as they are", "[
     const TetrahedralMesh good = Cubes(3, 1, 0.4, 3).mesh;
     TetrahedralMesh flat = good; // flatter than the rounding of their volumes
     for (Point3& p : flat.vertices) p.z = std::ldexp(p.z, -60);
-    TetrahedralMesh far = good; // too large for products, beside which one is too small
+    TetrahedralMesh far = good; // too large for products, next to which one is too small
     for (Point3& p : far.vertices)
         p = {std::ldexp(p.x, -800), std::ldexp(p.y, -800), std::ldexp(p.z, -800)};
     far.vertices.push_back({0x1p1000, 0, 0});

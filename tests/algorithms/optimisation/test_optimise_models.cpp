@@ -4,6 +4,7 @@
 // them is sound by both checks, which share no code, and never worse than what TetGen made. With
 // TERRANE_EFFORT=5 these are 200 models.
 #include "support/effort.hpp"
+#include "support/exact_numbers.hpp"
 #include "support/filled.hpp"
 #include "support/random_models.hpp"
 
@@ -44,8 +45,7 @@ Worst worst_of(const TetrahedralMesh& mesh) {
 
 void check_sound(const Filled& f) {
     CHECK(text_of(violations_of(f)) == "");
-    std::vector<mpq_class> volumes;
-    for (const std::string& volume : exact_volumes(f.mesh, f.volumes)) volumes.emplace_back(volume);
+    const auto volumes = test_support::exact_numbers(f.mesh, f.volumes);
     const TetrahedralMesh& m = f.tetrahedra;
     verifier::Violations found;
     verifier::check_tetrahedra(

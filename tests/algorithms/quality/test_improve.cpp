@@ -13,7 +13,7 @@
 
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
-#include <terrane/algorithms/quality/improve_back.hpp>
+#include <terrane/algorithms/quality/bounds_back.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
@@ -406,7 +406,7 @@ TEST_CASE("improve: refinements follow each other and leave triangles far from t
     };
     CHECK(kept(plain, once, first) == 1);
     CHECK(kept(once, twice, second) == 1);
-    // What is asked for twice changes nothing more.
+    // A wish that is stated twice changes nothing more.
     CHECK(refined({{{first, .2}}, {{first, .5}}}).vertices == once.vertices);
 }
 

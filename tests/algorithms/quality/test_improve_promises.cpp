@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What improve() promises about whole models: volumes of blocks, the worst triangle, the order of
+// The promises of improve() about whole models: volumes of blocks, the worst triangle, the order of
 // files, sizes where a surface is curved, and distances.
 #include <terrane/algorithms/quality/improve.hpp>
 

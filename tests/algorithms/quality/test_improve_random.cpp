@@ -2,8 +2,8 @@
 //
 // Improves random models after arranging and rounding them; other stages check the invariants.
 #include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/algorithms/quality/bounds_back.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
-#include <terrane/algorithms/quality/improve_back.hpp>
 
 #include <algorithm>
 #include <cstdlib>

@@ -96,7 +96,7 @@ std::vector<Surface> nearly_coplanar_soup(std::mt19937& random) {
     return model;
 }
 
-/// Two planes. In each, so many triangles overlap that the arrangement pools them.
+/// Two planes. In each, enough triangles overlap for the arrangement to pool them.
 std::vector<Surface> pooled_soup(std::mt19937& random) {
     std::uniform_real_distribution<double> at(0, 1);
     std::vector<Surface> model(2);
@@ -172,7 +172,7 @@ std::array<Line, 3> nearly_concurrent(std::mt19937& random, double spacing_of_do
     }
 }
 
-/// One plane, in which so many triangles overlap that the arrangement pools them, and no other
+/// One plane, in which enough triangles overlap for the arrangement to pool them, and no other
 /// surface. All triangles lie in the first one. Where the sides of three of them cross, a part turns
 /// over when it is rounded.
 std::vector<Surface> lone_pool(std::mt19937& random) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What rounding says of input triangles of which nothing is left.
+// The report of rounding about input triangles of which nothing is left.
 #include "support/points.hpp"
 #include "support/read.hpp"
 #include "support/rounded.hpp"

@@ -55,7 +55,7 @@ bool has_triangles(const Mesh& mesh, std::uint32_t surface) {
 double total_volume(const Mesh& mesh) {
     const auto volumes = find_volumes(mesh);
     REQUIRE(volumes);
-    return volumes->measures[0];
+    return volumes->total;
 }
 
 std::size_t blocks_of(const Mesh& mesh) {

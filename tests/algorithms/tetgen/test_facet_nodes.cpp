@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Nodes that a mesher put beside a triangle, judged in rational numbers.
+// Nodes that a mesher put off a triangle, judged in rational numbers.
 #include <terrane/algorithms/tetgen/detail/facet_nodes.hpp>
 
 #include <array>

@@ -142,7 +142,7 @@ TEST_CASE("tetrahedra: a size of a surface holds for its faces, and grades from 
     const Made made = make({.surface_sizes = {{SurfaceId(3), 0.4}}});
     CHECK(plain.largest_areas[3] > 2 * regular_area(0.4));
     CHECK(made.largest_areas[3] <= most_over * regular_area(0.4));
-    // The fault is 5 x 10. Faces within the bound are so many at least, before and after swaps.
+    // The fault is 5 x 10. At least this many faces are within the bound, before and after swaps.
     CHECK(made.areas[3] == Approx(50).epsilon(1e-12));
     CHECK(double(made.faces[3]) >= 50 / regular_area(0.4));
     CHECK(double(plain.faces[3]) < 50 / regular_area(0.4));

@@ -410,7 +410,7 @@ TEST_CASE("tetrahedra: a bound on shapes divides no triangle of a surface", "[te
 TEST_CASE("tetrahedra: nodes at circles' centres in thin triangles are next to these",
           "[tetrahedra]") {
     // Cuts leave needles of these sheets. TetGen divides them at centres of circles, which it
-    // computes from nodes that are rounded: up to hundreds of spacings beside the triangle.
+    // computes from nodes that are rounded: up to hundreds of spacings off the triangle.
     const auto sheet = [](double height, double phase, double frequency) {
         return unit_grid(2, 2, [=](double u, double v) {
             const double n = 6 * u + 2 * v;

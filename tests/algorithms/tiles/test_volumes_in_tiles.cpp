@@ -38,10 +38,10 @@ struct Gathered {
 
 Gathered gathered(Supersteps& tiles, const TiledReport& report) {
     Gathered all;
-    const auto measures = find_volumes_in_tiles(tiles);
-    if (!measures) FAIL(measures.error().sentence);
+    auto volumes = find_volumes_in_tiles(tiles);
+    if (!volumes) FAIL(volumes.error().sentence);
     all.mesh = test_support::joined(tiles, report);
-    all.volumes.measures = *measures;
+    all.volumes = *std::move(volumes);
     all.volumes.of_sides.resize(report.triangles);
     REQUIRE(tiles.visit([&](Tile& b) -> Status {
         const TilePiece piece = piece_of(b);
@@ -66,6 +66,7 @@ std::optional<std::size_t> judge(const std::vector<Surface>& surfaces, std::size
     REQUIRE(expected);
     REQUIRE(found.volumes.of_sides == expected->of_sides);
     REQUIRE(found.volumes.measures == expected->measures);
+    REQUIRE(found.volumes.total == expected->total);
     const auto names = name_volumes_in_tiles(tiles);
     REQUIRE(names);
     std::vector<std::string> names_of_whole;
@@ -141,7 +142,7 @@ TEST_CASE("volumes in tiles: those with one least vertex are told apart", "[volu
 
 TEST_CASE("volumes in tiles: those with the same vertices are told apart", "[volumes]") {
     // A curve along edges of a box passes through its eight corners; triangles join it to a point inside.
-    // Sheared, the triangle whose corners come first is beside both volumes.
+    // Sheared, the triangle whose corners come first borders on both volumes.
     const std::vector<Point3> curve{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0},
                                     {0, 4, 4}, {4, 4, 4}, {4, 0, 4}, {0, 0, 4}};
     for (const bool sheared : {false, true})

@@ -79,7 +79,7 @@ TEST_CASE("measures: volumes above a contact are those of the cut solid", "[unce
     CHECK(measures[inner].high == 4);
     CHECK(measures[outer].high == 8);
     for (std::size_t c = 0; c < contacts.size(); ++c) {
-        // What is left of a pyramid above a plane is similar to it.
+        // The part of a pyramid above a plane is similar to it.
         const double share = std::clamp((4 - contacts[c]) / 3, 0.0, 1.0);
         const double pyramid = 16 * share * share * share;
         const double box = 64 * std::clamp(8 - contacts[c], 0.0, 8.0);

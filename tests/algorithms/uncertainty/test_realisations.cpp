@@ -145,7 +145,7 @@ TEST_CASE("realisations: the throw of a fault lowers what is above it and abreas
     fault.slip = 6;
     Project project;
     project.uncertainty = {fault};
-    // Points of a horizon above the fault, below it, and beside its ends.
+    // Points of a horizon above the fault, below it, and off its ends.
     std::vector<Surface> surfaces = flat_model();
     surfaces.push_back({"points",
                         Role::horizon,

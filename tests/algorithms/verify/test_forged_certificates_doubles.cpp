@@ -359,7 +359,7 @@ TEST_CASE("verify_certificate: the tip of a needle that vanished is near what th
     REQUIRE(verdict.measured);
     CHECK(verdict.measured->vanished == 0);
     CHECK(verdict.measured->partly_vanished == 1);
-    // Without the sheet beside it, the tip would be missing.
+    // Without the sheet next to it, the tip would be missing.
     Subject alone = s;
     Json& r = alone.certificate["rounded"];
     drop_children(r, {1, 2, 3});

@@ -32,7 +32,7 @@ public:
                 mpz_class(numbers_.get_z_bits(bits_)), 1};
     }
 
-    /// Returns a point at most one unit beside the line through a and b.
+    /// Returns a point at most one unit off the line through a and b.
     Vector4 beside(const Vector4& a, const Vector4& b) {
         Vector4 p;
         const int share = at_most(3) - 1;
@@ -43,7 +43,7 @@ public:
 
     int at_most(int n) { return std::uniform_int_distribution<int>(0, n)(random_); }
 
-    /// Returns points of which half are beside the line through the two before.
+    /// Returns points of which half are off the line through the two before.
     template <std::size_t N>
     std::array<Vector4, N> some() {
         std::array<Vector4, N> p;

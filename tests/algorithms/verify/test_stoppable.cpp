@@ -40,7 +40,7 @@ std::vector<forged::File> crossing_grids(unsigned n) {
 
 using Work = std::function<Result<std::size_t>()>; // returns the number of violations
 
-/// What the verifier does with a certificate, its output files, an arrangement and a mesh.
+/// The calls of the verifier for a certificate, its output files, an arrangement and a mesh.
 struct Works {
     forged::Subject subject;
     std::string text;

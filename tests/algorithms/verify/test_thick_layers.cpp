@@ -63,7 +63,7 @@ std::optional<double> height_at_place(std::size_t triangles, const Corner& corne
     return std::nullopt;
 }
 
-/// What keeps a triangle of a layer where it is.
+/// The reasons for which a triangle of a layer stays.
 enum class Held { by_own, by_upper, by_lower, squeezed };
 
 /// Returns a triangle of `layer`, away from the borders of all surfaces, that is on its own surface

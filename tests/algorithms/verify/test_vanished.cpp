@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// What may vanish: an input triangle that is thinner than half the stated deviation, and whose sides are
-// within a quarter of it of the mesh. Certificates from which a triangle was removed are judged on both
-// sides of each bound.
+// Triangles that may vanish: an input triangle that is thinner than half the stated deviation, and
+// whose sides are within a quarter of it of the mesh. Certificates from which a triangle was
+// removed are judged on both sides of each bound.
 #include "support/forged.hpp"
 
 namespace {
 
 using namespace forged;
 
-/// A needle beside a sheet, which meets nothing.
+/// A needle next to a sheet, which meets nothing.
 struct Needle {
     double height = 2e-6; ///< above the sheet
     double width = 4e-6;  ///< at its end
@@ -65,7 +65,7 @@ TEST_CASE("verify_certificate: no triangle may vanish that is not thin, or not b
     CHECK(judged_without({.width = 1}, deviation) == "R12");
     CHECK(judged_without({.end = 6.6}, deviation) == "R12"); // its tip is beyond the sheet
     CHECK(judged_without({.end = 100}, deviation) == "R12");
-    // What is stated decides, up to what is accepted.
+    // The stated deviation decides, up to the accepted one.
     CHECK(judged_without({}, 7e-6) == "R12");
     CHECK(judged_without({}, 2e-5) == "R13");
     CHECK(judged_without({}, 2e-5, {.max_deviation = 2e-5}).empty());

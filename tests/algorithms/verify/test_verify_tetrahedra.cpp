@@ -4,6 +4,7 @@
 // accepted.
 #include "support/divided_models.hpp"
 #include "support/effort.hpp"
+#include "support/exact_numbers.hpp"
 #include "support/tetrahedra_damage.hpp"
 
 #include <map>
@@ -23,12 +24,10 @@ TetrahedraClaim claim_of(const TetrahedralMesh& m, bool box) {
     return {box, m.vertices, m.tetrahedra, m.block_of, m.faces, m.face_triangle, m.twins};
 }
 
-/// What the verifier knows of a mesh when it judges tetrahedra.
+/// The data of a mesh by which the verifier judges tetrahedra.
 struct Known {
-    explicit Known(const Filled& f) : sides(f.volumes.of_sides) {
-        for (const std::string& volume : exact_volumes(f.mesh, f.volumes))
-            volumes.emplace_back(volume);
-    }
+    explicit Known(const Filled& f) :
+        sides(f.volumes.of_sides), volumes(test_support::exact_numbers(f.mesh, f.volumes)) {}
     std::vector<verifier::BlockSides> sides;
     std::vector<mpq_class> volumes;
 };

@@ -16,6 +16,7 @@
 #include <gmpxx.h>
 
 #include "support/certified_inputs.hpp"
+#include "support/exact_numbers.hpp"
 #include "support/found_volumes.hpp"
 #include "support/paths.hpp"
 #include "support/points.hpp"
@@ -75,10 +76,7 @@ std::vector<Surface> moved(std::vector<Surface> surfaces, const Move& move) {
 }
 
 std::vector<mpq_class> exact(const Found& found) {
-    std::vector<mpq_class> measures;
-    for (const auto& text : exact_volumes(found.arrangement, found.volumes))
-        measures.emplace_back(text);
-    return measures;
+    return test_support::exact_numbers(found.arrangement, found.volumes);
 }
 
 /// Returns the pairs of volumes that touch; a pair of equal numbers has something dangling in it.

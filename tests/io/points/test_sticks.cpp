@@ -120,7 +120,7 @@ TEST_CASE("fault sticks: a file of another program", "[io][sticks]") {
 }
 
 TEST_CASE("fault sticks: a closed line is filled, with its own points only", "[io][sticks]") {
-    // An L in the plane y = x, seen from beside; the last line repeats its first point twice.
+    // An L in the plane y = x, seen from the side; the last line repeats its first point twice.
     const std::string upright = "0 0 0\n4 4 0\n4 4 -2\n2 2 -2\n2 2 -5\n0 0 -5\n0 0 -5\n0 0 0\n";
     for (const std::string& text : {upright + "999 999 999\n", upright}) {
         const auto faults = read_them(text);

@@ -11,6 +11,7 @@
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -20,7 +21,7 @@ namespace {
 Error not_closed(const BorderLine& border, std::size_t wall, const char* how) {
     return {ErrorCode::not_closed, std::string("the strip along the border ") + how,
             "border vertex " + std::to_string(border.vertices[wall]) + " " +
-                text_of(border.points[wall])};
+                place_text(border.points[wall])};
 }
 
 /// An edge shared by a strip and the filling; vertices are those of the arrangement.
@@ -210,7 +211,7 @@ public:
         if (!is_disk_with_holes())
             return Error{ErrorCode::not_closed,
                          "the strip cuts the filling in a line that does not enclose a disk",
-                         text_of(point(lines_[0]->vertices[0]))};
+                         place_text(point(lines_[0]->vertices[0]))};
         return part();
     }
 
@@ -277,7 +278,7 @@ Status InnerPartFinder::spread(DisjointSets& sets, const Flaws& flaws) {
         if (!left) reached[sets.find(t)] = true;
     });
     const auto fault = [&](ErrorCode code, const char* what, std::uint32_t t) {
-        return Error{code, what, text_of(point(corners_[t][0]))};
+        return Error{code, what, place_text(point(corners_[t][0]))};
     };
     for (const std::uint32_t t : flaws.crowded)
         if (reached[sets.find(t)])
@@ -344,7 +345,7 @@ Result<InnerPart> InnerPartFinder::part() const {
         if (!a_.state->points.is_input(p) || p < first)
             return Error{ErrorCode::improper_contact,
                          "the filling crosses itself, or a strip, inside the hole",
-                         text_of(point(v))};
+                         place_text(point(v))};
         add(v);
         part.filling.push_back(p - first);
     }
@@ -368,10 +369,6 @@ Result<InnerPart> InnerPartFinder::part() const {
 }
 
 } // namespace
-
-std::string text_of(const Point3& p) {
-    return fmt::format("({}, {}, {})", p.x, p.y, p.z);
-}
 
 Surface strip_along(const BorderLine& border, double half_width) {
     Surface strip{"strip", Role::unknown, {}, {}};

@@ -23,9 +23,6 @@ struct BorderLine {
     std::vector<std::uint32_t> vertices; ///< per point: vertex of the surface
 };
 
-/// "(x, y, z)", each as its shortest decimal.
-std::string text_of(const Point3& p);
-
 /// Builds S_bound. Wall i stands on the edge from point i to the next and consists of triangles 2 i
 /// and 2 i + 1. Point i has the lower vertex 2 i and the upper vertex 2 i + 1, each `half_width`
 /// away.

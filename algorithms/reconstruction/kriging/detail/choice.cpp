@@ -198,7 +198,7 @@ private:
     const Run& run_;
 };
 
-/// What is left out at a time: the data nearer to a place of the border than the hole's radius.
+/// The data left out at a time: those nearer to a place of the border than the hole's radius.
 std::vector<std::vector<Eigen::Index>> blocks_of(std::span<const Point3> data,
                                                  std::span<const Point3> centres, double radius) {
     std::vector<std::vector<Eigen::Index>> blocks;

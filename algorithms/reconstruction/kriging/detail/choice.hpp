@@ -49,11 +49,11 @@ struct DataAroundHole {
 /// A gaussian model must be more likely by a margin, as must anisotropy. Then blocks as wide as the
 /// hole are left out in turn: if they are missed by more than the model expects, nugget and sill
 /// grow by the square of that ratio. The model counts for 2 blocks in it, and all blocks for at
-/// most 12. If each of at least 8 blocks is missed by less than half of what the model expects,
-/// nugget and sill shrink to the largest square of these ratios, but not below a quarter. The trend
-/// has degree 1, or 2 if blocks are then missed by less than a tenth, or by little more than noise.
-/// The data may have less noise than the least nugget that is tried: then the weights of the data
-/// are smaller than it expects, and only that share of it is noise.
+/// most 12. If each of at least 8 blocks is missed by less than half of the error that the model
+/// expects, nugget and sill shrink to the largest square of these ratios, but not below a quarter.
+/// The trend has degree 1, or 2 if blocks are then missed by less than a tenth, or by little more
+/// than noise. The data may have less noise than the least nugget that is tried: then the weights
+/// of the data are smaller than it expects, and only that share of it is noise.
 /// Stops early if the run is stopped; the choice is of no use then.
 ModelChoice choose_model(const DataAroundHole& around, const VariogramFitOptions& options,
                          const Run& run);

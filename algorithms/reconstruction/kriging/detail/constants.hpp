@@ -97,7 +97,8 @@ struct KrigingConstants : Constants {
     double least_range = add("least_range", 0.03);
     /// Largest range that is tried, in extents of the data.
     double most_range = add("most_range", 8);
-    /// The same of a gaussian model: its sill would grow beyond what doubles can subtract.
+    /// Largest range of a gaussian model, likewise: its sill would grow beyond what doubles can
+    /// subtract.
     double most_smooth_range = add("most_smooth_range", 2);
     /// Ranges that are tried first, at equal ratios.
     int range_steps = add("range_steps", 5);

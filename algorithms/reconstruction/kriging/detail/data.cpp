@@ -10,6 +10,7 @@
 
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/flat_cloud.hpp>
@@ -25,7 +26,7 @@ Error no_graph(const Point3& p, std::string_view why) {
             fmt::format("the surface is no graph z = f(x, y) next to the hole: {}; --method rbf "
                         "can fill it",
                         why),
-            fmt::format("({}, {}, {})", p.x, p.y, p.z)};
+            place_text(p)};
 }
 
 /// Grows rings of triangles from a hole's border, as long as neighbours lie side by side along z.

@@ -87,7 +87,7 @@ struct RbfConstants : Constants {
     std::size_t centres_per_term = add("centres_per_term", 3);
     /// Least number of centres at the start.
     std::size_t least_start = add("least_start", 10);
-    /// The start has one in so many of the centres that are allowed.
+    /// The start has one in this many of the centres that are allowed.
     std::size_t start_part = add("start_part", 4);
     /// Largest growth of the number of centres in a round.
     std::size_t centre_growth = add("centre_growth", 2);
@@ -101,9 +101,9 @@ struct RbfConstants : Constants {
     double offset_edges = add("offset_edges", 0.5);
     /// Least distance of offset constraints near noisy data, in radii of the hole.
     double noisy_offset = add("noisy_offset", 0.25);
-    /// Largest width of what is left out for validation: that of the data divided by this.
+    /// The width of a part left out for validation is at most that of the data divided by this.
     double left_out_part = add("left_out_part", 3);
-    /// Least width of what is left out for validation, in median border edges.
+    /// Least width of a part left out for validation, in median border edges.
     double left_out_edges = add("left_out_edges", 1.5);
     /// With fewer data left, forms are not compared.
     std::size_t least_judged = add("least_judged", 10);
@@ -117,7 +117,7 @@ struct RbfConstants : Constants {
     double least_slope = add("least_slope", 0.1);
     /// Length of the mean border normal below which it is no axis.
     double least_mean_normal = add("least_mean_normal", 0.1);
-    /// One normal in so many may lean farther than the steepness that is compared.
+    /// One normal in this many may lean farther than the steepness that is compared.
     std::size_t outlier_part = add("outlier_part", 20);
     /// Least degree of smoothing that cross-validation tries: power of ten, in largest
     /// eigenvalues.
@@ -165,10 +165,10 @@ struct RbfConstants : Constants {
     double least_noise_share = add("least_noise_share", 0.5);
     /// Least factor of a kernel whose data may as well be noise.
     double least_share = add("least_share", 1e-6);
-    /// The model of kriging is believed up to so many times the error of the fit at such blocks.
+    /// The model of kriging is believed up to this many times the error of the fit at such blocks.
     double worth_own = add("worth_own", 1.5);
-    /// Square of what kriging misses of blocks beyond noise, in squares of the noise, above which
-    /// this tells two models apart.
+    /// Kriging tells two models apart if the square of its error at blocks, beyond the noise,
+    /// exceeds this many squares of the noise.
     double least_excess = add("least_excess", 0.5);
     /// Noise of the fit, in that of the model of kriging, above which its model is not believed.
     double most_own_noise = add("most_own_noise", 2);

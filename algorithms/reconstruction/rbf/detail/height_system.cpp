@@ -143,7 +143,7 @@ std::vector<double> HeightSystem::some_deviations(std::span<const Point3> places
         share.col(c) = terms_at(p, degree_);
     }
     // The weights of the data are a share of the polynomial, which any unbiased estimate has, and
-    // contrasts. What the share says is noisy, too.
+    // contrasts. The share is noisy, too.
     qr_.matrixQR().topLeftCorner(m_, m_).triangularView<Eigen::Upper>().transpose().solveInPlace(
         share);
     k.applyOnTheLeft(qr_.householderQ().adjoint());

@@ -20,7 +20,7 @@
 
 namespace terrane::rbf::detail {
 
-/// What g is made of.
+/// The terms of g.
 struct HeightForm {
     RbfKernel kernel = RbfKernel::cubic;
     unsigned degree = 1;
@@ -45,8 +45,8 @@ public:
     [[nodiscard]] Eigen::MatrixXd between_contrasts() const;
     [[nodiscard]] Eigen::VectorXd contrasts() const;
 
-    /// Factorises. Returns false if the matrix is not positive definite or the run is stopped. What
-    /// follows needs it.
+    /// Factorises. Returns false if the matrix is not positive definite or the run is stopped. The
+    /// functions below need the factors.
     bool factorise(double nugget, const Run& run);
     /// The weights of the kernels.
     [[nodiscard]] Eigen::VectorXd weights() const;

@@ -65,7 +65,7 @@ VectorXd missed_of(const std::vector<Index>& block, const MatrixXd& projection,
     return projection(block, block).partialPivLu().solve(weights(block));
 }
 
-/// Computes the root mean square over blocks of what is missed of them; NaN if there are none.
+/// Computes the root mean square of the errors at blocks; NaN without blocks.
 double missed_blocks(const MatrixXd& projection, const VectorXd& weights, const Blocks& blocks) {
     double squares = 0, count = 0;
     for (const auto& block : blocks) {
@@ -324,10 +324,10 @@ Point3 scaled(const RbfFunction& f, const Point3& p) {
 
 /// Tells whether expected errors are those of the fit's own model.
 bool is_believed(const HeightFit& fit) {
-    // What the fit calls noise may be roughness across one direction, which it does not know.
+    // The noise of the fit may be roughness across one direction, which the fit does not know.
     if (fit.noise > constants.most_own_noise * fit.kriging->noise() + fit.rounding) return false;
     if (!(fit.kriging->validated() < constants.worth_own * fit.validated)) return true;
-    // What blocks are missed by is noise for the greater part: it is the rest that counts.
+    // The errors at blocks are noise for the greater part: the rest counts.
     const double noise = fit.kriging->noise() * fit.kriging->noise();
     const double theirs = fit.kriging->validated() * fit.kriging->validated() - noise;
     const double own = fit.validated * fit.validated - fit.noise * fit.noise;

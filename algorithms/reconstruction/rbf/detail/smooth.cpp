@@ -195,7 +195,7 @@ Result<RbfSmoothFit> smooth_rbf(std::span<const Point3> centres, std::span<const
             f.terms_at(at[i], transposed.col(static_cast<Eigen::Index>(i)).data());
         return Matrix(transposed.transpose());
     };
-    // 1. What the weights can represent at the points.
+    // 1. The functions that the weights can represent at the points.
     const auto centre_places = scaled(centres), places = scaled(points);
     const Weights weights(kernel_between(centre_places, centre_places), terms(centre_places));
     if (!weights.ok()) return bad("points are too near together");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Sliders and keys of the view.
-import { button, element } from "./text";
+import { button, coordinate, element } from "./text";
 import type { Axis } from "./caps";
 import type { View } from "./view";
 
@@ -45,7 +45,7 @@ function sectionControl(view: View): HTMLElement {
     const share = Number(place.value);
     view.cutAt({ axis: k, share, flipped });
     const at = view.model.origin[k] + view.model.unit * view.model.half.getComponent(k) * (1 + 2 * view.exploded) * (2 * share - 1);
-    shown.textContent = `${axis.value} ${Number(at.toPrecision(6)).toLocaleString("en", { maximumFractionDigits: 2 })}`;
+    shown.textContent = `${axis.value} ${coordinate(at, 2 * view.model.radius * view.model.unit)}`;
   };
   axis.addEventListener("change", () => { // what is kept shows its cut to us
     if (axis.value !== "off") flipped = view.viewpoint.isBehind("xyz".indexOf(axis.value) as Axis);

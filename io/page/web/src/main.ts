@@ -6,7 +6,7 @@ import { readReport, type Content, type Finding, type Report, type RunInfo, type
 import { itemList, lineList } from "./lists";
 import { Plots } from "./plots";
 import { tableOf } from "./tables";
-import { button, download, element, named, plain, Quantities, shortened } from "./text";
+import { button, coordinate, download, element, figure, named, Quantities, shortened } from "./text";
 import { View, type Item, type Pick, type ViewName } from "./view";
 import { overlay } from "./overlay";
 import { controls, keys } from "./controls";
@@ -163,12 +163,12 @@ class Page {
     return panel;
   }
   private sizeOf(finding: Finding): string {
-    return finding.measure === "1 - q" ? `q ${plain(1 - finding.size, 2)}` : this.quantities.text(finding.size, finding.measure, 3);
+    return finding.measure === "1 - q" ? `q ${figure(1 - finding.size, 2)}` : this.quantities.text(finding.size, finding.measure, 3);
   }
   flyTo(finding: Finding): void {
     this.view.flyTo(finding.place, finding.extent);
     const extent = 2 * this.view.model.radius * this.view.model.unit;
-    this.announce(`${finding.kind} at ${finding.place.map((c) => this.quantities.coordinate(c, extent)).join(", ")}`);
+    this.announce(`${finding.kind} at ${finding.place.map((c) => coordinate(c, extent)).join(", ")}`);
   }
 
   private tablesPanel(): HTMLElement {
@@ -185,7 +185,7 @@ class Page {
         "Coordinates are those of the input; shapes are drawn in single precision."),
       element("p", {}, "Mouse: drag turns, right button moves, wheel zooms, click picks; a second click measures the distance. Keys: " +
         "arrows turn, Shift and arrows move, + and − zoom, 1 to 4 choose a view, 0 shows all, Escape ends measuring."),
-      element("h3", {}, "Licences of what is in this page"));
+      element("h3", {}, "Licences of the parts of this page"));
     for (const { name, version, licence, text } of TERRANE_LICENCES)
       panel.append(element("details", {}, element("summary", {}, `${name} ${version}: ${licence}`), element("pre", { tabindex: 0 }, text)));
     return panel;
@@ -253,7 +253,7 @@ class Page {
     } else {
       rows.push(["Surface", named(item.name)], ["Area", this.quantities.text(item.area, "area", 6)]);
     }
-    hit.place.forEach((c, k) => rows.push(["xyz"[k], `${this.quantities.coordinate(c, extent)}${this.content.unit ? " " + this.content.unit : ""}`]));
+    hit.place.forEach((c, k) => rows.push(["xyz"[k], `${coordinate(c, extent)}${this.content.unit ? " " + this.content.unit : ""}`]));
     const distance = this.distance();
     if (distance !== null) rows.push(["Distance", this.quantities.text(distance, "length", 6)]);
     this.picked.replaceChildren(button("×", "Close", () => this.clearPicks(), { class: "close" }),

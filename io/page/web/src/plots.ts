@@ -4,7 +4,7 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import type { Plot } from "./data";
-import { element, plain, type Quantities } from "./text";
+import { element, figure, type Quantities } from "./text";
 
 const seriesColours = ["#7f8c99", "#2b7bba"]; // before, after: distinct in lightness
 
@@ -27,7 +27,7 @@ export class Plots {
     if (plot.lines) {
       for (const line of plot.lines)
         for (let i = 0; i < Math.min(line.x.length, 500); ++i)
-          body.append(element("tr", {}, element("td", {}, line.name), element("td", {}, plain(line.x[i], 6)), element("td", {}, plain(line.y[i], 6))));
+          body.append(element("tr", {}, element("td", {}, line.name), element("td", {}, figure(line.x[i], 6)), element("td", {}, figure(line.y[i], 6))));
       return this.hidden(plot, element("tr", {}, ...["", this.quantities.label(plot.x.label, plot.x.measure),
         this.quantities.label(plot.y.label, plot.y.measure)].map((t) => element("th", {}, t || "of"))), body);
     }
@@ -45,7 +45,7 @@ export class Plots {
       element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": plot.title }, element("table", {}, element("thead", {}, head), body)));
   }
   private name(plot: Plot, i: number): string {
-    return plot.names ? plot.names[i] : `${plain(plot.bounds![i], 3)} – ${plain(plot.bounds![i + 1], 3)}`;
+    return plot.names ? plot.names[i] : `${figure(plot.bounds![i], 3)} – ${figure(plot.bounds![i + 1], 3)}`;
   }
 
   redraw(): void {
@@ -94,7 +94,7 @@ export class Plots {
     const wide = plot.names ? 10 + 8 * Math.max(...plot.names.map((name) => name.length)) : 52; // pixels of a label
     const most = Math.max(2, Math.floor((width - 70) / wide));
     const step = Math.ceil(ends.length / most);
-    const label = (v: number) => plot.names ? plot.names[Math.round(v - 0.5)] : plain(plot.bounds![Math.round(v)], 3);
+    const label = (v: number) => plot.names ? plot.names[Math.round(v - 0.5)] : figure(plot.bounds![Math.round(v)], 3);
     return new uPlot({
       width, height: 210, legend: { show: series.length > 1, live: false }, cursor: { drag: { x: false, y: false } },
       scales: { x: { time: false, range: [0, count] }, y: { range: (_, __, top) => [0, top > 0 ? top * 1.06 : 1] } },
@@ -112,11 +112,11 @@ export class Plots {
   }
 }
 
-/** Writes a number for an axis: 12 k, 3.5 M, 2e9. */
+/** Writes a number for an axis: 12 k, 3.5 M, 2 G. */
 function short(value: number): string {
   const size = Math.abs(value);
-  if (size >= 1e9 || (size < 1e-3 && size > 0)) return value.toExponential(1).replace(".0e", "e").replace("e+", "e");
-  if (size >= 1e6) return plain(value / 1e6, 3) + " M";
-  if (size >= 1e4) return plain(value / 1e3, 3) + " k";
-  return plain(value, 4);
+  if (size >= 1e9) return figure(value / 1e9, 3) + " G";
+  if (size >= 1e6) return figure(value / 1e6, 3) + " M";
+  if (size >= 1e4) return figure(value / 1e3, 3) + " k";
+  return figure(value, 4);
 }

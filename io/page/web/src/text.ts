@@ -9,14 +9,14 @@ export class Quantities {
   /** Writes a value of a measure with its unit: "length", "area", "volume", "angle", or none. */
   text(value: number | null, measure: string, digits = 4): string {
     if (value === null) return "–";
-    if (isBeyond(value)) return plain(value, digits);
+    if (isBeyond(value)) return figure(value, digits);
     if (measure === "count") return value.toLocaleString("en");
-    if (measure === "angle") return `${plain(value, digits)}°`;
+    if (measure === "angle") return `${figure(value, digits)}°`;
     const power = { length: 1, area: 2, volume: 3 }[measure] ?? 0;
-    if (power === 0) return plain(value, digits);
+    if (power === 0) return figure(value, digits);
     if (this.unit === "m" && Math.abs(value) >= [0, 1e4, 1e5, 1e8][power])
-      return `${plain(value / 1000 ** power, digits)} km${sup(power)}`;
-    return `${plain(value, digits)}${this.unit ? " " + this.unit + sup(power) : ""}`;
+      return `${figure(value / 1000 ** power, digits)} km${sup(power)}`;
+    return `${figure(value, digits)}${this.unit ? " " + this.unit + sup(power) : ""}`;
   }
   /** Returns the unit for an axis on which `most` is the largest value, and how many base units it has. */
   axis(label: string, measure: string, most: number): { label: string; factor: number } {
@@ -30,12 +30,13 @@ export class Quantities {
     if (measure === "angle") return `${label} (°)`;
     return power > 0 && this.unit ? `${label} (${this.unit}${sup(power)})` : label;
   }
-  /** Writes a coordinate with all digits that mean something in a model of this extent. */
-  coordinate(value: number | null, extent: number): string {
-    if (value === null) return "?";
-    const decimals = Math.max(0, Math.min(9, 5 - Math.floor(Math.log10(Math.max(extent, 1e-9)))));
-    return value.toFixed(decimals);
-  }
+}
+
+/** Writes a coordinate with the decimals that 6 significant digits of the model's extent need. */
+export function coordinate(value: number | null, extent: number): string {
+  if (value === null) return "?";
+  const decimals = Math.max(0, Math.min(9, 5 - Math.floor(Math.log10(Math.max(extent, 1e-9)))));
+  return String(Number(value.toFixed(decimals)));
 }
 
 function sup(power: number): string {
@@ -47,13 +48,14 @@ function isBeyond(value: number): boolean {
   return !(Math.abs(value) < Number.MAX_VALUE);
 }
 
-export function plain(value: number | null, digits: number): string {
+/** Writes a number by the laws of algorithms/core/figure.hpp. */
+export function figure(value: number | null, digits = 6): string {
   if (value === null || Number.isNaN(value)) return "?";
   if (isBeyond(value)) return value > 0 ? "> 1.8e308" : "< -1.8e308";
   if (value === 0) return "0";
-  const size = Math.abs(value);
-  if (size >= 1e7 || size < 1e-4) return value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e");
-  return Number(value.toPrecision(digits)).toLocaleString("en", { maximumSignificantDigits: digits });
+  const [mantissa, exponent] = value.toExponential(Math.min(Math.max(digits, 1), 6) - 1).split("e"), power = Number(exponent);
+  if (power < -4 || power >= 15) return `${Number(mantissa)}e${power}`;
+  return Number(`${mantissa}e${power}`).toLocaleString("en", { maximumFractionDigits: 20, useGrouping: power >= 6 });
 }
 
 type Attributes = Record<string, string | number | boolean>;

@@ -72,7 +72,7 @@ TEST_CASE("rbf: graphs are filled up to their border, folds and occupied holes a
         CHECK(filling.expected_error[made.filling_vertices[k]] > 0);
         CHECK(p.z == Approx(wave(p.x, p.y)).margin(0.01));
     }
-    // What stands in the hole is never crossed.
+    // Surfaces in the hole are never crossed.
     Surface occupied = s;
     const auto first = static_cast<std::uint32_t>(s.vertices.size());
     occupied.vertices.insert(occupied.vertices.end(), {{5, 5, -3}, {5.4, 5, -3}, {5.2, 5.1, 3}});

@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/quality/detail/reference_surface.hpp>
 
 namespace terrane {
-
 namespace {
 
 /// Estimates the number of triangles from areas and wanted lengths alone: without curvature, and without
@@ -54,14 +54,14 @@ Status check_improvable(std::span<const Surface> surfaces, const ImproveOptions&
     if (options.max_deviation > 0 && options.max_deviation < least)
         return Error{
             ErrorCode::bad_option,
-            fmt::format("is too small for coordinates of this size; the least is {:.3g}", least),
+            fmt::format("is too small for coordinates of this size; the least is {}", least),
             "max_deviation"};
     const double count = expected_triangles(surfaces, options);
     if (count > options.max_triangles)
         return Error{ErrorCode::bad_option,
-                     fmt::format("about {:.3g} triangles are to be expected, more than the limit "
-                                 "of {:.3g}; ask for longer edges or raise the limit",
-                                 count, options.max_triangles),
+                     fmt::format("about {} triangles are to be expected, more than the limit "
+                                 "of {}; ask for longer edges or raise the limit",
+                                 figure(count, 3), figure(options.max_triangles)),
                      "max_triangles"};
     return Done{};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "forge_tables.hpp"
+#include "forge_lists.hpp"
 
 #include <algorithm>
 #include <array>
@@ -258,7 +258,7 @@ std::vector<Table> tables_of(Certificate& c) {
 
 } // namespace
 
-std::string change_table(Certificate& certificate, unsigned which, const Arguments& n) {
+std::string change_list(Certificate& certificate, unsigned which, const Arguments& n) {
     auto tables = tables_of(certificate);
     Table& table = tables[which % tables.size()];
     auto& columns = table.columns;

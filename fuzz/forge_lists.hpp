@@ -7,7 +7,7 @@
 #include <string>
 
 #include "forge_changes.hpp"
-#include "forge_parts.hpp"
+#include "forge_triangles.hpp"
 
 namespace terrane::fuzz {
 
@@ -28,7 +28,7 @@ std::span<const Change> changes_of_seals();
 
 /// Changes one of the lists of a certificate, together with those that are parallel to it or not:
 /// drops, repeats or exchanges elements, changes a number, empties it.
-std::string change_table(Certificate& certificate, unsigned which, const Arguments& arguments);
+std::string change_list(Certificate& certificate, unsigned which, const Arguments& arguments);
 
 /// Returns the surface of each input triangle of a certificate with "cut"; those of the boundary come
 /// last.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/quality/improve_back.hpp>
+#include <terrane/algorithms/quality/bounds_back.hpp>
 
 #include <algorithm>
 #include <cmath>

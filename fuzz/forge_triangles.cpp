@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "forge_parts.hpp"
+#include "forge_triangles.hpp"
 
 #include <array>
 #include <cmath>
