@@ -10,8 +10,8 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/project/build.hpp>
-#include <terrane/algorithms/project/project.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
+#include <terrane/algorithms/pipeline/project.hpp>
 #include <terrane/algorithms/structure/relations.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>
 #include <terrane/io/project.hpp>

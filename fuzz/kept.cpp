@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
 
 #include "bytes.hpp"
 #include "report.hpp"

@@ -15,7 +15,7 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/project/project.hpp>
+#include <terrane/algorithms/pipeline/project.hpp>
 #include <terrane/algorithms/search/method.hpp>
 #include <terrane/io/certificate.hpp>
 

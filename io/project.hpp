@@ -14,8 +14,8 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/project/build.hpp>
-#include <terrane/algorithms/project/project.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
+#include <terrane/algorithms/pipeline/project.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>
 
 namespace terrane {

@@ -13,7 +13,7 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/project/project.hpp>
+#include <terrane/algorithms/pipeline/project.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/io/project.hpp>
 

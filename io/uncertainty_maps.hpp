@@ -8,7 +8,7 @@
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/algorithms/project/project.hpp>
+#include <terrane/algorithms/pipeline/project.hpp>
 
 namespace terrane {
 

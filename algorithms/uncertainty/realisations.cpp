@@ -11,7 +11,7 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
-#include <terrane/algorithms/project/known_build.hpp>
+#include <terrane/algorithms/pipeline/known_build.hpp>
 #include <terrane/algorithms/uncertainty/detail/fault_plane.hpp>
 #include <terrane/algorithms/uncertainty/detail/fault_slip.hpp>
 #include <terrane/algorithms/uncertainty/detail/map_values.hpp>

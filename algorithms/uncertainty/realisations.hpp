@@ -23,8 +23,8 @@
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
-#include <terrane/algorithms/project/build.hpp>
-#include <terrane/algorithms/project/project.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
+#include <terrane/algorithms/pipeline/project.hpp>
 
 namespace terrane {
 

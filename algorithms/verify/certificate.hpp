@@ -229,9 +229,9 @@ public:
     // About an arrangement, as all kinds are but filled and layered.
     ArrangementClaim exact;              ///< the arrangement in exact numbers
     std::optional<RoundedClaim> rounded; ///< the mesh of doubles, if there is one
-    std::string digest;                  ///< "sha256:" and 64 hexadecimal digits; see arrangement.hpp
-    std::optional<CutClaim> cut;         ///< the left-out part; always there with sealed
-    std::optional<SealedClaim> sealed;   ///< triangles added to surfaces before
+    std::string digest;                ///< "sha256:" and 64 hexadecimal digits; see arrangement.hpp
+    std::optional<CutClaim> cut;       ///< the left-out part; always there with sealed
+    std::optional<SealedClaim> sealed; ///< triangles added to surfaces before
 
     /// The further claim; the kinds arrangement, cut and sealed have none.
     std::variant<std::monostate, BlocksClaim, FilledBlocksClaim, ImprovedClaim, FilledClaim,

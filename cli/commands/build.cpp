@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/stage_timer.hpp>
-#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/cli/commands/build_help.hpp>
 #include <terrane/cli/commands/command.hpp>

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
-#include <terrane/algorithms/project/project.hpp>
+#include <terrane/algorithms/pipeline/project.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/files.hpp>
 

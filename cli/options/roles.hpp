@@ -12,7 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include <terrane/algorithms/mesh/labels.hpp>
-#include <terrane/algorithms/project/project.hpp>
+#include <terrane/algorithms/pipeline/project.hpp>
 #include <terrane/cli/options/files.hpp>
 
 namespace terrane::cli {

@@ -9,7 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <terrane/algorithms/project/project.hpp>
+#include <terrane/algorithms/pipeline/project.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>

@@ -114,8 +114,7 @@ std::string rounding_text(const RoundingReport& r, const Quantities& quantities)
                                   bad("NOT verified:"), at_least(r.contacts.size()),
                                   counted(r.contacts.size(), "pair"),
                                   quantities.length(r.max_allowed, 3));
-    if (r.sufficient_limit > 0)
-        text += fmt::format("--max-move {} would do\n", r.sufficient_limit);
+    if (r.sufficient_limit > 0) text += fmt::format("--max-move {} would do\n", r.sufficient_limit);
     return text + text_of(r.pairs);
 }
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/cli/options/statistics.hpp>

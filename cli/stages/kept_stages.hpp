@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
 #include <terrane/cli/stages/user_key.hpp>
 
 namespace terrane::cli {

@@ -13,7 +13,7 @@
 #include <CLI/CLI.hpp>
 
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/options/volume_options.hpp>

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include <terrane/algorithms/project/project.hpp>
+#include <terrane/algorithms/pipeline/project.hpp>
 #include <terrane/io/detail/json_reader.hpp>
 
 namespace terrane::detail {

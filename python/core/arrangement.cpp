@@ -153,11 +153,12 @@ py::dict to_dict(const RoundingReport& r) {
     return py::dict(
         "clean"_a = r.clean, "rounds"_a = r.rounds, "naive_contacts"_a = r.naive_contacts,
         "contacts"_a = to_list(r.contacts), "surface_deviation"_a = r.surface_deviation,
-        "max_allowed"_a = r.max_allowed, "sufficient_limit"_a = r.sufficient_limit, "vanished_length"_a = r.vanished_length,
-        "max_move"_a = r.max_move, "arranged_again"_a = r.arranged_again,
-        "deviation"_a = r.deviation, "moved_input_vertices"_a = r.moved_input_vertices,
-        "merged_vertices"_a = r.merged_vertices, "collapsed_triangles"_a = r.collapsed_triangles,
-        "vanished_regions"_a = lost, "vanished"_a = owned(r.vanished));
+        "max_allowed"_a = r.max_allowed, "sufficient_limit"_a = r.sufficient_limit,
+        "vanished_length"_a = r.vanished_length, "max_move"_a = r.max_move,
+        "arranged_again"_a = r.arranged_again, "deviation"_a = r.deviation,
+        "moved_input_vertices"_a = r.moved_input_vertices, "merged_vertices"_a = r.merged_vertices,
+        "collapsed_triangles"_a = r.collapsed_triangles, "vanished_regions"_a = lost,
+        "vanished"_a = owned(r.vanished));
 }
 
 void bind_arrangement(py::module_& module) {

@@ -7,8 +7,8 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/algorithms/project/build.hpp>
-#include <terrane/algorithms/project/project.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
+#include <terrane/algorithms/pipeline/project.hpp>
 #include <terrane/io/project.hpp>
 
 #include "model_handle.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <terrane/algorithms/model/resolution.hpp>
-#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/structure/relations.hpp>
 #include <terrane/algorithms/structure/structure.hpp>

@@ -9,7 +9,7 @@
 
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>
 
 namespace terrane::python {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/labels.hpp>
-#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 #include <terrane/io/project.hpp>
 #include <terrane/io/results.hpp>

@@ -200,5 +200,7 @@ TEST_CASE("cli: each second of a run counts for a stage", "[cli][once]") {
     }
     expect_sum(folder, "volume " + parts + " -o out --parts obj --certificate out.json");
     expect_sum(folder, "improve " + vertices + " -o out.vtp");
+    expect_sum(folder, "fill " + vertices + " -o out.vtp");
+    expect_sum(folder, "layer " + vertices + " --layer sheet=1 -o out.vtp");
     expect_sum(folder, "tetrahedralize " + parts + " -o out.vtu --blocks-only");
 }

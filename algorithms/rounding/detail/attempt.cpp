@@ -11,6 +11,7 @@
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
+#include <terrane/algorithms/rounding/detail/places.hpp>
 #include <terrane/algorithms/rounding/detail/repair.hpp>
 #include <terrane/algorithms/rounding/detail/reports.hpp>
 #include <terrane/algorithms/rounding/detail/vanished.hpp>
@@ -119,12 +120,16 @@ void Rounding::repair(std::vector<CandidatePair>& pairs) {
                           options_.max_rounds,
                           hopeless_from(arrangement_.triangles.size()),
                           arrangement_.state->whole,
-                          task_.repairs_places,
                           tests_all()};
     Repair repair(state_, task, run_);
     repair(pairs);
     out_.report.rounds = repair.rounds();
     changed_ = changed_ || repair.has_snapped();
+    const bool are_few = pairs.size() < crowded_from(state_.triangles.size());
+    if (!task_.repairs_places || pairs.empty() || !are_few || run_.stop.stop_requested()) return;
+    pairs = repair_places(state_, task, std::move(pairs), run_);
+    ++out_.report.rounds;
+    changed_ = true;
 }
 
 /// Each vertex is at most as far from where it was as its own moves and that of the input add up

@@ -13,7 +13,6 @@
 #include <terrane/algorithms/mesh/work_hook.hpp>
 #include <terrane/algorithms/rounding/detail/neighbouring_doubles.hpp>
 #include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
-#include <terrane/algorithms/rounding/detail/places.hpp>
 #include <terrane/algorithms/rounding/detail/tuning.hpp>
 
 namespace terrane::rounding::detail {
@@ -83,15 +82,6 @@ std::optional<SnapGrid> Repair::grid(int digits) const {
 }
 
 void Repair::operator()(std::vector<CandidatePair>& pairs) {
-    in_rounds(pairs);
-    const bool are_few = pairs.size() < crowded_from(state_.all_triangles());
-    if (!task_.repairs_places || pairs.empty() || !are_few || is_stuck()) return;
-    pairs = repair_places(state_, task_, std::move(pairs), run_);
-    has_snapped_ = true;
-    ++rounds_;
-}
-
-void Repair::in_rounds(std::vector<CandidatePair>& pairs) {
     std::vector<int> grids(rounding_tuning.fine_digits.begin(), rounding_tuning.fine_digits.end());
     if (!task_.is_whole)
         grids.insert(grids.end(), rounding_tuning.coarse_digits.begin(),

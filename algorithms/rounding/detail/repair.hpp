@@ -36,7 +36,6 @@ struct RepairTask {
     unsigned max_rounds = 0;      ///< of moving and snapping
     std::size_t hopeless = 0;     ///< least number of contacts that are not divided
     bool is_whole = true;         ///< see Repair::operator()
-    bool repairs_places = false;  ///< whether places are repaired one by one at last
     bool tests_all = false;       ///< whether searches test all pairs
     const Elsewhere* elsewhere{}; ///< null: the state has the whole mesh
 };
@@ -90,7 +89,6 @@ public:
     [[nodiscard]] bool has_snapped() const { return has_snapped_; }
 
 private:
-    void in_rounds(std::vector<CandidatePair>& pairs);
     void search_nearby(std::vector<CandidatePair>& pairs);
     bool snap_round(std::span<const CandidatePair> pairs, const SnapGrid& grid);
     bool snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid);

@@ -28,7 +28,7 @@
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
-#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
 #include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>

@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include <terrane/algorithms/project/detail/refinement.hpp>
+#include <terrane/algorithms/pipeline/detail/refinement.hpp>
 
 using namespace terrane;
 
@@ -142,7 +142,7 @@ TEST_CASE("misshapen tetrahedra: a low mean ratio without a bad angle", "[tetrah
 
 TEST_CASE("places for smaller triangles: small angles first, then low mean ratios",
           "[tetrahedra]") {
-    using terrane::project::detail::bad_places;
+    using terrane::pipeline::detail::bad_places;
     const double y = std::sqrt(3.) / 2;
     TetrahedralMesh mesh;
     mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {.5, y, 0}, {.5, y / 3, 9}};

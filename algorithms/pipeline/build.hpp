@@ -27,7 +27,7 @@
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/project/project.hpp>
+#include <terrane/algorithms/pipeline/project.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>

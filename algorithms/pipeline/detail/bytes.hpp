@@ -21,7 +21,7 @@
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/kernel/point.hpp>
 
-namespace terrane::project::detail {
+namespace terrane::pipeline::detail {
 
 /// An object of type U, or a constant one.
 template <class T, class U>
@@ -166,4 +166,4 @@ private:
     bool good_ = true;
 };
 
-} // namespace terrane::project::detail
+} // namespace terrane::pipeline::detail

@@ -10,7 +10,7 @@
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
 
-namespace terrane::project::detail {
+namespace terrane::pipeline::detail {
 
 /// The bad and misshapen tetrahedra of a mesh, and what may help.
 struct BadPlaces {
@@ -36,4 +36,4 @@ std::vector<LocalSize> scaled(std::vector<LocalSize> sizes, double share, double
 /// triangles for the other ones were measured to make new small angles.
 BadPlaces bad_places(const TetrahedralMesh& mesh, double smallest);
 
-} // namespace terrane::project::detail
+} // namespace terrane::pipeline::detail

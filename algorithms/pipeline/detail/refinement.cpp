@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/project/detail/refinement.hpp>
+#include <terrane/algorithms/pipeline/detail/refinement.hpp>
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/tetrahedra/bad_tetrahedra.hpp>
 
-namespace terrane::project::detail {
+namespace terrane::pipeline::detail {
 namespace {
 
 /// Edges that a tetrahedron between two surfaces may have, in multiples of its height: good ones
@@ -79,4 +79,4 @@ BadPlaces bad_places(const TetrahedralMesh& mesh, double smallest) {
     return found;
 }
 
-} // namespace terrane::project::detail
+} // namespace terrane::pipeline::detail

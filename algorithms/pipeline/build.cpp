@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
 
 #include <array>
 #include <optional>
@@ -16,24 +16,24 @@
 #include <terrane/algorithms/model/known_arrange_within.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
-#include <terrane/algorithms/project/detail/kept_results.hpp>
-#include <terrane/algorithms/project/detail/loosening.hpp>
-#include <terrane/algorithms/project/detail/refinement.hpp>
-#include <terrane/algorithms/project/known_build.hpp>
+#include <terrane/algorithms/pipeline/detail/kept_results.hpp>
+#include <terrane/algorithms/pipeline/detail/loosening.hpp>
+#include <terrane/algorithms/pipeline/detail/refinement.hpp>
+#include <terrane/algorithms/pipeline/known_build.hpp>
 
 namespace terrane {
 namespace {
 
-using project::detail::bad_places;
-using project::detail::BadPlaces;
-using project::detail::bytes_of;
-using project::detail::improved_from;
-using project::detail::key_of;
-using project::detail::loosen;
-using project::detail::Loosened;
-using project::detail::refinement_shares;
-using project::detail::scaled;
-using project::detail::tetrahedra_from;
+using pipeline::detail::bad_places;
+using pipeline::detail::BadPlaces;
+using pipeline::detail::bytes_of;
+using pipeline::detail::improved_from;
+using pipeline::detail::key_of;
+using pipeline::detail::loosen;
+using pipeline::detail::Loosened;
+using pipeline::detail::refinement_shares;
+using pipeline::detail::scaled;
+using pipeline::detail::tetrahedra_from;
 
 RoundingOptions rounding_of(const Project& project) {
     return {.max_rounds = project.max_rounds, .check = project.check, .max_move = project.max_move};

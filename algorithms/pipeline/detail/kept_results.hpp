@@ -16,7 +16,7 @@
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 
-namespace terrane::project::detail {
+namespace terrane::pipeline::detail {
 
 /// Returns the key of the result of improve_and_measure for a mesh.
 std::string key_of(const ConformingMesh& mesh, const ImproveOptions& options);
@@ -41,4 +41,4 @@ std::string bytes_of(const TetrahedralMesh& mesh);
 /// The caller must run check_tetrahedra() before any other use.
 std::optional<TetrahedralMesh> tetrahedra_from(std::string_view bytes);
 
-} // namespace terrane::project::detail
+} // namespace terrane::pipeline::detail

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <terrane/algorithms/arrangement/known_triangles.hpp>
-#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
 
 namespace terrane {
 

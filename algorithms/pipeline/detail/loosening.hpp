@@ -10,11 +10,11 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/project/build.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 
-namespace terrane::project::detail {
+namespace terrane::pipeline::detail {
 
 /// The mesh and tetrahedra whose vertices are moved.
 struct LoosenInput {
@@ -47,4 +47,4 @@ struct Loosened {
 /// Returns none if the tetrahedra are not sound. Errors: those of improve_tetrahedra() and with_vertices_at().
 Result<std::optional<Loosened>> loosen(const LoosenInput& input, const Run& run);
 
-} // namespace terrane::project::detail
+} // namespace terrane::pipeline::detail

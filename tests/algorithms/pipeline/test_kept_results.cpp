@@ -15,14 +15,14 @@
 #include "support/effort.hpp"
 #include "support/work_count.hpp"
 #include <terrane/algorithms/check/check.hpp>
-#include <terrane/algorithms/project/build.hpp>
-#include <terrane/algorithms/project/detail/kept_results.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
+#include <terrane/algorithms/pipeline/detail/kept_results.hpp>
 
 using namespace terrane;
 using namespace test_support;
-using project::detail::bytes_of;
-using project::detail::improved_from;
-using project::detail::tetrahedra_from;
+using pipeline::detail::bytes_of;
+using pipeline::detail::improved_from;
+using pipeline::detail::tetrahedra_from;
 
 namespace {
 

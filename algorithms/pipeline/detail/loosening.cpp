@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/project/detail/loosening.hpp>
+#include <terrane/algorithms/pipeline/detail/loosening.hpp>
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@
 #include <terrane/algorithms/tetrahedra/bad_tetrahedra.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 
-namespace terrane::project::detail {
+namespace terrane::pipeline::detail {
 namespace {
 
 /// Share of what is left of the resolution by which a vertex may move. The rest is for the insides of
@@ -434,4 +434,4 @@ Result<std::optional<Loosened>> loosen(const LoosenInput& input, const Run& run)
     return Loosener(input, run)();
 }
 
-} // namespace terrane::project::detail
+} // namespace terrane::pipeline::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/project/detail/kept_results.hpp>
+#include <terrane/algorithms/pipeline/detail/kept_results.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 #include <terrane/algorithms/core/is_external.hpp>
 #include <terrane/algorithms/core/sha256.hpp>
-#include <terrane/algorithms/project/detail/bytes.hpp>
+#include <terrane/algorithms/pipeline/detail/bytes.hpp>
 
-namespace terrane::project::detail {
+namespace terrane::pipeline::detail {
 namespace {
 
 /// To be raised where the same inputs and options make another result than before.
@@ -225,4 +225,4 @@ std::optional<TetrahedralMesh> tetrahedra_from(std::string_view bytes) {
     return mesh;
 }
 
-} // namespace terrane::project::detail
+} // namespace terrane::pipeline::detail

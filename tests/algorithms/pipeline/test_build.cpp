@@ -15,8 +15,8 @@
 #include "support/work_count.hpp"
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
-#include <terrane/algorithms/project/build.hpp>
-#include <terrane/algorithms/project/detail/refinement.hpp>
+#include <terrane/algorithms/pipeline/build.hpp>
+#include <terrane/algorithms/pipeline/detail/refinement.hpp>
 
 using namespace terrane;
 using namespace test_support;
@@ -142,7 +142,7 @@ TEST_CASE("build: refine_bad takes the best round, and each round refines the be
     CHECK(three.filled->tetrahedra.tetrahedra == one.filled->tetrahedra.tetrahedra);
     CHECK(three.filled->tetrahedra.vertices == one.filled->tetrahedra.vertices);
 
-    using namespace project::detail;
+    using namespace pipeline::detail;
     const auto sizes_of = [](const Built& built) {
         return bad_places(built.filled->tetrahedra, 0).sizes;
     };
@@ -201,7 +201,7 @@ TEST_CASE("build: vertices slide on the surfaces where tetrahedra are bad", "[vo
     CHECK(count == moved.loosened.count);
     CHECK(farthest == Approx(moved.loosened.farthest));
     const auto bad = [](const Built& b) {
-        return project::detail::bad_places(b.filled->tetrahedra, 0).bad;
+        return pipeline::detail::bad_places(b.filled->tetrahedra, 0).bad;
     };
     CHECK(bad(moved) < bad(still));
     CHECK(moved.improved->improved.report.bound_of == still.improved->improved.report.bound_of);
@@ -328,7 +328,7 @@ TEST_CASE("build: surfaces are simplified once, in whatever round tetrahedra are
 #endif
 
 TEST_CASE("build: lengths of a refinement are not scaled below the least one", "[volumes]") {
-    const auto scaled = project::detail::scaled({{{1, 2, 3}, 4}, {{5, 6, 7}, 8}}, 0.5, 3);
+    const auto scaled = pipeline::detail::scaled({{{1, 2, 3}, 4}, {{5, 6, 7}, 8}}, 0.5, 3);
     REQUIRE(scaled.size() == 2);
     CHECK(scaled[0].place == Point3{1, 2, 3});
     CHECK(scaled[0].length == 3);
