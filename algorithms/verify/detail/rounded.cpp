@@ -99,12 +99,15 @@ void check_vanished_list(const RoundedParts& parts, Violations& found) {
 
 // --- R13, R14: what is stated about distances -------------------------------------------------
 
-/// Returns a number with some digits, for sentences.
+/// Returns a number with three digits, for sentences, as the program writes it: 3.3e-6, not 3.3e-06.
 std::string decimal(double number) {
     std::array<char, 32> text{};
     const auto end = std::to_chars(text.data(), text.data() + text.size(), number,
                                    std::chars_format::general, 3);
-    return {text.data(), end.ptr};
+    std::string out(text.data(), end.ptr);
+    if (const auto e = out.find('e'); e != std::string::npos && out[e + 2] == '0')
+        out.erase(e + 2, 1);
+    return out;
 }
 
 /// Checks the stated distances against each other and the largest that is accepted; returns whether
