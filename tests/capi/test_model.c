@@ -18,7 +18,8 @@ static void test_volumes(void) {
     WORKS(terrane_find_volumes(mesh, NULL, &volumes, &error));
     size_t n = 0, triangles = 0;
     const double* const measures = terrane_volumes_measures(volumes, &n);
-    CHECK(n == 2 && isinf(measures[0]) && measures[1] == 4.5 && terrane_volumes_total(volumes) == 4.5);
+    CHECK(n == 2 && isinf(measures[0]) && measures[1] == 4.5 &&
+          terrane_volumes_total(volumes) == 4.5);
     char text[8];
     size_t length = 0;
     WORKS(terrane_volumes_exact(exact, 1, text, sizeof text, &length, &error));

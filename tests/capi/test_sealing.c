@@ -90,7 +90,8 @@ static void test_extension(void) {
     WORKS(terrane_cut_to_volume(a, boundary, 6, NULL, &cut, &error));
     WORKS(terrane_find_exact_volumes(terrane_cut_arrangement(cut), NULL, &volumes, &error));
     const double* const measures = terrane_volumes_measures(volumes, &n);
-    CHECK(n == 3 && terrane_volumes_total(volumes) == 576 && measures[1] == 288 && measures[2] == 288);
+    CHECK(n == 3 && terrane_volumes_total(volumes) == 576 && measures[1] == 288 &&
+          measures[2] == 288);
     terrane_volumes_free(volumes);
 
     terrane_arrangement* merged = NULL;
