@@ -63,7 +63,7 @@ Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session
                                 " written (see --keep-unverified)"));
         outputs->clear();
     }
-    // Rounded coordinates need not be conforming, as the exact result holds anyway.
+    // The certificate of the exact result holds whether or not the doubles are conforming.
     auto written = certified_outputs(*outputs, rounded.mesh, files.ascii);
     if (!written) return written.error();
     if (auto done = run->certify(*std::move(written)); !done) return done.error();

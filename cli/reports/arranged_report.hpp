@@ -15,7 +15,7 @@ namespace terrane::cli {
 /// Adds counts and times of all steps to `statistics`.
 void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& inputs);
 
-/// Reports the surfaces with their triangles, regions and areas, what was set aside, and the
+/// Reports the surfaces with their triangles, regions and areas, the triangles set aside, and the
 /// rounding.
 std::string summary(const Inputs& inputs, const Arranged& arranged);
 

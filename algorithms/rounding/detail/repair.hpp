@@ -68,7 +68,7 @@ public:
     /// Therefore a part of one gets coarser grids, too, each as long as it removes contacts.
     void operator()(std::vector<CandidatePair>& pairs);
 
-    /// Returns the grid of so many digits, or a coarsest finer one that the limit allows.
+    /// Returns the grid of these digits, or the coarsest finer one within the limit; no grid fits: none.
     [[nodiscard]] std::optional<SnapGrid> grid(int digits) const;
     /// Snaps what is in contact to a grid, round after round. Returns whether nothing is in contact then.
     bool on_grid(const SnapGrid& grid);
