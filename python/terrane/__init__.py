@@ -23,6 +23,7 @@ from ._blocks import (NO_INDEX, BlockParts, Corner, InterfaceParts, Line, Patch,
 from ._ensemble import Ensemble, ensemble
 from ._ensemble_results import BlockOutcome, Failure, Juxtaposed
 from ._errors import ERROR_CODES, Error, OutOfMemory
+from ._examples import complete as _complete
 from ._files import read, save
 from ._holes import BorderLoop, Filled, FilledHole, FillReport, fill, holes
 from ._layers import Layered, LayerReport, OutOfOrder, layers
@@ -64,3 +65,5 @@ __all__ = [
     "read", "regions", "rotated_box", "round", "save", "seal", "structure", "suggest_seal",
     "tetrahedralize", "verify", "volume_of_interest", "volumes",
 ]
+
+_complete(globals()[_name] for _name in __all__)

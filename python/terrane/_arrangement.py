@@ -9,12 +9,11 @@ from typing import Any, Callable, Dict, List, Optional, Tuple
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, IndexLists, Path, Point, SurfaceInfo, UInt32Array, as_count, as_flag, as_number, as_word
+from ._arrays import Float64Array, IndexLists, Path, SurfaceInfo, UInt32Array, as_count, as_flag, as_number, as_word
 from ._interop import polydata
-from ._mesh import CheckReport, Mesh, Region, Regions, mesh_of, require_conforming
-from ._picture import card
+from ._mesh import CheckReport, Mesh, OnMesh, Region, Regions, mesh_of, require_conforming
 from ._report import facts
-from ._results import Result, counted
+from ._results import Part, Result, counted
 from ._rounding import RoundingReport, rounding_report
 from ._run import how
 from ._surface import Surface, as_surfaces, parts_of_surfaces, surface_of_parts
@@ -32,10 +31,7 @@ class Arrangement(Result):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> flat, wall = ...
     >>> terrane.arrange([flat, wall])
     <Arrangement: 2 surfaces, 10 vertices, 13 triangles, 2 intersection edges>
     """
@@ -47,10 +43,8 @@ class Arrangement(Result):
         self._made_by = made_by  # a function of this module by name, and its arguments
         self._nearest: Optional[Float64Array] = None
 
-    @property
-    def surfaces(self) -> List[SurfaceInfo]:
-        """Names and roles of the surfaces, in the order of the input."""
-        return [SurfaceInfo(*pair) for pair in self._core.surfaces]
+    surfaces = Part[List[SurfaceInfo]](
+        "Names and roles of the surfaces, in the order of the input.", SurfaceInfo.all_of)
 
     @property
     def vertices(self) -> Float64Array:
@@ -59,45 +53,15 @@ class Arrangement(Result):
             self._nearest = self._core.nearest()
         return self._nearest.view()  # whose shape people may change
 
-    @property
-    def triangles(self) -> UInt32Array:
-        """Indices into `vertices`: ndarray, shape (m, 3), uint32."""
-        return self._core.triangles
-
-    @property
-    def parents_of(self) -> IndexLists:
-        """Per triangle all input triangles that contain it; several where surfaces overlap."""
-        return IndexLists._of(self._core.parents_of)
-
-    @property
-    def surfaces_of(self) -> IndexLists:
-        """Per triangle the surfaces of its parents."""
-        return IndexLists._of(self._core.surfaces_of)
-
-    @property
-    def intersection_edges(self) -> UInt32Array:
-        """Edges at which surfaces meet: ndarray, shape (k, 2), uint32."""
-        return self._core.intersection_edges
-
-    @property
-    def degenerate(self) -> UInt32Array:
-        """Input triangles without area: ndarray, uint32."""
-        return self._core.degenerate
-
-    @property
-    def duplicates(self) -> UInt32Array:
-        """Input triangles and the first with the same points: ndarray, shape (k, 2), uint32."""
-        return self._core.duplicates
-
-    @property
-    def first_triangle(self) -> UInt32Array:
-        """Per surface its first input triangle, and their number at the end."""
-        return self._core.first_triangle
-
-    @property
-    def statistics(self) -> Dict[str, Any]:
-        """Counts of the steps."""
-        return self._core.statistics
+    triangles = Part[UInt32Array]("Indices into `vertices`: ndarray, shape (m, 3), uint32.")
+    parents_of = Part[IndexLists](
+        "Per triangle all input triangles that contain it; several where surfaces overlap.", IndexLists._of)
+    surfaces_of = Part[IndexLists]("Per triangle the surfaces of its parents.", IndexLists._of)
+    intersection_edges = Part[UInt32Array]("Edges at which surfaces meet: ndarray, shape (k, 2), uint32.")
+    degenerate = Part[UInt32Array]("Input triangles without area: ndarray, uint32.")
+    duplicates = Part[UInt32Array]("Input triangles and the first with the same points: ndarray, shape (k, 2), uint32.")
+    first_triangle = Part[UInt32Array]("Per surface its first input triangle, and their number at the end.")
+    statistics = Part[Dict[str, Any]]("Counts of the steps.")
 
     def coordinates(self, vertex: int) -> Tuple[Fraction, Fraction, Fraction]:
         """Return the exact coordinates of a vertex.
@@ -122,11 +86,7 @@ class Arrangement(Result):
 
         Examples
         --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-        ...     [0, 2, 3]], "flat", "horizon")
-        >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
-        >>> exact = terrane.arrange([flat, wall])
+        >>> exact = ...
         >>> exact.construction(0)
         ('input', (0,))
         >>> exact.construction(len(exact.vertices) - 1)
@@ -247,7 +207,7 @@ def _sealed_again(surfaces: List[Surface], distance: float, distance_of: Dict[An
     return Arrangement(core, ("seal", surfaces, distance, distance_of, [surface_of_parts(p) for p in made]))
 
 
-class RoundedMesh(Result):
+class RoundedMesh(OnMesh):
     """The mesh of doubles of an arrangement, its regions, and the report of rounding.
 
     Attributes
@@ -261,11 +221,7 @@ class RoundedMesh(Result):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
-    >>> rounded = terrane.round(terrane.arrange([flat, wall]))
+    >>> rounded = ...
     >>> rounded
     <RoundedMesh: conforming, 13 triangles, 3 regions, moved by 0 at most>
     """
@@ -288,11 +244,7 @@ class RoundedMesh(Result):
 
         Examples
         --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-        ...     [0, 2, 3]], "flat", "horizon")
-        >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
-        >>> rounded = terrane.round(terrane.arrange([flat, wall]))
+        >>> rounded = ...
         >>> rounded.save("model.obj")
         >>> len(terrane.read("model.obj"))
         2
@@ -300,53 +252,6 @@ class RoundedMesh(Result):
         if not as_flag(keep_unverified, "keep_unverified"):
             require_conforming(self.clean, len(self.report.contacts))
         self.mesh.save(path, format, ascii=ascii, compress=compress)
-
-    def to_pyvista(self) -> Any:
-        """Return a ``pyvista.PolyData`` with the array ``surface``. Needs PyVista.
-
-        Examples
-        --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "flat")
-        >>> rounded = terrane.round(terrane.arrange([flat]))
-        >>> rounded.to_pyvista().points.shape
-        (3, 3)
-        """
-        return self.mesh.to_pyvista()
-
-    def to_meshio(self) -> Any:
-        """Return a ``meshio.Mesh`` with the array ``surface``. Needs meshio.
-
-        Examples
-        --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "flat")
-        >>> rounded = terrane.round(terrane.arrange([flat]))
-        >>> rounded.to_meshio().cells_dict["triangle"].shape
-        (1, 3)
-        """
-        return self.mesh.to_meshio()
-
-    def plot(self, **options: Any) -> Any:
-        """Show the mesh in a window or notebook. Needs PyVista.
-
-        Examples
-        --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "flat")
-        >>> rounded = terrane.round(terrane.arrange([flat]))
-        >>> shown = rounded.plot()
-        """
-        return self.mesh.plot(**options)
-
-    def _state(self) -> Tuple[Any, ...]:
-        report = dict(self.report._asdict(), contacts=[tuple(c) for c in self.report.contacts])
-        return self.mesh._state(), [tuple(r) for r in self.regions], report
-
-    @classmethod
-    def _from_state(cls, *state: Any) -> "RoundedMesh":
-        return cls(Mesh._from_state(*state[0]), [Region(*r) for r in state[1]],
-                   rounding_report(state[2]))
 
     def _line(self) -> str:
         verdict = "conforming" if self.clean else f"{len(self.report.contacts)} improper contacts"
@@ -357,9 +262,6 @@ class RoundedMesh(Result):
         return {"conforming": "yes" if self.clean else "no", "regions": len(self.regions),
                 "moved at most": _core.figure(self.report.max_move, 3), **self.mesh._numbers()}
 
-    def _repr_html_(self) -> str:
-        return card("RoundedMesh", self._numbers(), self.mesh.vertices, self.mesh.triangles,
-                    self.mesh.surfaces_of.first)
 
 
 def arrange(surfaces: Any, *, search: str = "auto", threads: Optional[int] = None,

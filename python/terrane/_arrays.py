@@ -267,11 +267,7 @@ class IndexLists:
 
         Examples
         --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-        ...     [0, 2, 3]], "flat", "horizon")
-        >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
-        >>> exact = terrane.arrange([flat, wall])
+        >>> exact = ...
         >>> int(exact.surfaces_of.contain(1).sum())
         7
         """
@@ -286,13 +282,15 @@ class SurfaceInfo(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> flat, wall = ...
     >>> terrane.mesh([flat, wall]).surfaces
     [SurfaceInfo(name='flat', role='horizon'), SurfaceInfo(name='wall', role='fault')]
     """
 
     name: str
     role: str
+
+    @classmethod
+    def all_of(cls, pairs: Iterable[Tuple[str, str]]) -> "List[SurfaceInfo]":
+        """Return what the library says of surfaces."""
+        return [cls(*pair) for pair in pairs]

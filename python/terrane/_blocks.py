@@ -11,7 +11,7 @@ from ._arrangement import Arrangement, arrangement_of
 from ._arrays import Float64Array, Point, UInt32Array, as_points
 from ._errors import Error
 from ._mesh import Mesh, mesh_of, proven
-from ._results import Result, by_value, counted
+from ._results import Part, Result, by_value, counted
 from ._run import how
 
 #: The index that means none, as in the corners of a closed line.
@@ -21,22 +21,9 @@ NO_INDEX = 2**32 - 1
 class Volumes(Result):
     """The volumes that a mesh or an arrangement encloses; 0 is the outside, 1, 2, ... are the blocks.
 
-    Attributes
-    ----------
-    of_sides : ndarray, shape (m, 2), uint32
-        Per triangle the volume in front of it (from where its corners are counterclockwise) and the one behind.
-    measures : ndarray, shape (n,), float64
-        Per volume the double nearest to its exact measure, cubic unit of the input; [0] is infinite: the outside has
-        no end.
-    total : float
-        The double nearest to the measure of all blocks together.
-
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> m = ...
     >>> m.volumes.measures.tolist(), m.volumes.total
     ([inf, 16.0, 32.0], 48.0)
     """
@@ -47,20 +34,13 @@ class Volumes(Result):
         self._core = core
         self._source = source
 
-    @property
-    def of_sides(self) -> UInt32Array:
-        """Per triangle the volume in front of it and behind it."""
-        return self._core.of_sides
-
-    @property
-    def measures(self) -> Float64Array:
-        """Per volume its measure; [0] is infinite: the outside has no end."""
-        return self._core.measures
-
-    @property
-    def total(self) -> float:
-        """The measure of all blocks together."""
-        return self._core.total
+    of_sides = Part[UInt32Array](
+        "Per triangle the volume in front of it (from where its corners are counterclockwise) and the one behind: "
+        "ndarray, shape (m, 2), uint32.")
+    measures = Part[Float64Array](
+        "Per volume the double nearest to its exact measure, cubic unit of the input; [0] is infinite: the outside has no "
+        "end: ndarray, shape (n,), float64.")
+    total = Part[float]("The double nearest to the measure of all blocks together.")
 
     def __len__(self) -> int:
         """Return the number of blocks, without the outside."""
@@ -104,10 +84,7 @@ class Volumes(Result):
 
         Examples
         --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-        ...     [0, 2, 3]], "flat", "horizon")
-        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> m = ...
         >>> m.volumes.locate([[1, 1, -0.5], [9, 9, 9]]).tolist()
         [1, 0]
         """
@@ -163,10 +140,7 @@ class Corner(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> m = ...
     >>> corner = m.structure.corners[0]
     >>> corner.vertex, len(corner.lines)
     (8, 3)
@@ -185,10 +159,7 @@ class Line(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> m = ...
     >>> sorted({line.kind for line in m.structure.lines})
     ['boundary line']
     """
@@ -207,10 +178,7 @@ class Patch(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> m = ...
     >>> patch = m.structure.patches[0]
     >>> patch.interface, patch.area
     (0, 4.0)
@@ -228,10 +196,7 @@ class InterfaceParts(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> m = ...
     >>> part = m.structure.interfaces[0]
     >>> part.volumes, part.surfaces, part.area
     ((0, 1), (6,), 4.0)
@@ -249,10 +214,7 @@ class BlockParts(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> m = ...
     >>> block = m.structure.blocks[1]
     >>> block.name, block.above, block.volume
     ('below flat', (0,), 16.0)
@@ -283,10 +245,7 @@ class Structure(Result):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> m = ...
     >>> m.structure
     <Structure: 2 blocks, 11 interfaces, 11 patches, 20 lines, 12 corners>
     """
@@ -303,13 +262,7 @@ class Structure(Result):
         self.interface_of: UInt32Array = values["interface_of"]
 
     def _state(self) -> Tuple[Any, ...]:
-        lists = {name: [tuple(item) for item in getattr(self, name)]
-                 for name in ("corners", "lines", "patches", "interfaces", "blocks")}
-        return ({**lists, "patch_of": self.patch_of, "interface_of": self.interface_of},)
-
-    @classmethod
-    def _from_state(cls, *state: Any) -> "Structure":
-        return cls(*state)
+        return ({name: getattr(self, name) for name in self.__slots__},)
 
     def _line(self) -> str:
         return (f"{counted(len(self.blocks) - 1, 'block')}, {counted(len(self.interfaces), 'interface')}, "

@@ -19,7 +19,6 @@ from ._ensemble_output import save, write_project
 from ._ensemble_results import Outcomes
 from ._ensemble_work import Record, Task, bounds_of, built, failure, file_of, packed, prepared
 from ._errors import Error
-from ._examples import with_ensemble
 from ._project import Built, project_text
 from ._results import counted
 from ._run import cores
@@ -28,7 +27,6 @@ from ._run import how as how_to_run
 _LARGEST = 2 ** 63 - 1
 
 
-@with_ensemble
 class Ensemble(Outcomes):
     """Realisations of a model, block by block.
 
@@ -69,7 +67,6 @@ class Ensemble(Outcomes):
 
     __slots__ = ()
 
-    @with_ensemble
     def realisation(self, number: int) -> Built:
         """Build a realisation again; 0 is the model as it was given.
 
@@ -83,7 +80,6 @@ class Ensemble(Outcomes):
         """
         return built(self._task, as_count(number, "number", 0, self.count))
 
-    @with_ensemble
     def save(self, folder: Path, *, report: bool = True) -> None:
         """Write tables, percentiles, maps, failures and a report into a new folder, which appears complete.
 
@@ -99,7 +95,6 @@ class Ensemble(Outcomes):
         """
         save(self, os.fspath(folder), report=report)
 
-    @with_ensemble
     def write_project(self, number: int, folder: Path) -> None:
         """Write the moved surfaces of a realisation, and a project that builds them, into a folder.
 

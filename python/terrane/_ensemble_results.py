@@ -11,11 +11,9 @@ from ._arrays import Float64Array
 from ._ensemble_blocks import STATES, match, names_of_values, percentiles
 from ._ensemble_form import checked
 from ._ensemble_work import Record, Task
-from ._examples import with_ensemble
 from ._results import Result
 
 
-@with_ensemble
 class Failure(NamedTuple):
     """A realisation that could not be built: its number, the code and the reason of the error.
 
@@ -31,7 +29,6 @@ class Failure(NamedTuple):
     reason: str
 
 
-@with_ensemble
 class Juxtaposed(NamedTuple):
     """Two blocks that touch across a surface: in what share of realisations, and the area where they do.
 
@@ -49,7 +46,6 @@ class Juxtaposed(NamedTuple):
     area: Dict[str, float]
 
 
-@with_ensemble
 class BlockOutcome(NamedTuple):
     """The outcome of a block: in how many realisations it is whole, split, vanished or merged, and its measures.
 

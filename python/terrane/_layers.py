@@ -9,8 +9,8 @@ from . import _core
 from ._arrangement import as_move
 from ._arrays import Path, Point, as_list, as_number
 from ._errors import Error, bad_option
-from ._mesh import Mesh
-from ._results import Result, counted
+from ._mesh import Mesh, OnMesh
+from ._results import counted
 from ._rounding import RoundingReport, rounding_report
 from ._run import how
 from ._surface import Surface, as_surfaces, parts_of_surfaces
@@ -21,10 +21,7 @@ class LayerReport(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
-    >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
+    >>> stack = ...
     >>> report = stack.reports[0]
     >>> report.surface, report.taken, round(report.taken_area, 3)
     (0, 4, 8.0)
@@ -45,10 +42,7 @@ class OutOfOrder(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
-    >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
+    >>> stack = ...
     >>> stack.out_of_order
     []
     """
@@ -60,7 +54,7 @@ class OutOfOrder(NamedTuple):
     depth: float
 
 
-class Layered(Result):
+class Layered(OnMesh):
     """Horizons put in order: none is anywhere above one that is higher in the order.
 
     Attributes
@@ -75,10 +69,7 @@ class Layered(Result):
 
     Examples
     --------
-    >>> import terrane
-    >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
-    >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
+    >>> stack = ...
     >>> stack
     <Layered: 2 layers, in order, 12 triangles>
     >>> stack.is_stack
@@ -101,10 +92,7 @@ class Layered(Result):
 
         Examples
         --------
-        >>> import terrane
-        >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
-        >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
+        >>> stack = ...
         >>> stack.surfaces()
         [<Surface 'top': unknown, 9 vertices, 8 triangles>, <Surface 'flat': unknown, 9 vertices, 8 triangles>]
         """
@@ -115,10 +103,7 @@ class Layered(Result):
 
         Examples
         --------
-        >>> import terrane
-        >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
-        >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
+        >>> stack = ...
         >>> stack.save("stack.vtp")
         >>> len(terrane.read("stack.vtp"))
         2
@@ -127,53 +112,8 @@ class Layered(Result):
             raise Error("improper_contact", "the layers are not in order in doubles; nothing is written")
         self.mesh.save(path, format, **options)
 
-    def to_pyvista(self) -> Any:
-        """Return a ``pyvista.PolyData``. Needs PyVista.
-
-        Examples
-        --------
-        >>> import terrane
-        >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
-        >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
-        >>> stack.to_pyvista().points.shape
-        (12, 3)
-        """
-        return self.mesh.to_pyvista()
-
-    def to_meshio(self) -> Any:
-        """Return a ``meshio.Mesh``. Needs meshio.
-
-        Examples
-        --------
-        >>> import terrane
-        >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
-        >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
-        >>> stack.to_meshio().cells_dict["triangle"].shape
-        (12, 3)
-        """
-        return self.mesh.to_meshio()
-
-    def plot(self, **options: Any) -> Any:
-        """Show the mesh. Needs PyVista.
-
-        Examples
-        --------
-        >>> import terrane
-        >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")
-        >>> stack = terrane.layers([top, flat], {"top": 1, "flat": 2})
-        >>> shown = stack.plot()
-        """
-        return self.mesh.plot(**options)
-
     def _state(self) -> Tuple[Any, ...]:
-        return self.mesh._state(), self._report
-
-    @classmethod
-    def _from_state(cls, *state: Any) -> "Layered":
-        return cls(Mesh._from_state(*state[0]), state[1])
+        return self.mesh, self._report
 
     def _line(self) -> str:
         verdict = "in order" if self.is_stack else "not in order"
@@ -183,8 +123,6 @@ class Layered(Result):
         return {"layers": len(self.reports), "in order": "yes" if self.is_stack else "no",
                 **self.mesh._numbers()}
 
-    def _shape(self) -> Tuple[Any, Any]:
-        return self.mesh.vertices, self.mesh.triangles
 
 
 def layers(surfaces: Any, order: Union[Mapping[str, float], Sequence[Tuple[str, float]]], *,

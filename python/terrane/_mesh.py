@@ -12,7 +12,7 @@ from ._arrays import Float64Array, IndexLists, Path, Point, SurfaceInfo, UInt32A
 from ._errors import Error
 from ._interop import meshio_mesh, polydata
 from ._picture import card
-from ._results import Result, counted
+from ._results import Part, Result, counted
 from ._run import how
 from ._surface import Surface, as_surfaces, parts_of_surfaces, surface_of_parts
 
@@ -37,45 +37,19 @@ class Mesh(Result):
     def __init__(self, core: _core.Mesh) -> None:
         self._core = core
 
-    @property
-    def surfaces(self) -> List[SurfaceInfo]:
-        """Names and roles of the surfaces, in the order of the input."""
-        return [SurfaceInfo(*pair) for pair in self._core.surfaces]
-
-    @property
-    def vertices(self) -> Float64Array:
-        """Coordinates in the unit of the input: ndarray, shape (n, 3), float64."""
-        return self._core.vertices
-
-    @property
-    def triangles(self) -> UInt32Array:
-        """Indices into `vertices`: ndarray, shape (m, 3), uint32."""
-        return self._core.triangles
-
-    @property
-    def surfaces_of(self) -> IndexLists:
-        """Per triangle the surfaces that it belongs to, at least one: indices into `surfaces`."""
-        return IndexLists._of(self._core.surfaces_of)
-
-    @property
-    def regions_of(self) -> IndexLists:
-        """Per triangle its region in each of its surfaces; no lists where regions were not found."""
-        return IndexLists._of(self._core.regions_of)
-
-    @property
-    def parents_of(self) -> IndexLists:
-        """Per triangle the input triangles that contain it, counted through all surfaces; or no lists."""
-        return IndexLists._of(self._core.parents_of)
-
-    @property
-    def intersection_edges(self) -> UInt32Array:
-        """Edges at which surfaces meet: ndarray, shape (k, 2), uint32, vertices, the lower first."""
-        return self._core.intersection_edges
-
-    @property
-    def is_proven(self) -> bool:
-        """Whether exact predicates have shown that the doubles are a conforming mesh."""
-        return self._core.is_proven
+    surfaces = Part[List[SurfaceInfo]](
+        "Names and roles of the surfaces, in the order of the input.", SurfaceInfo.all_of)
+    vertices = Part[Float64Array]("Coordinates in the unit of the input: ndarray, shape (n, 3), float64.")
+    triangles = Part[UInt32Array]("Indices into `vertices`: ndarray, shape (m, 3), uint32.")
+    surfaces_of = Part[IndexLists](
+        "Per triangle the surfaces that it belongs to, at least one: indices into `surfaces`.", IndexLists._of)
+    regions_of = Part[IndexLists](
+        "Per triangle its region in each of its surfaces; no lists where regions were not found.", IndexLists._of)
+    parents_of = Part[IndexLists](
+        "Per triangle the input triangles that contain it, counted through all surfaces; or no lists.", IndexLists._of)
+    intersection_edges = Part[UInt32Array](
+        "Edges at which surfaces meet: ndarray, shape (k, 2), uint32, vertices, the lower first.")
+    is_proven = Part[bool]("Whether exact predicates have shown that the doubles are a conforming mesh.")
 
     def split(self) -> List[Surface]:
         """Return the surfaces of the mesh as surfaces of their own.
@@ -174,15 +148,66 @@ class Mesh(Result):
         return card("Mesh", self._numbers(), self.vertices, self.triangles, self.surfaces_of.first)
 
 
+class OnMesh(Result):
+    """Base of results that are saved and shown by their `mesh`."""
+
+    mesh: Mesh
+
+    def save(self, path: Path, format: Optional[str] = None, **options: Any) -> None:
+        """Write the mesh; see `Mesh.save`.
+
+        Examples
+        --------
+        >>> better = ...
+        >>> better.save("better.obj")
+        >>> len(terrane.read("better.obj"))
+        7
+        """
+        self.mesh.save(path, format, **options)
+
+    def to_pyvista(self) -> Any:
+        """Return the ``pyvista.PolyData`` of the mesh, with the array ``surface``. Needs PyVista.
+
+        Examples
+        --------
+        >>> rounded = ...
+        >>> rounded.to_pyvista().points.shape
+        (10, 3)
+        """
+        return self.mesh.to_pyvista()
+
+    def to_meshio(self) -> Any:
+        """Return the ``meshio.Mesh`` of the mesh, with the array ``surface``. Needs meshio.
+
+        Examples
+        --------
+        >>> rounded = ...
+        >>> rounded.to_meshio().cells_dict["triangle"].shape
+        (13, 3)
+        """
+        return self.mesh.to_meshio()
+
+    def plot(self, **options: Any) -> Any:
+        """Show the mesh in a window or notebook. Needs PyVista, which gets the options.
+
+        Examples
+        --------
+        >>> rounded = ...
+        >>> shown = rounded.plot()
+        """
+        return self.mesh.plot(**options)
+
+    def _repr_html_(self) -> str:
+        return card(type(self).__name__, self._numbers(), self.mesh.vertices, self.mesh.triangles,
+                    self.mesh.surfaces_of.first)
+
+
 class Contact(NamedTuple):
     """Two triangles that meet other than in a shared vertex or edge.
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> flat, wall = ...
     >>> contact = terrane.check([flat, wall]).contacts[0]
     >>> contact.kind, contact.triangles
     ('crossing', (0, 2))
@@ -198,11 +223,7 @@ class Region(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
-    >>> rounded = terrane.round(terrane.arrange([flat, wall]))
+    >>> rounded = ...
     >>> region = rounded.regions[0]
     >>> region.surface, region.triangles, region.area
     (0, 3, 4.0)
@@ -227,11 +248,7 @@ class Regions(Result):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
-    >>> rounded = terrane.round(terrane.arrange([flat, wall]))
+    >>> rounded = ...
     >>> terrane.regions(rounded)
     <Regions: 3 regions>
     """
@@ -244,13 +261,6 @@ class Regions(Result):
 
     def __len__(self) -> int:
         return len(self.regions)
-
-    def _state(self) -> Tuple[Any, ...]:
-        return self.regions_of.offsets, self.regions_of.values, [tuple(r) for r in self.regions]
-
-    @classmethod
-    def _from_state(cls, *state: Any) -> "Regions":
-        return cls(IndexLists(state[0], state[1]), [Region(*r) for r in state[2]])
 
     def _line(self) -> str:
         return counted(len(self.regions), "region")
@@ -283,10 +293,7 @@ class CheckReport(Result):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> flat, wall = ...
     >>> report = terrane.check([flat, wall])
     >>> report.clean, len(report.contacts), report.free_border_edges
     (False, 2, 7)
@@ -311,13 +318,6 @@ class CheckReport(Result):
 
     def __bool__(self) -> bool:
         return bool(self._values["clean"])
-
-    def _state(self) -> Tuple[Any, ...]:
-        return (self._values,)
-
-    @classmethod
-    def _from_state(cls, *state: Any) -> "CheckReport":
-        return cls(*state)
 
     def _line(self) -> str:
         v = self._values

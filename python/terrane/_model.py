@@ -28,26 +28,9 @@ from ._volume_of_interest import as_boundary
 class Model(Parts):
     """A conforming mesh with its blocks.
 
-    Attributes
-    ----------
-    mesh : Mesh
-        All surfaces and the boundary, conforming, in doubles.
-    blocks : Blocks
-        By name.
-    interfaces : list of Interface
-    leaks : list of Leak
-        Where surfaces end without meeting another one: those that separate blocks first.
-    volumes : Volumes
-        By the numbers of the blocks.
-    structure : Structure
-        Corners, lines, patches, interfaces, blocks.
-
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> m = ...
     >>> m
     <Model: 2 blocks, 7 surfaces, 34 triangles, 0 leaks>
     >>> [b.volume for b in m.blocks.values()]
@@ -58,7 +41,7 @@ class Model(Parts):
 
     @property
     def leaks(self) -> List[Leak]:
-        """Where surfaces end without meeting another one."""
+        """Where surfaces end without meeting another one: those that separate blocks first."""
         separating, others, verdicts, _ = self._core.leaks
         made = [self._leak(leak, "separates") for leak in separating]
         for i, leak in enumerate(others):
@@ -119,10 +102,7 @@ class Model(Parts):
 
         Examples
         --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-        ...     [0, 2, 3]], "flat", "horizon")
-        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> m = ...
         >>> m.names_of([[1, 1, -0.5], [1, 1, 1], [9, 9, 9]])
         ['below flat', 'above flat', 'outside']
         """
@@ -184,10 +164,7 @@ class Model(Parts):
 
         Examples
         --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-        ...     [0, 2, 3]], "flat", "horizon")
-        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> m = ...
         >>> m.save("folder")
         >>> len(terrane.read("folder/result.vtp"))
         7
@@ -227,10 +204,7 @@ class Model(Parts):
 
         Examples
         --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-        ...     [0, 2, 3]], "flat", "horizon")
-        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> m = ...
         >>> list(m.to_pyvista().keys())
         ['below flat', 'above flat']
         """
@@ -244,10 +218,7 @@ class Model(Parts):
 
         Examples
         --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-        ...     [0, 2, 3]], "flat", "horizon")
-        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> m = ...
         >>> m.to_meshio().cells_dict["triangle"].shape
         (34, 3)
         """
@@ -261,10 +232,7 @@ class Model(Parts):
 
         Examples
         --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-        ...     [0, 2, 3]], "flat", "horizon")
-        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+        >>> m = ...
         >>> shown = m.plot()
         """
         return self.to_pyvista().plot(**{"multi_colors": True, **options})

@@ -7,12 +7,12 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple
 
 from . import _core
 from ._arrays import Path, UInt32Array, as_count
-from ._blocks import Structure, Volumes
+from ._blocks import BlockParts, InterfaceParts, Structure, Volumes
 from ._errors import Error
 from ._mesh import Mesh
 from ._picture import card
 from ._report import facts
-from ._results import Result
+from ._results import Part, Result, T
 from ._run import how
 from ._surface import parts_of_surfaces
 
@@ -32,7 +32,7 @@ class Parts(Result):
 
     @property
     def mesh(self) -> Mesh:
-        """The conforming mesh of all surfaces."""
+        """All surfaces and the boundary, conforming, in doubles."""
         if self._mesh is None:
             self._mesh = Mesh(self._core.mesh)
         return self._mesh
@@ -83,7 +83,14 @@ class Parts(Result):
         _core.report_model(self._core, tetrahedra, parts_of_surfaces(surfaces), path, about, how(threads, None))
 
 
-class _Part:
+class _Said(Part[T]):
+    """What the structure of a model says of a block or an interface."""
+
+    def _source(self, part: Any) -> Any:
+        return part._said
+
+
+class _Numbered:
     """A block or an interface: a number in a model, which holds all that is said of it."""
 
     __slots__ = ("_model", "number")
@@ -93,39 +100,17 @@ class _Part:
         self.number = number
 
     def __eq__(self, other: object) -> bool:
-        if not isinstance(other, _Part) or type(self) is not type(other):
+        if not isinstance(other, _Numbered) or type(self) is not type(other):
             return NotImplemented
         return self.number == other.number and (self._model is other._model or self._model == other._model)
 
 
-class Block(_Part):
+class Block(_Numbered):
     """A block of a model.
-
-    Attributes
-    ----------
-    number : int
-        From 1; the outside is 0.
-    name : str
-        Different for all blocks.
-    key : str
-        ``"above/below|beside"`` by the names of the surfaces around it, without the model's boundary.
-    unit : str
-        Of the stratigraphic column, or empty.
-    volume : float
-        Exact volume, rounded once; cubic unit of the input.
-    area : float
-        Of its boundary, squared unit.
-    above, below, beside : tuple of str
-        Names of the surfaces there.
-    neighbours : tuple of str
-        Names of the blocks next to it, with "outside".
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> m = ...
     >>> m.blocks[2]
     <Block 2 'above flat': volume 32>
     >>> m.blocks[2].below, m.blocks[2].volume
@@ -134,30 +119,23 @@ class Block(_Part):
 
     __slots__ = ()
 
+    name = _Said[str]("Different for all blocks.")
+    unit = _Said[str]("The unit of the stratigraphic column; empty: none.")
+    age = _Said[Optional[float]]("The age of the base of the unit.")
+    area = _Said[float]("The area of the boundary, squared unit.")
+
     @property
-    def name(self) -> str:
-        """The name."""
-        return self._model.structure.blocks[self.number].name
+    def _said(self) -> BlockParts:
+        return self._model.structure.blocks[self.number]
 
     @property
     def key(self) -> str:
-        """The surfaces above, below and beside: ``"top/base|F1"``."""
+        """``"above/below|beside"`` by the names of the surfaces around it, without the model's boundary."""
         def names(numbers: Tuple[int, ...]) -> str:
             surfaces = self._model.mesh.surfaces
             return "+".join(self._model.labels[s] for s in numbers if surfaces[s].role != "boundary")
-        b = self._model.structure.blocks[self.number]
-        beside = names(b.beside)
-        return f"{names(b.above)}/{names(b.below)}" + (f"|{beside}" if beside else "")
-
-    @property
-    def unit(self) -> str:
-        """The unit of the stratigraphic column."""
-        return self._model.structure.blocks[self.number].unit
-
-    @property
-    def age(self) -> Optional[float]:
-        """The age of the base of the unit."""
-        return self._model.structure.blocks[self.number].age
+        beside = names(self._said.beside)
+        return f"{names(self._said.above)}/{names(self._said.below)}" + (f"|{beside}" if beside else "")
 
     @property
     def volume(self) -> float:
@@ -166,30 +144,25 @@ class Block(_Part):
         return float(volumes[self.number]) if self.number < len(volumes) else float("nan")
 
     @property
-    def area(self) -> float:
-        """The area of the boundary, squared unit."""
-        return self._model.structure.blocks[self.number].area
-
-    @property
     def above(self) -> Tuple[str, ...]:
         """Names of the surfaces above."""
-        return self._names(self._model.structure.blocks[self.number].above)
+        return self._names(self._said.above)
 
     @property
     def below(self) -> Tuple[str, ...]:
         """Names of the surfaces below."""
-        return self._names(self._model.structure.blocks[self.number].below)
+        return self._names(self._said.below)
 
     @property
     def beside(self) -> Tuple[str, ...]:
         """Names of the surfaces beside."""
-        return self._names(self._model.structure.blocks[self.number].beside)
+        return self._names(self._said.beside)
 
     @property
     def neighbours(self) -> Tuple[str, ...]:
-        """Names of the blocks next to it."""
+        """Names of the blocks next to it, with "outside"."""
         blocks = self._model.structure.blocks
-        return tuple(blocks[b].name for b in blocks[self.number].neighbours)
+        return tuple(blocks[b].name for b in self._said.neighbours)
 
     @property
     def mesh(self) -> Mesh:
@@ -217,10 +190,7 @@ class Blocks(Mapping[str, Block]):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> m = ...
     >>> len(m.blocks), list(m.blocks)
     (2, ['below flat', 'above flat'])
     >>> m.blocks["flat/"].number
@@ -258,26 +228,12 @@ class Blocks(Mapping[str, Block]):
         return f"<Blocks: {', '.join(self._by_name)}>"
 
 
-class Interface(_Part):
+class Interface(_Numbered):
     """The triangles between the same two blocks that belong to the same surfaces.
-
-    Attributes
-    ----------
-    number : int
-    surfaces : tuple of str
-    blocks : tuple of two str
-        Equal where the surface ends inside a block.
-    area : float
-        Squared unit of the input.
-    triangles : ndarray, uint32
-        Of the mesh of the model.
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> m = ...
     >>> parts = [i for i in m.interfaces if i.surfaces == ("flat",)]
     >>> parts[0].area, parts[0].blocks
     (16.0, ('below flat', 'above flat'))
@@ -285,28 +241,24 @@ class Interface(_Part):
 
     __slots__ = ()
 
+    area = _Said[float]("Squared unit of the input.")
+    triangles = _Said[UInt32Array]("Triangles of the mesh of the model: ndarray, uint32.")
+
+    @property
+    def _said(self) -> InterfaceParts:
+        return self._model.structure.interfaces[self.number]
+
     @property
     def surfaces(self) -> Tuple[str, ...]:
         """Names of the surfaces."""
-        return tuple(self._model.labels[s]
-                     for s in self._model.structure.interfaces[self.number].surfaces)
+        return tuple(self._model.labels[s] for s in self._said.surfaces)
 
     @property
     def blocks(self) -> Tuple[str, str]:
-        """Names of the blocks on its sides."""
-        low, high = self._model.structure.interfaces[self.number].volumes
+        """Names of the blocks on its sides; equal where the surface ends inside a block."""
+        low, high = self._said.volumes
         blocks = self._model.structure.blocks
         return blocks[low].name, blocks[high].name
-
-    @property
-    def area(self) -> float:
-        """Squared unit of the input."""
-        return self._model.structure.interfaces[self.number].area
-
-    @property
-    def triangles(self) -> UInt32Array:
-        """Triangles of the mesh of the model."""
-        return self._model.structure.interfaces[self.number].triangles
 
     @property
     def mesh(self) -> Mesh:

@@ -11,7 +11,7 @@ from . import _core
 from ._arrays import Path
 from ._errors import Error
 from ._model import Model
-from ._results import Result
+from ._results import Part, Result
 from ._run import how
 from ._surface import Surface, surface_of_parts
 from ._tetrahedra import Tetrahedra
@@ -32,9 +32,7 @@ class Built(Result):
 
     Examples
     --------
-    >>> import terrane
-    >>> terrane.save(terrane.box((0, 0, 0), (1, 1, 1)), "box.ts")
-    >>> built = terrane.build({"format": "terrane-project 1", "surfaces": [{"file": "box.ts"}], "outputs": {"surfaces": ["obj"]}})
+    >>> built = ...
     >>> built
     <Built: 1 block, 6 surfaces, 12 triangles, 0 leaks>
     >>> built.model.blocks[1].volume
@@ -55,10 +53,7 @@ class Built(Result):
         """The surfaces after all changes, with the boundary."""
         return [surface_of_parts(p) for p in self._core.surfaces]
 
-    @property
-    def folder(self) -> str:
-        """Where the project wants its results."""
-        return self._core.folder
+    folder = Part[str]("Where the project wants its results.")
 
     def save(self, folder: Optional[Path] = None, *, threads: Optional[int] = None) -> None:
         """Write the files that the project asks for, with the bytes that ``terrane build`` writes.
@@ -85,10 +80,7 @@ class Built(Result):
 
         Examples
         --------
-        >>> import terrane
-        >>> terrane.save(terrane.box((0, 0, 0), (1, 1, 1)), "box.ts")
-        >>> built = terrane.build({"format": "terrane-project 1", "surfaces": [{"file": "box.ts"}],
-        ...     "outputs": {"surfaces": ["obj"]}})
+        >>> built = ...
         >>> list(built.to_pyvista().keys())
         ['inside the boundary']
         """
@@ -99,10 +91,7 @@ class Built(Result):
 
         Examples
         --------
-        >>> import terrane
-        >>> terrane.save(terrane.box((0, 0, 0), (1, 1, 1)), "box.ts")
-        >>> built = terrane.build({"format": "terrane-project 1", "surfaces": [{"file": "box.ts"}],
-        ...     "outputs": {"surfaces": ["obj"]}})
+        >>> built = ...
         >>> built.to_meshio().cells_dict["triangle"].shape
         (12, 3)
         """
@@ -113,10 +102,7 @@ class Built(Result):
 
         Examples
         --------
-        >>> import terrane
-        >>> terrane.save(terrane.box((0, 0, 0), (1, 1, 1)), "box.ts")
-        >>> built = terrane.build({"format": "terrane-project 1", "surfaces": [{"file": "box.ts"}],
-        ...     "outputs": {"surfaces": ["obj"]}})
+        >>> built = ...
         >>> shown = built.plot()
         """
         return self.model.plot(**options)

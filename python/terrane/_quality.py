@@ -4,16 +4,15 @@
 from __future__ import annotations
 
 import inspect
-from typing import Any, Dict, Mapping, Optional, Tuple
+from typing import Any, Dict, Mapping, Optional
 
 import numpy as np
 
 from . import _core
-from ._arrays import Float64Array, Path, UInt32Array, as_count, as_flag, as_mapping, as_number
+from ._arrays import Float64Array, UInt32Array, as_count, as_flag, as_mapping, as_number
 from ._blocks import Volumes
 from ._errors import bad_option
-from ._mesh import Mesh, mesh_of, proven
-from ._results import Result
+from ._mesh import Mesh, OnMesh, mesh_of, proven
 from ._run import how
 from ._surface import as_surface, parts_of_surfaces
 
@@ -21,7 +20,7 @@ _FIELDS = {field["name"]: field for field in _core.improve_fields}
 _OPTIONS = tuple(name for name, field in _FIELDS.items() if field["type"] == "double")
 
 
-class Improved(Result):
+class Improved(OnMesh):
     """An improved mesh: conforming, with the same blocks, regions, lines and corners.
 
     Attributes
@@ -42,11 +41,7 @@ class Improved(Result):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
-    >>> better = terrane.improve(m.mesh, 1.0)
+    >>> better = ...
     >>> better
     <Improved: 244 triangles, within 0.05 of the mesh before>
     >>> bool(better.bounds.max() <= 0.05)
@@ -65,75 +60,6 @@ class Improved(Result):
         self.report = report
         self.resolution = resolution
 
-    def save(self, path: Path, format: Optional[str] = None, **options: Any) -> None:
-        """Write the mesh; see `Mesh.save`.
-
-        Examples
-        --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-        ...     [0, 2, 3]], "flat", "horizon")
-        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
-        >>> better = terrane.improve(m.mesh, 1.0)
-        >>> better.save("better.obj")
-        >>> len(terrane.read("better.obj"))
-        7
-        """
-        self.mesh.save(path, format, **options)
-
-    def to_pyvista(self) -> Any:
-        """Return a ``pyvista.PolyData``. Needs PyVista.
-
-        Examples
-        --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-        ...     [0, 2, 3]], "flat", "horizon")
-        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
-        >>> better = terrane.improve(m.mesh, 1.0)
-        >>> len(better.to_pyvista().points) == len(better.mesh.vertices)
-        True
-        """
-        return self.mesh.to_pyvista()
-
-    def to_meshio(self) -> Any:
-        """Return a ``meshio.Mesh``. Needs meshio.
-
-        Examples
-        --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-        ...     [0, 2, 3]], "flat", "horizon")
-        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
-        >>> better = terrane.improve(m.mesh, 1.0)
-        >>> len(better.to_meshio().cells_dict["triangle"]) == len(better.mesh.triangles)
-        True
-        """
-        return self.mesh.to_meshio()
-
-    def plot(self, **options: Any) -> Any:
-        """Show the mesh. Needs PyVista.
-
-        Examples
-        --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-        ...     [0, 2, 3]], "flat", "horizon")
-        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
-        >>> better = terrane.improve(m.mesh, 1.0)
-        >>> shown = better.plot()
-        """
-        return self.mesh.plot(**options)
-
-    def _state(self) -> Tuple[Any, ...]:
-        return (self.mesh._state(), *self.volumes._state()[:3], self.near_of, self.bounds, self.deviations,
-                self.report, self.resolution)
-
-    @classmethod
-    def _from_state(cls, *state: Any) -> "Improved":
-        mesh = Mesh._from_state(*state[0])
-        return cls(mesh, Volumes(_core.Volumes(*state[1:4]), mesh), *state[4:])
-
     def _line(self) -> str:
         largest = float(np.max(self.bounds)) if len(self.bounds) else 0.0
         return f"{len(self.mesh.triangles)} triangles, within {_core.figure(largest, 3)} of the mesh before"
@@ -142,8 +68,6 @@ class Improved(Result):
         return {**self.mesh._numbers(), "splits": self.report["splits"],
                 "collapses": self.report["collapses"], "swaps": self.report["swaps"]}
 
-    def _shape(self) -> Tuple[Any, Any]:
-        return self.mesh.vertices, self.mesh.triangles
 
 
 def improve_options(mesh: Mesh, edge_length: float, options: Mapping[str, Any]) -> Dict[str, Any]:

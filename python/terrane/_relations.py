@@ -17,10 +17,7 @@ class Leak(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
-    >>> short = terrane.Surface([[1.1, 1, 1], [3, 1, 1], [3, 3, 1], [1.1, 3, 1]], [[0, 1, 2],
-    ...     [0, 2, 3]], "short", "horizon")
+    >>> wall, short = ...
     >>> m = terrane.model([wall, short], box=((0, -1, -1), (3, 3, 3)))
     >>> leak = m.leaks[0]
     >>> leak.from_surface, leak.to_surface, leak.verdict
@@ -41,10 +38,7 @@ class Relation(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> flat, wall = ...
     >>> m = terrane.model([flat, wall], box=((0, 0, -1), (4, 4, 2)))
     >>> [(r.kind, r.to_surface) for r in m.relations if r.from_surface == 'wall'][-1]
     ('ends near', 'boundary side 3')
@@ -64,10 +58,7 @@ class Juxtaposition(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
+    >>> m = ...
     >>> m.juxtapositions[0].surface, m.juxtapositions[0].area
     ('flat', 16.0)
     """

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Tuple, Type, TypeVar
+from typing import Any, Callable, Dict, Generic, Optional, Tuple, Type, TypeVar, overload
 
 import numpy as np
 
@@ -53,19 +53,55 @@ def writable(state: Any) -> Any:
         return {k: writable(v) for k, v in state.items()}
     if type(state) in (tuple, list):
         return type(state)(writable(v) for v in state)
+    if isinstance(state, tuple) and hasattr(state, "_fields"):
+        return type(state)(*map(writable, state))
     return state
+
+
+T = TypeVar("T")
+
+
+class Part(Generic[T]):
+    """A read-only attribute: what the handle of a result has under this name, or what `make` makes of that."""
+
+    def __init__(self, doc: str, make: Optional[Callable[[Any], T]] = None) -> None:
+        self.__doc__ = doc
+        self._make = make
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def _source(self, result: Any) -> Any:
+        return result._core
+
+    @overload
+    def __get__(self, result: None, owner: Any) -> "Part[T]": ...
+
+    @overload
+    def __get__(self, result: object, owner: Any) -> T: ...
+
+    def __get__(self, result: Any, owner: Any) -> Any:
+        if result is None:
+            return self
+        value = getattr(self._source(result), self._name)
+        return value if self._make is None else self._make(value)
+
+    def __set__(self, result: Any, value: Any) -> None:
+        raise AttributeError(f"{self._name} cannot be changed")
 
 
 class Result:
     """Base of all results: they are values that nobody changes."""
 
+    __slots__: Tuple[str, ...]
+
     def _state(self) -> Tuple[Any, ...]:
-        """Return all that decides the value; `_from_state` takes it."""
-        raise NotImplementedError
+        """Return all that decides the value, which `_from_state` takes: the arguments of the class, unless it differs."""
+        return tuple(getattr(self, name) for name in self.__slots__)
 
     @classmethod
     def _from_state(cls, *state: Any) -> "Result":
-        raise NotImplementedError
+        return cls(*state)
 
     def _line(self) -> str:
         """Return what `repr` says behind the name of the class."""

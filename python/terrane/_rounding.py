@@ -34,11 +34,7 @@ class RoundingReport(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
-    >>> rounded = terrane.round(terrane.arrange([flat, wall]))
+    >>> rounded = ...
     >>> rounded.report.clean, rounded.report.max_move
     (True, 0.0)
     """

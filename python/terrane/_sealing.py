@@ -19,10 +19,7 @@ class SealChange(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
-    >>> short = terrane.Surface([[1.1, 1, 1], [3, 1, 1], [3, 3, 1], [1.1, 3, 1]], [[0, 1, 2],
-    ...     [0, 2, 3]], "short", "horizon")
+    >>> wall, short = ...
     >>> change = terrane.seal([wall, short], 0.2).changes[0]
     >>> change.kind, change.surface, change.length
     ('extended', 1, 2.0)
@@ -41,10 +38,7 @@ class ClosedGap(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
-    >>> short = terrane.Surface([[1.1, 1, 1], [3, 1, 1], [3, 3, 1], [1.1, 3, 1]], [[0, 1, 2],
-    ...     [0, 2, 3]], "short", "horizon")
+    >>> wall, short = ...
     >>> gap = terrane.seal([wall, short], 0.2).closed[0]
     >>> gap.from_surface, gap.to_surface, round(gap.width, 3)
     (1, 0, 0.1)
@@ -62,10 +56,7 @@ class OpenGap(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
-    >>> short = terrane.Surface([[1.1, 1, 1], [3, 1, 1], [3, 3, 1], [1.1, 3, 1]], [[0, 1, 2],
-    ...     [0, 2, 3]], "short", "horizon")
+    >>> wall, short = ...
     >>> gaps = terrane.seal([wall, short], 0.2).open
     >>> [gap.reason for gap in gaps]
     []
@@ -96,11 +87,7 @@ class Sealed(Result):
 
     Examples
     --------
-    >>> import terrane
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
-    >>> short = terrane.Surface([[1.1, 1, 1], [3, 1, 1], [3, 3, 1], [1.1, 3, 1]], [[0, 1, 2],
-    ...     [0, 2, 3]], "short", "horizon")
-    >>> sealed = terrane.seal([wall, short], 0.2)
+    >>> sealed = ...
     >>> sealed
     <Sealed: 1 change, 0 open gaps, 12 triangles>
     >>> len(sealed.closed), len(sealed.open)
@@ -109,22 +96,14 @@ class Sealed(Result):
 
     __slots__ = ("arrangement", "surfaces", "changes", "closed", "open", "left")
 
-    def __init__(self, arrangement: Arrangement, surfaces: List[Surface], report: Dict[str, Any]) -> None:
+    def __init__(self, arrangement: Arrangement, surfaces: List[Surface], changes: List[SealChange],
+                 closed: List[ClosedGap], open: List[OpenGap], left: float) -> None:
         self.arrangement = arrangement
         self.surfaces = surfaces
-        self.changes: List[SealChange] = [SealChange(*c) for c in report["changes"]]
-        self.closed: List[ClosedGap] = [ClosedGap(*c) for c in report["closed"]]
-        self.open: List[OpenGap] = [OpenGap(*c) for c in report["open"]]
-        self.left = float(report["left"])
-
-    def _state(self) -> Tuple[Any, ...]:
-        report = {"changes": [tuple(c) for c in self.changes], "closed": [tuple(c) for c in self.closed],
-                  "open": [tuple(c) for c in self.open], "left": self.left}
-        return self.arrangement, self.surfaces, report
-
-    @classmethod
-    def _from_state(cls, *state: Any) -> "Sealed":
-        return cls(*state)
+        self.changes = changes
+        self.closed = closed
+        self.open = open
+        self.left = left
 
     def _line(self) -> str:
         return (f"{counted(len(self.changes), 'change')}, {counted(len(self.open), 'open gap')}, "
@@ -165,7 +144,9 @@ def seal(surfaces: Any, distance: float, *,
     width = as_number(distance, "distance", least=0)
     core, made, report = _core.seal(parts_of_surfaces(given), width, of, how(threads, progress))
     changed = [surface_of_parts(p) for p in made]
-    return Sealed(Arrangement(core, ("seal", given, width, of, changed)), changed, report)
+    return Sealed(Arrangement(core, ("seal", given, width, of, changed)), changed,
+                  [SealChange(*c) for c in report["changes"]], [ClosedGap(*c) for c in report["closed"]],
+                  [OpenGap(*c) for c in report["open"]], report["left"])
 
 
 class SealTrial(NamedTuple):
@@ -173,10 +154,7 @@ class SealTrial(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
-    >>> short = terrane.Surface([[1.1, 1, 1], [3, 1, 1], [3, 3, 1], [1.1, 3, 1]], [[0, 1, 2],
-    ...     [0, 2, 3]], "short", "horizon")
+    >>> wall, short = ...
     >>> [trial.blocks for trial in terrane.suggest_seal([wall, short]).trials]
     [0, 0]
     """
@@ -195,10 +173,7 @@ class SealAdvice(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
-    >>> short = terrane.Surface([[1.1, 1, 1], [3, 1, 1], [3, 3, 1], [1.1, 3, 1]], [[0, 1, 2],
-    ...     [0, 2, 3]], "short", "horizon")
+    >>> wall, short = ...
     >>> advice = terrane.suggest_seal([wall, short])
     >>> advice.distance, len(advice.trials)
     (0.2, 2)

@@ -12,7 +12,7 @@ from ._arrays import Float64Array, Path, UInt32Array, as_count, as_flag, as_form
 from ._errors import Error, bad_option
 from ._interop import meshio_mesh, polydata
 from ._picture import card
-from ._results import counted
+from ._results import Part, counted
 from ._run import how
 
 #: The roles that a surface can have.
@@ -87,30 +87,11 @@ class Surface:
         made._core = core
         return made
 
-    @property
-    def vertices(self) -> Float64Array:
-        """Coordinates: ndarray, shape (n, 3), float64, read-only."""
-        return self._core.vertices
-
-    @property
-    def triangles(self) -> UInt32Array:
-        """Indices into `vertices`: ndarray, shape (m, 3), uint32, read-only."""
-        return self._core.triangles
-
-    @property
-    def name(self) -> str:
-        """The name; may be empty."""
-        return self._core.name
-
-    @property
-    def role(self) -> str:
-        """One of `terrane.ROLES`."""
-        return self._core.role
-
-    @property
-    def frame(self) -> Frame:
-        """The statements of a file about the coordinates."""
-        return Frame(*self._core.frame)
+    vertices = Part[Float64Array]("Coordinates: ndarray, shape (n, 3), float64, read-only.")
+    triangles = Part[UInt32Array]("Indices into `vertices`: ndarray, shape (m, 3), uint32, read-only.")
+    name = Part[str]("The name; may be empty.")
+    role = Part[str]("One of `terrane.ROLES`.")
+    frame = Part[Frame]("The statements of a file about the coordinates.", Frame._make)
 
     @property
     def bounds(self) -> Tuple[Tuple[float, float, float], Tuple[float, float, float]]:

@@ -14,7 +14,7 @@ from ._arrays import (Float64Array, IndexLists, Path, SurfaceInfo, UInt32Array, 
 from ._errors import Error, bad_option
 from ._interop import meshio_mesh, unstructured_grid
 from ._parts import Parts, number_of
-from ._results import Result, counted
+from ._results import Part, Result, counted
 from ._run import how
 
 
@@ -23,11 +23,7 @@ class Violation(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
-    >>> cells = m.tetrahedra(edge_length=2)
+    >>> cells = ...
     >>> cells.violations
     []
     """
@@ -42,11 +38,7 @@ class BlockVolume(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
-    >>> cells = m.tetrahedra(edge_length=2)
+    >>> cells = ...
     >>> volume = cells.volumes[1]
     >>> volume.block, volume.equal
     (16.0, True)
@@ -62,32 +54,9 @@ class BlockVolume(NamedTuple):
 class Tetrahedra(Result):
     """A tetrahedral mesh that conforms to the triangles of a model, checked exactly.
 
-    Attributes
-    ----------
-    vertices : ndarray, shape (n, 3), float64
-        Unit of the input.
-    tetrahedra : ndarray, shape (m, 4), uint32
-        Positively oriented.
-    block_of : ndarray, shape (m,), uint32
-        Per tetrahedron the number of its block; 0 is the outside.
-    faces : ndarray, shape (k, 3), uint32
-        Faces of tetrahedra that lie on a surface.
-    face_triangle : ndarray, shape (k,), uint32
-        Per face the triangle of the model's mesh that it is part of, or 2**32 - 1 on the box around all.
-    surfaces_of : IndexLists
-        Per face its surfaces.
-    twins : ndarray, shape (c, 2), uint32
-        Pairs of faces in front of and behind a split surface.
-    block_names : list of str
-        By number.
-
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
-    >>> cells = m.tetrahedra(edge_length=2)
+    >>> cells = ...
     >>> int(cells.block_of.max()), len(cells.tetrahedra) > 0
     (2, True)
     """
@@ -98,60 +67,18 @@ class Tetrahedra(Result):
         self._core = core
         self._model = model  # that they fill, for reports; a pickle has none
 
-    @property
-    def surfaces(self) -> List[SurfaceInfo]:
-        """Names and roles of the surfaces."""
-        return [SurfaceInfo(*pair) for pair in self._core.surfaces]
-
-    @property
-    def vertices(self) -> Float64Array:
-        """Coordinates: ndarray, shape (n, 3), float64."""
-        return self._core.vertices
-
-    @property
-    def tetrahedra(self) -> UInt32Array:
-        """Indices into `vertices`: ndarray, shape (m, 4), uint32."""
-        return self._core.tetrahedra
-
-    @property
-    def block_of(self) -> UInt32Array:
-        """Per tetrahedron the number of its block."""
-        return self._core.block_of
-
-    @property
-    def faces(self) -> UInt32Array:
-        """Faces on surfaces: ndarray, shape (k, 3), uint32."""
-        return self._core.faces
-
-    @property
-    def face_triangle(self) -> UInt32Array:
-        """Per face the triangle of the mesh that it is part of."""
-        return self._core.face_triangle
-
-    @property
-    def surfaces_of(self) -> IndexLists:
-        """Per face its surfaces."""
-        return IndexLists._of(self._core.surfaces_of)
-
-    @property
-    def twins(self) -> UInt32Array:
-        """Pairs of faces of split surfaces."""
-        return self._core.twins
-
-    @property
-    def block_names(self) -> List[str]:
-        """Names of the blocks by number."""
-        return self._core.block_names
-
-    @property
-    def mesher(self) -> str:
-        """The program that made the tetrahedra."""
-        return self._core.mesher
-
-    @property
-    def is_checked(self) -> bool:
-        """Whether they are checked exactly; a check is not pickled."""
-        return self._core.is_checked
+    surfaces = Part[List[SurfaceInfo]]("Names and roles of the surfaces.", SurfaceInfo.all_of)
+    vertices = Part[Float64Array]("Unit of the input: ndarray, shape (n, 3), float64.")
+    tetrahedra = Part[UInt32Array]("Indices into `vertices`, positively oriented: ndarray, shape (m, 4), uint32.")
+    block_of = Part[UInt32Array]("Per tetrahedron the number of its block; 0 is the outside: ndarray, shape (m,), uint32.")
+    faces = Part[UInt32Array]("Faces of tetrahedra that lie on a surface: ndarray, shape (k, 3), uint32.")
+    face_triangle = Part[UInt32Array](
+        "Per face the triangle of the model's mesh that it is part of, or 2**32 - 1 on the box around all: uint32.")
+    surfaces_of = Part[IndexLists]("Per face its surfaces.", IndexLists._of)
+    twins = Part[UInt32Array]("Pairs of faces in front of and behind a split surface: ndarray, shape (c, 2), uint32.")
+    block_names = Part[List[str]]("Names of the blocks by number.")
+    mesher = Part[str]("The program that made the tetrahedra.")
+    is_checked = Part[bool]("Whether they are checked exactly; a check is not pickled.")
 
     def _need_check(self, place: str) -> None:
         if not self.is_checked:
@@ -192,11 +119,7 @@ class Tetrahedra(Result):
 
         Examples
         --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-        ...     [0, 2, 3]], "flat", "horizon")
-        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
-        >>> cells = m.tetrahedra(edge_length=2)
+        >>> cells = ...
         >>> sorted(cells.shape())
         ['dihedral', 'mean_ratio', 'radius_edge', 'sicn']
         """
@@ -207,11 +130,7 @@ class Tetrahedra(Result):
 
         Examples
         --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-        ...     [0, 2, 3]], "flat", "horizon")
-        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
-        >>> cells = m.tetrahedra(edge_length=2)
+        >>> cells = ...
         >>> len(cells.of_block(1)) > 0
         True
         """
@@ -229,11 +148,7 @@ class Tetrahedra(Result):
 
         Examples
         --------
-        >>> import terrane
-        >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-        ...     [0, 2, 3]], "flat", "horizon")
-        >>> m = terrane.model([flat], box=((0, 0, -1), (4, 4, 2)))
-        >>> cells = m.tetrahedra(edge_length=2)
+        >>> cells = ...
         >>> cells.save("cells.vtu")
         ['cells.vtu']
         """

@@ -20,10 +20,7 @@ class RuleViolation(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> flat, wall = ...
     >>> found = terrane.verify(terrane.mesh([flat, wall]))
     >>> found.violations[0].rule
     'R5'
@@ -60,10 +57,7 @@ class Verdict(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> flat, wall = ...
     >>> verdict = terrane.verify(terrane.arrange([flat, wall]))
     >>> bool(verdict), verdict.violations
     (True, [])

@@ -21,10 +21,7 @@ class SurfaceCut(NamedTuple):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> flat, wall = ...
     >>> cut = terrane.volume_of_interest([flat], ((0, 0, -1), (2, 4, 1))).surfaces[0]
     >>> cut.area_inside, cut.area_outside
     (8.0, 8.0)
@@ -70,10 +67,7 @@ class VolumeOfInterest(Result):
 
     Examples
     --------
-    >>> import terrane
-    >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2],
-    ...     [0, 2, 3]], "flat", "horizon")
-    >>> wall = terrane.Surface([[1, -1, -1], [1, 5, -1], [1, 2, 3]], [[0, 1, 2]], "wall", "fault")
+    >>> flat, wall = ...
     >>> terrane.volume_of_interest([flat, wall], ((0, 0, -1), (3, 3, 2)))
     <VolumeOfInterest: 68 triangles inside, 2 open borders>
     """
@@ -85,13 +79,6 @@ class VolumeOfInterest(Result):
         self.arrangement = arrangement
         self.surfaces = surfaces
         self.borders = borders
-
-    def _state(self) -> Tuple[Any, ...]:
-        return (self.arrangement, [tuple(s) for s in self.surfaces], [tuple(b) for b in self.borders])
-
-    @classmethod
-    def _from_state(cls, *state: Any) -> "VolumeOfInterest":
-        return cls(state[0], [SurfaceCut(*s) for s in state[1]], [OpenBorder(*b) for b in state[2]])
 
     def _line(self) -> str:
         return (f"{counted(len(self.arrangement.triangles), 'triangle')} inside, "
