@@ -13,11 +13,7 @@
 #include <terrane/capi/detail/handles.hpp>
 
 using namespace terrane::capi::detail;
-using terrane::Done;
-using terrane::Error;
 using terrane::ErrorCode;
-using terrane::Result;
-using terrane::Status;
 
 terrane_arrangement::terrane_arrangement(terrane::Arrangement made) :
     exact(std::make_shared<const terrane::Arrangement>(std::move(made))),
@@ -84,19 +80,18 @@ terrane_code terrane_round_options_init(terrane_round_options* options, size_t s
 terrane_code terrane_arrange(const terrane_surfaces* surfaces,
                              const terrane_arrange_options* options, const terrane_run* run,
                              terrane_arrangement** out, terrane_error** error) {
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_arrangement>> {
+    return produce(out, error, [&] {
         const auto& list = needed(surfaces, "surfaces").list;
         const auto given = options_of(options, default_arranging());
         terrane::ArrangeOptions wanted;
         if (given.search) {
             const auto search = terrane::search_named(given.search);
             if (!search)
-                return Error{ErrorCode::bad_option, "is not a method of search", "options.search"};
+                refuse(ErrorCode::bad_option, "is not a method of search", "options.search");
             wanted.search = *search;
         }
-        auto made = terrane::arrange(list, wanted, run_of(run));
-        if (!made) return made.error();
-        return std::make_unique<terrane_arrangement>(*std::move(made));
+        return std::make_unique<terrane_arrangement>(
+            must(terrane::arrange(list, wanted, run_of(run))));
     });
 }
 
@@ -119,15 +114,16 @@ terrane_code terrane_arrangement_get_summary(const terrane_arrangement* arrangem
 
 const double* terrane_arrangement_vertices(const terrane_arrangement* arrangement,
                                            size_t* vertex_count) {
-    const auto* const none = no_array<double>(vertex_count);
+    const auto* const none =
+        array_of<double>(static_cast<std::vector<double>*>(nullptr), vertex_count);
     if (!known(arrangement)) return none;
-    return quietly(none, [&] { return array_of<double>(arrangement->vertices(), vertex_count); });
+    return quietly(none, [&] { return array_of<double>(&arrangement->vertices(), vertex_count); });
 }
 
 const uint32_t* terrane_arrangement_triangles(const terrane_arrangement* arrangement,
                                               size_t* triangle_count) {
-    return known(arrangement) ? array_of<uint32_t>(arrangement->exact->triangles, triangle_count)
-                              : no_array<uint32_t>(triangle_count);
+    return array_of<uint32_t>(known(arrangement) ? &arrangement->exact->triangles : nullptr,
+                              triangle_count);
 }
 
 terrane_code terrane_arrangement_parents(const terrane_arrangement* arrangement,
@@ -142,29 +138,28 @@ terrane_code terrane_arrangement_surfaces(const terrane_arrangement* arrangement
 
 const uint32_t* terrane_arrangement_intersection_edges(const terrane_arrangement* arrangement,
                                                        size_t* count) {
-    return known(arrangement) ? array_of<uint32_t>(arrangement->exact->intersection_edges, count)
-                              : no_array<uint32_t>(count);
+    return array_of<uint32_t>(
+        known(arrangement) ? &arrangement->exact->intersection_edges : nullptr, count);
 }
 
 const uint32_t* terrane_arrangement_degenerate(const terrane_arrangement* arrangement,
                                                size_t* count) {
-    return known(arrangement) ? array_of<uint32_t>(arrangement->exact->degenerate, count)
-                              : no_array<uint32_t>(count);
+    return array_of<uint32_t>(known(arrangement) ? &arrangement->exact->degenerate : nullptr,
+                              count);
 }
 
 terrane_code terrane_arrangement_coordinate(const terrane_arrangement* arrangement, size_t vertex,
                                             int axis, char* buffer, size_t size, size_t* length,
                                             terrane_error** error) {
     if (length) *length = 0;
-    return call(error, [&]() -> Status {
+    return call(error, [&] {
         const terrane::Arrangement& exact = *needed(arrangement, "arrangement").exact;
         if (axis < 0 || axis > 2) throw BadArgument{"axis", "is not 0, 1 or 2"};
         if (vertex >= exact.vertices.size())
-            return Error{ErrorCode::bad_index, "there is no such vertex",
-                         "vertex " + std::to_string(vertex)};
+            refuse(ErrorCode::bad_index, "there is no such vertex",
+                   "vertex " + std::to_string(vertex));
         const auto texts = exact.coordinates(terrane::VertexId(static_cast<std::uint32_t>(vertex)));
         copy_text(texts[static_cast<std::size_t>(axis)], buffer, size, length);
-        return Done{};
     });
 }
 
@@ -173,7 +168,7 @@ terrane_code terrane_arrangement_digest(const terrane_arrangement* arrangement,
                                         char* buffer, size_t size, size_t* length,
                                         terrane_error** error) {
     if (length) *length = 0;
-    return call(error, [&]() -> Status {
+    return call(error, [&] {
         const terrane::Arrangement& exact = *needed(arrangement, "arrangement").exact;
         const auto& list = needed(surfaces, "surfaces").list;
         std::size_t vertices = 0, triangles = 0;
@@ -183,23 +178,21 @@ terrane_code terrane_arrangement_digest(const terrane_arrangement* arrangement,
         }
         if (vertices != exact.input_vertices().size() ||
             triangles != exact.input_corners().size() || list.size() != exact.surfaces.size())
-            return Error{ErrorCode::bad_option, "these are not the surfaces that were arranged",
-                         "surfaces"};
+            refuse(ErrorCode::bad_option, "these are not the surfaces that were arranged",
+                   "surfaces");
         copy_text(terrane::canonical_digest(list, exact, run_of(run)), buffer, size, length);
-        return Done{};
     });
 }
 
 terrane_code terrane_cut_to_volume(const terrane_arrangement* arrangement, const uint32_t* boundary,
                                    size_t boundary_count, const terrane_run* run, terrane_cut** out,
                                    terrane_error** error) {
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_cut>> {
+    return produce(out, error, [&] {
         const terrane::Arrangement& exact = *needed(arrangement, "arrangement").exact;
         const auto numbers = boundary_of(boundary, boundary_count, exact.surfaces.size());
-        auto inside = terrane::cut_to_volume(exact, numbers, run_of(run));
-        if (!inside) return inside.error();
-        auto cut = std::make_unique<terrane_cut>(std::move(inside->arrangement));
-        cut->surfaces = effects_of(inside->report);
+        auto inside = must(terrane::cut_to_volume(exact, numbers, run_of(run)));
+        auto cut = std::make_unique<terrane_cut>(std::move(inside.arrangement));
+        cut->surfaces = effects_of(inside.report);
         return cut;
     });
 }
@@ -213,35 +206,32 @@ const terrane_arrangement* terrane_cut_arrangement(const terrane_cut* cut) {
 }
 
 const terrane_surface_cut* terrane_cut_surfaces(const terrane_cut* cut, size_t* surface_count) {
-    return known(cut) ? array_of<terrane_surface_cut>(cut->surfaces, surface_count)
-                      : no_array<terrane_surface_cut>(surface_count);
+    return array_of<terrane_surface_cut>(known(cut) ? &cut->surfaces : nullptr, surface_count);
 }
 
 terrane_code terrane_merge_small_blocks(const terrane_arrangement* arrangement, double least,
                                         const terrane_run* run, terrane_arrangement** out,
                                         size_t* merged, terrane_error** error) {
     if (merged) *merged = 0;
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_arrangement>> {
-        auto made = terrane::merge_small_blocks(*needed(arrangement, "arrangement").exact, least,
-                                                run_of(run));
-        if (!made) return made.error();
-        if (merged) *merged = made->report.merged.size();
-        return std::make_unique<terrane_arrangement>(std::move(made->arrangement));
+    return produce(out, error, [&] {
+        auto made = must(terrane::merge_small_blocks(*needed(arrangement, "arrangement").exact,
+                                                     least, run_of(run)));
+        if (merged) *merged = made.report.merged.size();
+        return std::make_unique<terrane_arrangement>(std::move(made.arrangement));
     });
 }
 
 terrane_code terrane_round(const terrane_arrangement* arrangement,
                            const terrane_round_options* options, const terrane_run* run,
                            terrane_mesh** out, terrane_error** error) {
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_mesh>> {
+    return produce(out, error, [&] {
         const auto& given = needed(arrangement, "arrangement");
         const auto wanted = options_of(options, default_rounding());
         terrane::RoundingOptions rounding;
         rounding.max_rounds = wanted.max_rounds;
         rounding.max_move = number_or_default(wanted.max_move, "options.max_move");
         if (wanted.full_check != 0) rounding.check.method = terrane::PairCheck::full;
-        auto rounded = terrane::round_to_doubles(*given.exact, rounding, run_of(run));
-        if (!rounded) return rounded.error();
-        return std::make_unique<terrane_mesh>(*std::move(rounded), given.identity);
+        return std::make_unique<terrane_mesh>(
+            must(terrane::round_to_doubles(*given.exact, rounding, run_of(run))), given.identity);
     });
 }

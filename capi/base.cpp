@@ -165,7 +165,7 @@ void terrane_error_free(terrane_error* error) {
 }
 
 terrane_code terrane_run_new(terrane_run** out, terrane_error** error) {
-    return produce(out, error, [] { return terrane::Result(std::make_unique<terrane_run>()); });
+    return produce(out, error, [] { return std::make_unique<terrane_run>(); });
 }
 
 void terrane_run_free(terrane_run* run) {
@@ -173,43 +173,34 @@ void terrane_run_free(terrane_run* run) {
 }
 
 terrane_code terrane_run_set_threads(terrane_run* run, unsigned threads, terrane_error** error) {
-    return call(error, [&]() -> terrane::Status {
+    return call(error, [&] {
         needed(run, "run").threads =
             threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
-        return terrane::Done{};
     });
 }
 
 terrane_code terrane_run_set_progress(terrane_run* run, terrane_progress progress, void* user,
                                       terrane_error** error) {
-    return call(error, [&]() -> terrane::Status {
+    return call(error, [&] {
         needed(run, "run").progress = progress;
         run->progress_user = user;
-        return terrane::Done{};
     });
 }
 
 terrane_code terrane_run_set_timing(terrane_run* run, terrane_timing timing, void* user,
                                     terrane_error** error) {
-    return call(error, [&]() -> terrane::Status {
+    return call(error, [&] {
         needed(run, "run").timing = timing;
         run->timing_user = user;
-        return terrane::Done{};
     });
 }
 
 terrane_code terrane_run_request_stop(terrane_run* run, terrane_error** error) {
-    return call(error, [&]() -> terrane::Status {
-        needed(run, "run").stop.request_stop();
-        return terrane::Done{};
-    });
+    return call(error, [&] { needed(run, "run").stop.request_stop(); });
 }
 
 terrane_code terrane_run_reset(terrane_run* run, terrane_error** error) {
-    return call(error, [&]() -> terrane::Status {
-        needed(run, "run").stop = std::stop_source();
-        return terrane::Done{};
-    });
+    return call(error, [&] { needed(run, "run").stop = std::stop_source(); });
 }
 
 int terrane_run_stop_requested(const terrane_run* run) {

@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error unfit(const char* sentence, const char* member) {
-    return {ErrorCode::bad_option, sentence, std::string("certified.") + member};
+[[noreturn]] void unfit(const char* sentence, const char* member) {
+    refuse(sentence, std::string("certified.") + member);
 }
 
 std::vector<SourceFile> files_of(const terrane_input_file* files, std::size_t count,
@@ -36,57 +36,52 @@ std::vector<SourceFile> files_of(const terrane_input_file* files, std::size_t co
 }
 
 /// Returns the name of an output's format in certificates.
-Result<std::string> format_in(const terrane_output_file& file) {
+std::string format_in(const terrane_output_file& file) {
     const std::string given = file.format ? file.format : "";
     if (given == "stl-ascii") return given;
     const fs::path path = needed_file(file.path);
     const auto format = given.empty() ? format_of(path) : format_named(given);
-    if (!format) return Error{ErrorCode::unknown_format, "no format has this name", path.string()};
+    if (!format) refuse(ErrorCode::unknown_format, "no format has this name", path.string());
     auto name = certified_format(*format);
     if (name.empty())
-        return Error{ErrorCode::unsupported,
-                     "a certificate cannot be about a file in this format, which terrane verify "
-                     "does not read",
-                     path.string()};
+        refuse(ErrorCode::unsupported,
+               "a certificate cannot be about a file in this format, which terrane verify "
+               "does not read",
+               path.string());
     return name;
 }
 
-Result<std::vector<ResultFile>> outputs_of(const terrane_certified& given) {
+std::vector<ResultFile> outputs_of(const terrane_certified& given) {
     need_array(given.outputs, given.output_count, "certified.outputs");
     std::vector<ResultFile> files;
     if (given.model_folder)
         files = terrane::outputs_of(given.model->model, given.model_folder,
                                     given.part_format ? given.part_format : automatic_parts);
-    for (const terrane_output_file& file : std::span(given.outputs, given.output_count)) {
-        auto format = format_in(file);
-        if (!format) return format.error();
-        files.push_back({file.path, *std::move(format)});
-    }
+    for (const terrane_output_file& file : std::span(given.outputs, given.output_count))
+        files.push_back({file.path, format_in(file)});
     return files;
 }
 
 /// Checks what a certificate states of the surfaces, of which the last ones are the boundary.
-Status check_surfaces(const terrane_certified& given, std::span<const Surface> surfaces,
-                      std::span<const SourceFile> inputs) {
+void check_surfaces(const terrane_certified& given, std::span<const Surface> surfaces,
+                    std::span<const SourceFile> inputs) {
     if (given.boundary_count > surfaces.size())
-        return unfit("is more than there are surfaces", "boundary_count");
+        unfit("is more than there are surfaces", "boundary_count");
     std::size_t read = given.boundary_count;
     for (const SourceFile& file : inputs) {
         if (file.surfaces > surfaces.size() - read)
-            return unfit("have more surfaces than `surfaces`", "inputs");
+            unfit("have more surfaces than `surfaces`", "inputs");
         read += file.surfaces;
     }
-    if (read != surfaces.size()) return unfit("have fewer surfaces than `surfaces`", "inputs");
+    if (read != surfaces.size()) unfit("have fewer surfaces than `surfaces`", "inputs");
     for (const Surface& surface : surfaces)
         if (!terrane::detail::is_utf8(surface.name))
-            return unfit("have a name that is not UTF-8, which a certificate cannot state",
-                         "surfaces");
-    return Done{};
+            unfit("have a name that is not UTF-8, which a certificate cannot state", "surfaces");
 }
 
 /// Checks that the arrangement can be one of these surfaces, and that the rounded mesh is its own.
-Status check_arranged(const terrane_arrangement& arrangement, const terrane_mesh& rounded,
-                      std::span<const Surface> surfaces) {
+void check_arranged(const terrane_arrangement& arrangement, const terrane_mesh& rounded,
+                    std::span<const Surface> surfaces) {
     std::size_t vertices = 0, triangles = 0;
     for (const Surface& s : surfaces) {
         vertices += s.vertices.size();
@@ -95,17 +90,16 @@ Status check_arranged(const terrane_arrangement& arrangement, const terrane_mesh
     const Arrangement& exact = *arrangement.exact;
     if (vertices != exact.input_vertices().size() || triangles != exact.input_corners().size() ||
         surfaces.size() != exact.surfaces.size())
-        return unfit("are not the surfaces that were arranged", "surfaces");
+        unfit("are not the surfaces that were arranged", "surfaces");
     if (!rounded.rounded || rounded.origin != arrangement.identity)
-        return unfit("is not what this arrangement was rounded to", "rounded");
+        unfit("is not what this arrangement was rounded to", "rounded");
     if (!rounded.proof)
-        return Error{ErrorCode::improper_contact, "the rounded mesh is not conforming",
-                     "certified.rounded"};
-    return Done{};
+        refuse(ErrorCode::improper_contact, "the rounded mesh is not conforming",
+               "certified.rounded");
 }
 
 /// Returns the volume of interest; monostate without a boundary.
-Result<ProjectVolume> volume_of(const terrane_certified& given) {
+ProjectVolume volume_of(const terrane_certified& given) {
     if (given.boundary_count == 0) return ProjectVolume();
     if (given.corner_count > 0) {
         ProjectPolygon prism{{}, {given.low, given.high}};
@@ -118,140 +112,130 @@ Result<ProjectVolume> volume_of(const terrane_certified& given) {
     if (files.empty()) return ProjectVolume(RotatedBox{});
     ProjectWithin within;
     for (const SourceFile& source : files) {
-        const auto read = read_surfaces(source.file);
-        if (!read) return read.error();
-        if (read->size() != source.surfaces)
-            return unfit("have another number of surfaces than is stated", "volume_files");
+        const auto read = must(read_surfaces(source.file));
+        if (read.size() != source.surfaces)
+            unfit("have another number of surfaces than is stated", "volume_files");
         within.files.push_back(source.file);
     }
     return ProjectVolume(std::move(within));
 }
 
 /// Returns what was added to the surfaces of the inputs.
-Result<std::vector<SurfaceGrowth>> growth_of(const terrane_certified& given,
-                                             std::span<const Surface> surfaces) {
+std::vector<SurfaceGrowth> growth_of(const terrane_certified& given,
+                                     std::span<const Surface> surfaces) {
     need_array(given.growth, given.growth_count, "certified.growth");
     std::vector<SurfaceGrowth> growth;
     if (given.growth_count == 0) return growth;
     if (given.growth_count != surfaces.size() - given.boundary_count)
-        return unfit("needs an entry for each surface of the inputs", "growth");
+        unfit("needs an entry for each surface of the inputs", "growth");
     for (std::size_t s = 0; s < given.growth_count; ++s) {
         const auto& [own, extended] = given.growth[s];
         const std::size_t all = surfaces[s].triangles.size();
         if (own > extended || extended > all || surfaces[s].vertices.size() < 3 * (all - own))
-            return unfit("counts more triangles than the surface has", "growth");
+            unfit("counts more triangles than the surface has", "growth");
         growth.push_back({own, extended});
     }
     return growth;
 }
 
 /// Checks that the handles which were made of the rounded mesh are of this one.
-Status check_made(const terrane_certified& given, const terrane_mesh& rounded) {
+void check_made(const terrane_certified& given, const terrane_mesh& rounded) {
     if (given.improved && &*needed(given.improved, "certified.improved").before != &*rounded.mesh)
-        return unfit("was not made from this rounded mesh", "improved");
-    if (given.tetrahedra && !given.model) return unfit("need their model", "tetrahedra");
+        unfit("was not made from this rounded mesh", "improved");
+    if (given.tetrahedra && !given.model) unfit("need their model", "tetrahedra");
     if (given.model_folder && (!given.model || given.tetrahedra))
-        return unfit("is for a model without tetrahedra", "model_folder");
-    if (!given.model) return Done{};
-    if (given.improved) return unfit("blocks of an improved mesh have no certificate", "improved");
+        unfit("is for a model without tetrahedra", "model_folder");
+    if (!given.model) return;
+    if (given.improved) unfit("blocks of an improved mesh have no certificate", "improved");
     const Mesh& mesh = needed(given.model, "certified.model").model.mesh;
     if (mesh.triangles != rounded.mesh->triangles || mesh.vertices != rounded.mesh->vertices)
-        return unfit("is not of this rounded mesh", "model");
-    if (!given.tetrahedra) return Done{};
+        unfit("is not of this rounded mesh", "model");
+    if (!given.tetrahedra) return;
     for (const std::uint32_t face :
          needed(given.tetrahedra, "certified.tetrahedra").filled.tetrahedra.face_triangle)
         if (face != TERRANE_NONE && face >= mesh.triangles.size())
-            return unfit("are not in this model", "tetrahedra");
-    return Done{};
+            unfit("are not in this model", "tetrahedra");
 }
 
 /// Adds what has a rounded mesh; `growth` is kept by the caller.
-Status add_arranged(const terrane_certified& given, std::vector<SurfaceGrowth>& growth,
-                    CertifiedResult& result) {
+void add_arranged(const terrane_certified& given, std::vector<SurfaceGrowth>& growth,
+                  CertifiedResult& result) {
     const auto& arrangement = needed(given.arrangement, "certified.arrangement");
     const auto& rounded = needed(given.rounded, "certified.rounded");
-    if (auto fit = check_arranged(arrangement, rounded, result.surfaces); !fit) return fit;
-    if (auto fit = check_made(given, rounded); !fit) return fit;
-    auto volume = volume_of(given);
-    if (!volume) return volume.error();
-    auto grown = growth_of(given, result.surfaces);
-    if (!grown) return grown.error();
-    growth = *std::move(grown);
+    check_arranged(arrangement, rounded, result.surfaces);
+    check_made(given, rounded);
+    result.volume = volume_of(given);
+    growth = growth_of(given, result.surfaces);
     result.exact = &*arrangement.exact;
     result.rounded = &*rounded.rounded;
     if (given.improved) result.improved = &given.improved->improved;
     if (given.model) result.model = &given.model->model;
     if (given.tetrahedra) result.tetrahedra = &given.tetrahedra->filled.tetrahedra;
-    result.volume = *std::move(volume);
     result.boundary_count = given.boundary_count;
     result.growth = growth;
-    return Done{};
 }
 
-Status add_filled(const terrane_certified& given, CertifiedResult& result) {
+void add_filled(const terrane_certified& given, CertifiedResult& result) {
     const terrane_holes& holes = needed(given.holes, "certified.holes");
     if (holes.work.surfaces.size() != result.surfaces.size())
-        return unfit("need a task for each of `surfaces`", "holes");
+        unfit("need a task for each of `surfaces`", "holes");
     for (std::size_t s = 0; s < result.surfaces.size(); ++s) {
         const HoledSurface& done = holes.work.surfaces[s];
         if (done.task.surface != s || done.given_triangles != result.surfaces[s].triangles.size())
-            return unfit("are not those of `surfaces`, in their order", "holes");
+            unfit("are not those of `surfaces`, in their order", "holes");
         result.filled.push_back({&holes.surfaces.list[s], done.given_vertices, done.given_triangles,
                                  done.interpolated, done.deviation});
     }
-    return Done{};
 }
 
 /// Adds a stack; `order` is kept by the caller.
-Status add_layered(const terrane_certified& given, std::vector<Layer>& order,
-                   CertifiedResult& result) {
+void add_layered(const terrane_certified& given, std::vector<Layer>& order,
+                 CertifiedResult& result) {
     const Layered& layered = needed(given.layered, "certified.layered").layered;
     if (!layered.is_stack())
-        return Error{ErrorCode::improper_contact, "the layers are no stack", "certified.layered"};
+        refuse(ErrorCode::improper_contact, "the layers are no stack", "certified.layered");
     for (const terrane_layer& layer : std::span(given.layers, given.layer_count))
         order.push_back({SurfaceId(layer.surface), layer.hardness});
     const auto fits = [](const Layer& layer, const LayerReport& report) {
         return layer.surface == report.surface;
     };
     if (!std::ranges::equal(order, layered.reports, fits))
-        return unfit("are not those of the stack", "layers");
+        unfit("are not those of the stack", "layers");
     result.layered = &layered;
     result.order = order;
-    return Done{};
 }
 
 /// Refuses members that would be ignored.
-Status check_use(const terrane_certified& given) {
+void check_use(const terrane_certified& given) {
     need_array(given.layers, given.layer_count, "certified.layers");
     need_array(given.corners, given.corner_count, "certified.corners");
     need_array(given.volume_files, given.volume_file_count, "certified.volume_files");
-    if (given.part_format && !given.model_folder) return unfit("needs model_folder", "part_format");
-    if (given.layers && !given.layered) return unfit("needs layered", "layers");
-    if ((given.low != 0 || given.high != 0) && !given.corners) return unfit("needs corners", "low");
-    return Done{};
+    if (given.part_format && !given.model_folder) unfit("needs model_folder", "part_format");
+    if (given.layers && !given.layered) unfit("needs layered", "layers");
+    if ((given.low != 0 || given.high != 0) && !given.corners) unfit("needs corners", "low");
 }
 
-Result<std::string> text_of(const terrane_certified& given, const fs::path& path, const Run& run) {
-    if (const auto used = check_use(given); !used) return used.error();
+std::string text_of(const terrane_certified& given, const fs::path& path, const Run& run) {
+    check_use(given);
     CertifiedResult result;
     result.surfaces = needed(given.surfaces, "certified.surfaces").list;
     result.inputs = files_of(given.inputs, given.input_count, "certified.inputs");
-    if (auto fit = check_surfaces(given, result.surfaces, result.inputs); !fit) return fit.error();
-    if (given.holes && given.layered) return unfit("a certificate is about one result", "layered");
-    if (given.model_folder && !given.model) return unfit("needs the model", "model_folder");
+    check_surfaces(given, result.surfaces, result.inputs);
+    if (given.holes && given.layered) unfit("a certificate is about one result", "layered");
+    if (given.model_folder && !given.model) unfit("needs the model", "model_folder");
     const bool is_rounded = !given.holes && !given.layered;
     if (!is_rounded && (given.boundary_count > 0 || given.growth_count > 0))
-        return unfit("filled surfaces and layers have no volume of interest", "boundary_count");
+        unfit("filled surfaces and layers have no volume of interest", "boundary_count");
     std::vector<SurfaceGrowth> growth;
     std::vector<Layer> order;
-    const auto added = given.holes     ? add_filled(given, result)
-                       : given.layered ? add_layered(given, order, result)
-                                       : add_arranged(given, growth, result);
-    if (!added) return added.error();
-    auto outputs = outputs_of(given);
-    if (!outputs) return outputs.error();
-    result.outputs = *std::move(outputs);
-    return certify(result, path, run);
+    if (given.holes)
+        add_filled(given, result);
+    else if (given.layered)
+        add_layered(given, order, result);
+    else
+        add_arranged(given, growth, result);
+    result.outputs = outputs_of(given);
+    return must(certify(result, path, run));
 }
 
 } // namespace
@@ -265,12 +249,10 @@ terrane_code terrane_certified_init(terrane_certified* certified, size_t struct_
 
 terrane_code terrane_write_certificate(const char* path, const terrane_certified* certified,
                                        const terrane_run* run, terrane_error** error) {
-    return call(error, [&]() -> terrane::Status {
+    return call(error, [&] {
         const std::filesystem::path file = needed_file(path);
         if (!certified) throw BadArgument{"certified", "is null"};
         const auto given = options_of(certified, terrane_certified{});
-        const auto text = text_of(given, file, run_of(run));
-        if (!text) return text.error();
-        return terrane::write_file(file, *text);
+        must(terrane::write_file(file, text_of(given, file, run_of(run))));
     });
 }

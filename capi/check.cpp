@@ -11,12 +11,10 @@ using namespace terrane::capi::detail;
 
 terrane_code terrane_check(const terrane_surfaces* surfaces, const terrane_run* run,
                            terrane_check_report** out, terrane_error** error) {
-    using Made = terrane::Result<std::unique_ptr<terrane_check_report>>;
-    return produce(out, error, [&]() -> Made {
-        auto found = terrane::check(needed(surfaces, "surfaces").list, run_of(run));
-        if (!found) return found.error();
+    return produce(out, error, [&] {
+        auto found = must(terrane::check(needed(surfaces, "surfaces").list, run_of(run)));
         auto report = std::make_unique<terrane_check_report>();
-        report->report = *std::move(found);
+        report->report = std::move(found);
         report->contacts = contacts_of(report->report.contacts);
         return report;
     });
@@ -37,26 +35,21 @@ terrane_code terrane_check_get_summary(const terrane_check_report* report,
 }
 
 const terrane_contact* terrane_check_contacts(const terrane_check_report* report, size_t* count) {
-    return known(report) ? array_of<terrane_contact>(report->contacts, count)
-                         : no_array<terrane_contact>(count);
+    return array_of<terrane_contact>(known(report) ? &report->contacts : nullptr, count);
 }
 
 const uint32_t* terrane_check_degenerate(const terrane_check_report* report, size_t* count) {
-    return known(report) ? array_of<uint32_t>(report->report.degenerate, count)
-                         : no_array<uint32_t>(count);
+    return array_of<uint32_t>(known(report) ? &report->report.degenerate : nullptr, count);
 }
 
 const uint32_t* terrane_check_repeated(const terrane_check_report* report, size_t* count) {
-    return known(report) ? array_of<uint32_t>(report->report.repeated, count)
-                         : no_array<uint32_t>(count);
+    return array_of<uint32_t>(known(report) ? &report->report.repeated : nullptr, count);
 }
 
 const uint32_t* terrane_check_shared(const terrane_check_report* report, size_t* count) {
-    return known(report) ? array_of<uint32_t>(report->report.shared, count)
-                         : no_array<uint32_t>(count);
+    return array_of<uint32_t>(known(report) ? &report->report.shared : nullptr, count);
 }
 
 const double* terrane_check_non_manifold_edges(const terrane_check_report* report, size_t* count) {
-    return known(report) ? array_of<double>(report->report.non_manifold_edges, count)
-                         : no_array<double>(count);
+    return array_of<double>(known(report) ? &report->report.non_manifold_edges : nullptr, count);
 }

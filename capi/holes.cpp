@@ -33,32 +33,30 @@ terrane_fill_task default_task() noexcept {
             0};
 }
 
-Error bad_task(std::size_t task, const char* sentence, const char* member) {
-    return {ErrorCode::bad_option, sentence, "tasks[" + std::to_string(task) + "]." + member};
+[[noreturn]] void bad_task(std::size_t task, const char* sentence, const char* member) {
+    refuse(sentence, "tasks[" + std::to_string(task) + "]." + member);
 }
 
-Result<FillTask> task_of(const terrane_fill_task& given, std::size_t number,
-                         std::size_t surface_count) {
+FillTask task_of(const terrane_fill_task& given, std::size_t number, std::size_t surface_count) {
     if (given.surface >= surface_count)
-        return Error{ErrorCode::bad_index, "there is no such surface",
-                     "tasks[" + std::to_string(number) + "].surface"};
+        refuse(ErrorCode::bad_index, "there is no such surface",
+               "tasks[" + std::to_string(number) + "].surface");
     FillTask task{SurfaceId(given.surface), {}};
     FillOptions& o = task.options;
     o.method = given.use_rbf != 0 ? FillMethod::rbf : FillMethod::kriging;
     if (given.variogram && std::string_view(given.variogram) != "auto") {
         o.model = variogram_model_named(given.variogram);
-        if (!o.model) return bad_task(number, "is no model of a variogram", "variogram");
+        if (!o.model) bad_task(number, "is no model of a variogram", "variogram");
     }
-    if (!(given.max_area >= 0)) return bad_task(number, "is negative or not a number", "max_area");
-    if (!(given.mesh_size >= 0))
-        return bad_task(number, "is negative or not a number", "mesh_size");
-    if (!(given.gap_slope > 0)) return bad_task(number, "is not positive", "gap_slope");
-    if (given.smoothing < 0) return bad_task(number, "is negative", "smoothing");
+    if (!(given.max_area >= 0)) bad_task(number, "is negative or not a number", "max_area");
+    if (!(given.mesh_size >= 0)) bad_task(number, "is negative or not a number", "mesh_size");
+    if (!(given.gap_slope > 0)) bad_task(number, "is not positive", "gap_slope");
+    if (given.smoothing < 0) bad_task(number, "is negative", "smoothing");
     if (given.use_rbf == 0 && !std::isnan(given.smoothing))
-        return bad_task(number, "is of radial basis functions", "smoothing");
-    if (given.use_rbf != 0 && o.model) return bad_task(number, "is of kriging", "variogram");
+        bad_task(number, "is of radial basis functions", "smoothing");
+    if (given.use_rbf != 0 && o.model) bad_task(number, "is of kriging", "variogram");
     if (given.use_rbf != 0 && given.is_isotropic != 0)
-        return bad_task(number, "is of kriging", "is_isotropic");
+        bad_task(number, "is of kriging", "is_isotropic");
     o.max_area = given.max_area;
     o.mesh_size = given.mesh_size;
     o.gap_slope = given.gap_slope;
@@ -70,8 +68,8 @@ Result<FillTask> task_of(const terrane_fill_task& given, std::size_t number,
 }
 
 /// Returns the tasks of a caller, whose structs may be shorter than this library's.
-Result<std::vector<FillTask>> tasks_of(const terrane_fill_task* given, std::size_t count,
-                                       std::size_t surface_count) {
+std::vector<FillTask> tasks_of(const terrane_fill_task* given, std::size_t count,
+                               std::size_t surface_count) {
     need_array(given, count, "tasks");
     std::vector<FillTask> tasks;
     std::set<std::uint32_t> surfaces;
@@ -81,10 +79,9 @@ Result<std::vector<FillTask>> tasks_of(const terrane_fill_task* given, std::size
         const auto* one = reinterpret_cast<const terrane_fill_task*>(at);
         if (one->struct_size != stride) throw BadArgument{"tasks", "have different struct_sizes"};
         auto task = task_of(options_of(one, default_task()), i, surface_count);
-        if (!task) return task.error();
-        if (!surfaces.insert(task->surface).second)
-            return bad_task(i, "is the surface of another task, too", "surface");
-        tasks.push_back(*std::move(task));
+        if (!surfaces.insert(task.surface).second)
+            bad_task(i, "is the surface of another task, too", "surface");
+        tasks.push_back(std::move(task));
     }
     return tasks;
 }
@@ -106,18 +103,20 @@ terrane_hole hole_of(const FillWork& work, const NumberedHole& hole) {
     return made;
 }
 
-using MadeHoles = Result<std::unique_ptr<terrane_holes>>;
+const HoledSurface* filled_at(const terrane_holes* holes, std::size_t task) noexcept {
+    return known(holes) && task < holes->work.surfaces.size() ? &holes->work.surfaces[task]
+                                                              : nullptr;
+}
 
 /// Runs find_holes or fill_surfaces on the surfaces and tasks of a caller.
 template <class Stage>
-MadeHoles holes_by(const Stage& stage, const terrane_surfaces* surfaces,
-                   const terrane_fill_task* tasks, std::size_t task_count, const terrane_run* run) {
+std::unique_ptr<terrane_holes> holes_by(const Stage& stage, const terrane_surfaces* surfaces,
+                                        const terrane_fill_task* tasks, std::size_t task_count,
+                                        const terrane_run* run) {
     const auto& list = needed(surfaces, "surfaces").list;
     const auto wanted = tasks_of(tasks, task_count, list.size());
-    if (!wanted) return wanted.error();
-    auto work = stage(list, *wanted, run_of(run));
-    if (!work) return work.error();
-    return std::make_unique<terrane_holes>(*std::move(work));
+    auto work = must(stage(list, wanted, run_of(run)));
+    return std::make_unique<terrane_holes>(std::move(work));
 }
 
 } // namespace
@@ -159,8 +158,7 @@ void terrane_holes_free(terrane_holes* holes) {
 }
 
 const terrane_hole* terrane_holes_array(const terrane_holes* holes, size_t* count) {
-    return known(holes) ? array_of<terrane_hole>(holes->array, count)
-                        : no_array<terrane_hole>(count);
+    return array_of<terrane_hole>(known(holes) ? &holes->array : nullptr, count);
 }
 
 terrane_code terrane_holes_borders(const terrane_holes* holes, terrane_lists* lists) {
@@ -184,13 +182,12 @@ const terrane_surfaces* terrane_holes_surfaces(const terrane_holes* holes) {
 
 const double* terrane_holes_expected_errors(const terrane_holes* holes, size_t task,
                                             size_t* vertex_count) {
-    if (!known(holes) || task >= holes->work.surfaces.size()) return no_array<double>(vertex_count);
-    return array_of<double>(holes->work.surfaces[task].deviation, vertex_count);
+    const auto* found = filled_at(holes, task);
+    return array_of<double>(found ? &found->deviation : nullptr, vertex_count);
 }
 
 const int32_t* terrane_holes_of_triangles(const terrane_holes* holes, size_t task,
                                           size_t* triangle_count) {
-    if (!known(holes) || task >= holes->work.surfaces.size())
-        return no_array<int32_t>(triangle_count);
-    return array_of<int32_t>(holes->work.surfaces[task].interpolated, triangle_count);
+    const auto* found = filled_at(holes, task);
+    return array_of<int32_t>(found ? &found->interpolated : nullptr, triangle_count);
 }

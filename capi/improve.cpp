@@ -56,7 +56,6 @@ terrane_improve_options default_improving() noexcept {
 } // namespace terrane::capi::detail
 
 using namespace terrane::capi::detail;
-using terrane::Result;
 
 terrane_improved::terrane_improved(terrane::Improved made, const terrane_mesh& given) :
     improved(std::move(made)), before(given.mesh), mesh(improved.conforming.value()),
@@ -69,30 +68,27 @@ terrane_code terrane_improve_options_init(terrane_improve_options* options, size
 terrane_code terrane_measure_quality(const terrane_mesh* mesh, const terrane_run* run,
                                      terrane_quality* quality, size_t struct_size,
                                      terrane_error** error) {
-    return call(error, [&]() -> terrane::Status {
+    return call(error, [&] {
         const terrane::Mesh& measured = needed(mesh, "mesh").mesh;
         need_array(quality, 1, "quality");
         const auto found = quality_of(
             terrane::measure_quality(measured.vertices, measured.triangles, run_of(run)));
         if (give_report(found, quality, struct_size) != TERRANE_OK)
             throw BadArgument{"struct_size", "is not known to this library"};
-        return terrane::Done{};
     });
 }
 
 terrane_code terrane_improve(const terrane_mesh* mesh, const terrane_improve_options* options,
                              const terrane_run* run, terrane_improved** out,
                              terrane_error** error) {
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_improved>> {
+    return produce(out, error, [&] {
         const terrane_mesh& given = needed(mesh, "mesh");
         const auto wanted =
             fields_of<terrane::ImproveOptions>(options_of(options, default_improving()));
         const auto how = run_of(run);
         const auto proof = proven(given, how);
-        if (!proof) return proof.error();
-        auto improved = terrane::improve(*proof, wanted, how);
-        if (!improved) return improved.error();
-        return std::make_unique<terrane_improved>(*std::move(improved), given);
+        return std::make_unique<terrane_improved>(must(terrane::improve(proof, wanted, how)),
+                                                  given);
     });
 }
 
@@ -111,6 +107,6 @@ terrane_code terrane_improved_get_report(const terrane_improved* improved,
 }
 
 const double* terrane_improved_bounds(const terrane_improved* improved, size_t* surface_count) {
-    return known(improved) ? array_of<double>(improved->improved.report.bound_of, surface_count)
-                           : no_array<double>(surface_count);
+    return array_of<double>(known(improved) ? &improved->improved.report.bound_of : nullptr,
+                            surface_count);
 }

@@ -48,8 +48,7 @@ terrane_code terrane_stack_layers(const terrane_surfaces* surfaces, const terran
                                   size_t layer_count, const terrane_layer_options* options,
                                   const terrane_run* run, terrane_layered** out,
                                   terrane_error** error) {
-    using Made = terrane::Result<std::unique_ptr<terrane_layered>>;
-    return produce(out, error, [&]() -> Made {
+    return produce(out, error, [&] {
         const auto& list = needed(surfaces, "surfaces").list;
         const auto order = order_of(layers, layer_count);
         const auto wanted = options_of(options, default_stacking());
@@ -57,9 +56,8 @@ terrane_code terrane_stack_layers(const terrane_surfaces* surfaces, const terran
         stacking.min_thickness = wanted.min_thickness;
         stacking.max_rounds = wanted.max_rounds;
         stacking.max_move = number_or_default(wanted.max_move, "options.max_move");
-        auto made = terrane::stack_layers(list, order, stacking, run_of(run));
-        if (!made) return made.error();
-        return std::make_unique<terrane_layered>(*std::move(made));
+        return std::make_unique<terrane_layered>(
+            must(terrane::stack_layers(list, order, stacking, run_of(run))));
     });
 }
 
@@ -76,8 +74,7 @@ const terrane_mesh* terrane_layered_mesh(const terrane_layered* layered) {
 }
 
 const terrane_layer_report* terrane_layered_reports(const terrane_layered* layered, size_t* count) {
-    return known(layered) ? array_of<terrane_layer_report>(layered->reports, count)
-                          : no_array<terrane_layer_report>(count);
+    return array_of<terrane_layer_report>(known(layered) ? &layered->reports : nullptr, count);
 }
 
 double terrane_layered_step_width(const terrane_layered* layered) {

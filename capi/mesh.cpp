@@ -13,8 +13,6 @@
 #include <terrane/io/files.hpp>
 
 using namespace terrane::capi::detail;
-using terrane::Result;
-using terrane::Status;
 
 terrane_mesh::terrane_mesh(terrane::RoundedMesh made, Origin made_from) :
     mesh(made.mesh), proof(made.conforming), rounded(std::move(made)), origin(std::move(made_from)),
@@ -45,18 +43,18 @@ terrane_regions::terrane_regions(terrane::Regions found) :
 
 namespace terrane::capi::detail {
 
-Result<ConformingMesh> proven(const terrane_mesh& mesh, const Run& run) {
+ConformingMesh proven(const terrane_mesh& mesh, const Run& run) {
     if (mesh.proof) return *mesh.proof;
-    return prove_conforming(*mesh.mesh, run);
+    return must(prove_conforming(*mesh.mesh, run));
 }
 
 } // namespace terrane::capi::detail
 
 terrane_code terrane_mesh_from_surfaces(const terrane_surfaces* surfaces, terrane_mesh** out,
                                         terrane_error** error) {
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_mesh>> {
+    return produce(out, error, [&] {
         const auto& list = needed(surfaces, "surfaces").list;
-        if (auto valid = terrane::validate(list); !valid) return valid.error();
+        must(terrane::validate(list));
         auto mesh = std::make_unique<terrane_mesh>();
         mesh->mesh = terrane::SharedMesh(terrane::concatenate(list));
         return mesh;
@@ -65,7 +63,7 @@ terrane_code terrane_mesh_from_surfaces(const terrane_surfaces* surfaces, terran
 
 terrane_code terrane_mesh_to_surfaces(const terrane_mesh* mesh, terrane_surfaces** out,
                                       terrane_error** error) {
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_surfaces>> {
+    return produce(out, error, [&] {
         auto surfaces = std::make_unique<terrane_surfaces>();
         surfaces->list = terrane::surfaces_of_mesh(needed(mesh, "mesh").mesh);
         return surfaces;
@@ -74,11 +72,10 @@ terrane_code terrane_mesh_to_surfaces(const terrane_mesh* mesh, terrane_surfaces
 
 terrane_code terrane_mesh_prove(const terrane_mesh* mesh, const terrane_run* run,
                                 terrane_mesh** out, terrane_error** error) {
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_mesh>> {
+    return produce(out, error, [&] {
         const terrane_mesh& given = needed(mesh, "mesh");
         auto proof = proven(given, run_of(run));
-        if (!proof) return proof.error();
-        auto made = std::make_unique<terrane_mesh>(*proof);
+        auto made = std::make_unique<terrane_mesh>(proof);
         made->rounded = given.rounded;
         made->origin = given.origin;
         made->report = given.report;
@@ -110,13 +107,11 @@ terrane_role terrane_mesh_surface_role(const terrane_mesh* mesh, size_t surface)
 }
 
 const double* terrane_mesh_vertices(const terrane_mesh* mesh, size_t* vertex_count) {
-    return known(mesh) ? array_of<double>(mesh->mesh->vertices, vertex_count)
-                       : no_array<double>(vertex_count);
+    return array_of<double>(known(mesh) ? &mesh->mesh->vertices : nullptr, vertex_count);
 }
 
 const uint32_t* terrane_mesh_triangles(const terrane_mesh* mesh, size_t* triangle_count) {
-    return known(mesh) ? array_of<uint32_t>(mesh->mesh->triangles, triangle_count)
-                       : no_array<uint32_t>(triangle_count);
+    return array_of<uint32_t>(known(mesh) ? &mesh->mesh->triangles : nullptr, triangle_count);
 }
 
 terrane_code terrane_mesh_surfaces(const terrane_mesh* mesh, terrane_lists* lists) {
@@ -132,8 +127,7 @@ terrane_code terrane_mesh_parents(const terrane_mesh* mesh, terrane_lists* lists
 }
 
 const uint32_t* terrane_mesh_intersection_edges(const terrane_mesh* mesh, size_t* count) {
-    return known(mesh) ? array_of<uint32_t>(mesh->mesh->intersection_edges, count)
-                       : no_array<uint32_t>(count);
+    return array_of<uint32_t>(known(mesh) ? &mesh->mesh->intersection_edges : nullptr, count);
 }
 
 terrane_code terrane_mesh_get_rounding(const terrane_mesh* mesh, terrane_rounding_report* report,
@@ -142,21 +136,20 @@ terrane_code terrane_mesh_get_rounding(const terrane_mesh* mesh, terrane_roundin
 }
 
 const terrane_contact* terrane_mesh_contacts(const terrane_mesh* mesh, size_t* count) {
-    return known(mesh) ? array_of<terrane_contact>(mesh->contacts, count)
-                       : no_array<terrane_contact>(count);
+    return array_of<terrane_contact>(known(mesh) ? &mesh->contacts : nullptr, count);
 }
 
 terrane_code terrane_mesh_write(const terrane_mesh* mesh, const char* path,
                                 const terrane_write_options* options, terrane_error** error) {
-    return call(error, [&]() -> Status {
+    return call(error, [&] {
         const terrane::Mesh& written = needed(mesh, "mesh").mesh;
-        return terrane::write_mesh(written, needed_file(path), writing_of(options));
+        must(terrane::write_mesh(written, needed_file(path), writing_of(options)));
     });
 }
 
 terrane_code terrane_find_regions(const terrane_mesh* mesh, const terrane_run* run,
                                   terrane_regions** out, terrane_error** error) {
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_regions>> {
+    return produce(out, error, [&] {
         return std::make_unique<terrane_regions>(
             terrane::find_regions(needed(mesh, "mesh").mesh, run_of(run)));
     });
@@ -167,8 +160,7 @@ void terrane_regions_free(terrane_regions* regions) {
 }
 
 const terrane_region* terrane_regions_array(const terrane_regions* regions, size_t* count) {
-    return known(regions) ? array_of<terrane_region>(regions->array, count)
-                          : no_array<terrane_region>(count);
+    return array_of<terrane_region>(known(regions) ? &regions->array : nullptr, count);
 }
 
 terrane_code terrane_regions_neighbours(const terrane_regions* regions, terrane_lists* lists) {

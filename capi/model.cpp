@@ -19,11 +19,7 @@
 #include <terrane/io/structure_json.hpp>
 
 using namespace terrane::capi::detail;
-using terrane::Done;
-using terrane::Error;
 using terrane::ErrorCode;
-using terrane::Result;
-using terrane::Status;
 
 const std::vector<std::string>& terrane_volumes::fractions() const {
     const std::lock_guard lock(mutex_);
@@ -67,16 +63,14 @@ StratigraphicColumn column_of(const terrane_model_options* given) {
 }
 
 /// Checks that the handles were made from each other.
-Status check_origins(const terrane_arrangement& arrangement, const terrane_mesh& rounded,
-                     const terrane_improved* improved) {
+void check_origins(const terrane_arrangement& arrangement, const terrane_mesh& rounded,
+                   const terrane_improved* improved) {
     if (rounded.origin != arrangement.identity)
-        return Error{ErrorCode::bad_option, "is not what this arrangement was rounded to",
-                     "rounded"};
+        refuse(ErrorCode::bad_option, "is not what this arrangement was rounded to", "rounded");
     if (!rounded.proof)
-        return Error{ErrorCode::improper_contact, "the rounded mesh is not conforming", "rounded"};
+        refuse(ErrorCode::improper_contact, "the rounded mesh is not conforming", "rounded");
     if (improved && &*improved->before != &*rounded.mesh)
-        return Error{ErrorCode::bad_option, "was not made from this rounded mesh", "improved"};
-    return Done{};
+        refuse(ErrorCode::bad_option, "was not made from this rounded mesh", "improved");
 }
 
 const terrane_volumes& of_mesh(const terrane_volumes* volumes) {
@@ -94,15 +88,13 @@ terrane_code terrane_model_options_init(terrane_model_options* options, size_t s
 
 terrane_code terrane_find_volumes(const terrane_mesh* mesh, const terrane_run* run,
                                   terrane_volumes** out, terrane_error** error) {
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_volumes>> {
+    return produce(out, error, [&] {
         const auto how = run_of(run);
         auto proof = proven(needed(mesh, "mesh"), how);
-        if (!proof) return proof.error();
-        auto found = terrane::find_volumes(**proof, how);
-        if (!found) return found.error();
+        auto found = must(terrane::find_volumes(*proof, how));
         auto volumes = std::make_unique<terrane_volumes>();
-        volumes->volumes = *std::move(found);
-        volumes->mesh = *std::move(proof);
+        volumes->volumes = std::move(found);
+        volumes->mesh = std::move(proof);
         return volumes;
     });
 }
@@ -110,12 +102,11 @@ terrane_code terrane_find_volumes(const terrane_mesh* mesh, const terrane_run* r
 terrane_code terrane_find_exact_volumes(const terrane_arrangement* arrangement,
                                         const terrane_run* run, terrane_volumes** out,
                                         terrane_error** error) {
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_volumes>> {
+    return produce(out, error, [&] {
         const auto& exact = needed(arrangement, "arrangement").exact;
-        auto found = terrane::find_volumes(*exact, run_of(run));
-        if (!found) return found.error();
+        auto found = must(terrane::find_volumes(*exact, run_of(run)));
         auto volumes = std::make_unique<terrane_volumes>();
-        volumes->volumes = *std::move(found);
+        volumes->volumes = std::move(found);
         volumes->arrangement = exact;
         return volumes;
     });
@@ -126,13 +117,12 @@ void terrane_volumes_free(terrane_volumes* volumes) {
 }
 
 const uint32_t* terrane_volumes_of_sides(const terrane_volumes* volumes, size_t* triangle_count) {
-    return known(volumes) ? array_of<uint32_t>(volumes->volumes.of_sides, triangle_count)
-                          : no_array<uint32_t>(triangle_count);
+    return array_of<uint32_t>(known(volumes) ? &volumes->volumes.of_sides : nullptr,
+                              triangle_count);
 }
 
 const double* terrane_volumes_measures(const terrane_volumes* volumes, size_t* count) {
-    return known(volumes) ? array_of<double>(volumes->volumes.measures, count)
-                          : no_array<double>(count);
+    return array_of<double>(known(volumes) ? &volumes->volumes.measures : nullptr, count);
 }
 
 double terrane_volumes_total(const terrane_volumes* volumes) {
@@ -142,38 +132,36 @@ double terrane_volumes_total(const terrane_volumes* volumes) {
 terrane_code terrane_volumes_exact(const terrane_volumes* volumes, size_t volume, char* buffer,
                                    size_t size, size_t* length, terrane_error** error) {
     if (length) *length = 0;
-    return call(error, [&]() -> Status {
+    return call(error, [&] {
         const terrane_volumes& given = needed(volumes, "volumes");
         if (volume == 0 || volume >= given.volumes.measures.size())
-            return Error{ErrorCode::bad_index, "there is no such block",
-                         "block " + std::to_string(volume)};
+            refuse(ErrorCode::bad_index, "there is no such block",
+                   "block " + std::to_string(volume));
         copy_text(given.fractions().at(volume), buffer, size, length);
-        return Done{};
     });
 }
 
 terrane_code terrane_locate_points(const terrane_volumes* volumes, const double* points,
                                    size_t point_count, const terrane_run* run, uint32_t* blocks,
                                    terrane_error** error) {
-    return call(error, [&]() -> Status {
+    return call(error, [&] {
         const terrane_volumes& given = of_mesh(volumes);
         need_array(points, point_count, "points");
         need_array(blocks, point_count, "blocks");
         const auto places = points_of(points, point_count);
         for (std::size_t i = 0; i < places.size(); ++i)
             if (!terrane::is_finite(places[i]))
-                return Error{ErrorCode::bad_number, "a coordinate is not finite",
-                             "point " + std::to_string(i)};
-        const auto found = terrane::locate_points(places, **given.mesh, given.volumes, run_of(run));
-        if (!found) return found.error();
-        if (point_count > 0) std::memcpy(blocks, found->data(), point_count * sizeof(uint32_t));
-        return Done{};
+                refuse(ErrorCode::bad_number, "a coordinate is not finite",
+                       "point " + std::to_string(i));
+        const auto found =
+            must(terrane::locate_points(places, **given.mesh, given.volumes, run_of(run)));
+        if (point_count > 0) std::memcpy(blocks, found.data(), point_count * sizeof(uint32_t));
     });
 }
 
 terrane_code terrane_build_structure(const terrane_volumes* volumes, terrane_structure** out,
                                      terrane_error** error) {
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_structure>> {
+    return produce(out, error, [&] {
         const terrane_volumes& given = of_mesh(volumes);
         return std::make_unique<terrane_structure>(
             terrane::build_structure(**given.mesh, given.volumes));
@@ -184,20 +172,18 @@ terrane_code terrane_make_model(const terrane_arrangement* arrangement, const te
                                 const terrane_improved* improved,
                                 const terrane_model_options* options, const terrane_run* run,
                                 terrane_model** out, terrane_error** error) {
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_model>> {
+    return produce(out, error, [&] {
         const auto& exact = needed(arrangement, "arrangement");
         const auto& mesh = needed(rounded, "rounded");
         const auto* better = improved ? &needed(improved, "improved") : nullptr;
-        if (auto fits = check_origins(exact, mesh, better); !fits) return fits.error();
+        check_origins(exact, mesh, better);
         const terrane::BlockNaming naming{column_of(options), {}};
-        if (auto sound = terrane::check_column(naming.column); !sound) return sound.error();
-        if (auto sound = terrane::check_column(naming.column, exact.exact->surfaces); !sound)
-            return sound.error();
-        auto made = better ? terrane::make_model(*exact.exact, *mesh.proof, better->improved,
-                                                 run_of(run), naming)
-                           : terrane::make_model(*exact.exact, *mesh.proof, run_of(run), naming);
-        if (!made) return made.error();
-        return std::make_unique<terrane_model>(*std::move(made));
+        must(terrane::check_column(naming.column));
+        must(terrane::check_column(naming.column, exact.exact->surfaces));
+        return std::make_unique<terrane_model>(
+            must(better ? terrane::make_model(*exact.exact, *mesh.proof, better->improved,
+                                              run_of(run), naming)
+                        : terrane::make_model(*exact.exact, *mesh.proof, run_of(run), naming)));
     });
 }
 
@@ -218,8 +204,7 @@ const terrane_structure* terrane_model_structure(const terrane_model* model) {
 }
 
 const double* terrane_model_exact_volumes(const terrane_model* model, size_t* count) {
-    return known(model) ? array_of<double>(model->model.exact_volumes, count)
-                        : no_array<double>(count);
+    return array_of<double>(known(model) ? &model->model.exact_volumes : nullptr, count);
 }
 
 double terrane_model_total_volume(const terrane_model* model) {
@@ -236,7 +221,7 @@ size_t terrane_model_made(const terrane_model* model) {
 
 terrane_code terrane_model_to_json(const terrane_model* model, char** text, terrane_error** error) {
     if (text) *text = nullptr;
-    return call(error, [&]() -> Status {
+    return call(error, [&] {
         const terrane::Model& m = needed(model, "model").model;
         need_array(text, 1, "text");
         terrane::StructureExtras extras;
@@ -248,18 +233,17 @@ terrane_code terrane_model_to_json(const terrane_model* model, char** text, terr
         if (!copy) throw std::bad_alloc();
         std::memcpy(copy, json.c_str(), json.size() + 1);
         *text = copy;
-        return Done{};
     });
 }
 
 terrane_code terrane_model_write(const terrane_model* model, const char* folder,
                                  const char* part_format, const terrane_run* run,
                                  terrane_error** error) {
-    return call(error, [&]() -> Status {
+    return call(error, [&] {
         const terrane::Model& m = needed(model, "model").model;
-        return terrane::write_model_folder({m, std::nullopt, std::nullopt},
-                                           part_format ? part_format : terrane::automatic_parts,
-                                           needed_text(folder, "folder"), run_of(run));
+        must(terrane::write_model_folder({m, std::nullopt, std::nullopt},
+                                         part_format ? part_format : terrane::automatic_parts,
+                                         needed_text(folder, "folder"), run_of(run)));
     });
 }
 

@@ -12,8 +12,6 @@
 namespace terrane::capi::detail {
 namespace {
 
-using MadeBuilt = Result<std::unique_ptr<terrane_built>>;
-
 std::unique_ptr<terrane_built> handle_of(Built made) {
     auto built = std::make_unique<terrane_built>(std::move(made.arranged.exact));
     built->surfaces.list = std::move(made.arranged.surfaces);
@@ -24,11 +22,6 @@ std::unique_ptr<terrane_built> handle_of(Built made) {
     return built;
 }
 
-MadeBuilt handle_of(Result<Built> made) {
-    if (!made) return made.error();
-    return handle_of(*std::move(made));
-}
-
 } // namespace
 } // namespace terrane::capi::detail
 
@@ -36,22 +29,20 @@ using namespace terrane::capi::detail;
 
 terrane_code terrane_build_file(const char* path, const terrane_run* run, terrane_built** out,
                                 terrane_error** error) {
-    return produce(out, error, [&]() -> MadeBuilt {
-        const auto project = terrane::read_project(needed_file(path));
-        if (!project) return project.error();
-        return handle_of(build_model(*project, run_of(run)));
+    return produce(out, error, [&] {
+        const auto project = must(terrane::read_project(needed_file(path)));
+        return handle_of(must(build_model(project, run_of(run))));
     });
 }
 
 terrane_code terrane_build(const char* json, const char* folder, const terrane_surfaces* surfaces,
                            const terrane_run* run, terrane_built** out, terrane_error** error) {
-    return produce(out, error, [&]() -> MadeBuilt {
-        auto project =
-            terrane::parse_project(needed_text(json, "json"), folder ? folder : "", "project");
-        if (!project) return project.error();
-        if (!surfaces) return handle_of(build_model(*project, run_of(run)));
+    return produce(out, error, [&] {
+        auto project = must(
+            terrane::parse_project(needed_text(json, "json"), folder ? folder : "", "project"));
+        if (!surfaces) return handle_of(must(build_model(project, run_of(run))));
         return handle_of(
-            build_model(*std::move(project), needed(surfaces, "surfaces").list, run_of(run)));
+            must(build_model(std::move(project), needed(surfaces, "surfaces").list, run_of(run))));
     });
 }
 

@@ -75,7 +75,6 @@ std::unique_ptr<terrane_extended> handle_of(Extended made) {
 } // namespace terrane::capi::detail
 
 using namespace terrane::capi::detail;
-using terrane::Result;
 
 terrane_code terrane_seal_options_init(terrane_seal_options* options, size_t struct_size) {
     return init_options(options, struct_size, default_sealing());
@@ -88,12 +87,10 @@ const char* terrane_open_reason_name(int32_t reason) {
 
 terrane_code terrane_seal(const terrane_surfaces* surfaces, const terrane_seal_options* options,
                           const terrane_run* run, terrane_sealed** out, terrane_error** error) {
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_sealed>> {
+    return produce(out, error, [&] {
         auto list = needed(surfaces, "surfaces").list;
         const auto wanted = sealing_of(options, list.size());
-        auto made = terrane::seal(std::move(list), wanted, run_of(run));
-        if (!made) return made.error();
-        return handle_of(*std::move(made));
+        return handle_of(must(terrane::seal(std::move(list), wanted, run_of(run))));
     });
 }
 
@@ -110,18 +107,15 @@ const terrane_arrangement* terrane_sealed_arrangement(const terrane_sealed* seal
 }
 
 const terrane_seal_change* terrane_sealed_changes(const terrane_sealed* sealed, size_t* count) {
-    return known(sealed) ? array_of<terrane_seal_change>(sealed->changes, count)
-                         : no_array<terrane_seal_change>(count);
+    return array_of<terrane_seal_change>(known(sealed) ? &sealed->changes : nullptr, count);
 }
 
 const terrane_closed_gap* terrane_sealed_closed(const terrane_sealed* sealed, size_t* count) {
-    return known(sealed) ? array_of<terrane_closed_gap>(sealed->closed, count)
-                         : no_array<terrane_closed_gap>(count);
+    return array_of<terrane_closed_gap>(known(sealed) ? &sealed->closed : nullptr, count);
 }
 
 const terrane_open_gap* terrane_sealed_open(const terrane_sealed* sealed, size_t* count) {
-    return known(sealed) ? array_of<terrane_open_gap>(sealed->open, count)
-                         : no_array<terrane_open_gap>(count);
+    return array_of<terrane_open_gap>(known(sealed) ? &sealed->open : nullptr, count);
 }
 
 double terrane_sealed_left(const terrane_sealed* sealed) {
@@ -132,7 +126,7 @@ terrane_code terrane_choose_seal(const terrane_arrangement* arrangement,
                                  const terrane_surfaces* surfaces, double edge_length,
                                  const terrane_run* run, double* distance, terrane_error** error) {
     if (distance) *distance = 0;
-    return call(error, [&]() -> terrane::Status {
+    return call(error, [&] {
         const auto& exact = *needed(arrangement, "arrangement").exact;
         need_array(distance, 1, "distance");
         if (!(edge_length >= 0) || !std::isfinite(edge_length))
@@ -142,23 +136,19 @@ terrane_code terrane_choose_seal(const terrane_arrangement* arrangement,
         const double median = edge_length > 0
                                   ? edge_length
                                   : terrane::median_edge_length(needed(surfaces, "surfaces").list);
-        const auto choice = terrane::choose_seal(exact, median, run_of(run));
-        if (!choice) return choice.error();
-        *distance = choice->distance;
-        return terrane::Done{};
+        const auto choice = must(terrane::choose_seal(exact, median, run_of(run)));
+        *distance = choice.distance;
     });
 }
 
 terrane_code terrane_extend_to_boundary(const terrane_surfaces* surfaces, const uint32_t* boundary,
                                         size_t boundary_count, double limit, const terrane_run* run,
                                         terrane_extended** out, terrane_error** error) {
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_extended>> {
+    return produce(out, error, [&] {
         auto list = needed(surfaces, "surfaces").list;
         const auto numbers = boundary_of(boundary, boundary_count, list.size());
-        auto made = terrane::extend_to_boundary(std::move(list), numbers,
-                                                {.limit = limit, .arrange = {}}, run_of(run));
-        if (!made) return made.error();
-        return handle_of(*std::move(made));
+        return handle_of(must(terrane::extend_to_boundary(
+            std::move(list), numbers, {.limit = limit, .arrange = {}}, run_of(run))));
     });
 }
 
@@ -172,6 +162,5 @@ const terrane_surfaces* terrane_extended_surfaces(const terrane_extended* extend
 
 const terrane_extended_border* terrane_extended_borders(const terrane_extended* extended,
                                                         size_t* count) {
-    return known(extended) ? array_of<terrane_extended_border>(extended->borders, count)
-                           : no_array<terrane_extended_border>(count);
+    return array_of<terrane_extended_border>(known(extended) ? &extended->borders : nullptr, count);
 }

@@ -31,9 +31,7 @@ terrane_simplify_report report_of(const SimplifyReport& r) noexcept {
 } // namespace terrane::capi::detail
 
 using namespace terrane::capi::detail;
-using terrane::Error;
 using terrane::ErrorCode;
-using terrane::Result;
 
 terrane_simplified::terrane_simplified(terrane::Simplified made, const terrane_mesh& before) :
     at{before.mesh, std::move(made.report)}, arrangement(std::move(made.exact)),
@@ -49,23 +47,21 @@ terrane_code terrane_simplify_options_init(terrane_simplify_options* options, si
 terrane_code terrane_simplify(const terrane_mesh* mesh, const terrane_simplify_options* options,
                               const terrane_run* run, terrane_simplified** out,
                               terrane_error** error) {
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_simplified>> {
+    return produce(out, error, [&] {
         const terrane_mesh& given = needed(mesh, "mesh");
         const auto wanted = options_of(options, default_simplifying());
         if (!(wanted.edge_length >= 0) || !std::isfinite(wanted.edge_length))
-            return Error{ErrorCode::bad_option, "is not 0 or positive and finite",
-                         "options.edge_length"};
+            refuse(ErrorCode::bad_option, "is not 0 or positive and finite", "options.edge_length");
         const auto how = run_of(run);
         const auto proof = proven(given, how);
-        if (!proof) return proof.error();
-        auto made = terrane::simplify(*proof,
-                                      {.resolution = wanted.resolution,
-                                       .max_move = wanted.max_move,
-                                       .edge_length = wanted.edge_length,
-                                       .dissolve = wanted.dissolve != 0},
-                                      how);
-        if (!made) return made.error();
-        return std::make_unique<terrane_simplified>(*std::move(made), given);
+        return std::make_unique<terrane_simplified>(
+            must(terrane::simplify(proof,
+                                   {.resolution = wanted.resolution,
+                                    .max_move = wanted.max_move,
+                                    .edge_length = wanted.edge_length,
+                                    .dissolve = wanted.dissolve != 0},
+                                   how)),
+            given);
     });
 }
 
@@ -93,13 +89,11 @@ terrane_code terrane_simplified_get_report(const terrane_simplified* simplified,
 
 const uint32_t* terrane_simplified_block_before(const terrane_simplified* simplified,
                                                 size_t* count) {
-    return known(simplified) ? array_of<uint32_t>(simplified->block_before, count)
-                             : no_array<uint32_t>(count);
+    return array_of<uint32_t>(known(simplified) ? &simplified->block_before : nullptr, count);
 }
 
 const uint32_t* terrane_simplified_kept(const terrane_simplified* simplified, size_t* count) {
-    return known(simplified) ? array_of<uint32_t>(simplified->at.report.kept, count)
-                             : no_array<uint32_t>(count);
+    return array_of<uint32_t>(known(simplified) ? &simplified->at.report.kept : nullptr, count);
 }
 
 terrane_code terrane_simplified_keeps_resolution(const terrane_simplified* simplified,
@@ -107,15 +101,13 @@ terrane_code terrane_simplified_keeps_resolution(const terrane_simplified* simpl
                                                  const terrane_run* run, int32_t* is_shown,
                                                  terrane_error** error) {
     if (is_shown) *is_shown = 0;
-    return call(error, [&]() -> terrane::Status {
+    return call(error, [&] {
         const auto& given = needed(simplified, "simplified");
         const auto& after = needed(improved, "improved");
         need_array(is_shown, 1, "is_shown");
         if (&*after.before != &*given.mesh.mesh)
-            return Error{ErrorCode::bad_option, "was not made from this simplified mesh",
-                         "improved"};
+            refuse(ErrorCode::bad_option, "was not made from this simplified mesh", "improved");
         *is_shown =
             terrane::is_within_resolution(given.at, after.improved.mesh, run_of(run)) ? 1 : 0;
-        return terrane::Done{};
     });
 }

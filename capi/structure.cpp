@@ -55,32 +55,28 @@ void terrane_structure_free(terrane_structure* structure) {
 }
 
 const uint32_t* terrane_structure_corners(const terrane_structure* structure, size_t* count) {
-    return known(structure) ? array_of<uint32_t>(structure->corners, count)
-                            : no_array<uint32_t>(count);
+    return array_of<uint32_t>(known(structure) ? &structure->corners : nullptr, count);
 }
 
 const terrane_model_line* terrane_structure_lines(const terrane_structure* structure,
                                                   size_t* count) {
-    return known(structure) ? array_of<terrane_model_line>(structure->lines, count)
-                            : no_array<terrane_model_line>(count);
+    return array_of<terrane_model_line>(known(structure) ? &structure->lines : nullptr, count);
 }
 
 const terrane_model_patch* terrane_structure_patches(const terrane_structure* structure,
                                                      size_t* count) {
-    return known(structure) ? array_of<terrane_model_patch>(structure->patches, count)
-                            : no_array<terrane_model_patch>(count);
+    return array_of<terrane_model_patch>(known(structure) ? &structure->patches : nullptr, count);
 }
 
 const terrane_model_interface* terrane_structure_interfaces(const terrane_structure* structure,
                                                             size_t* count) {
-    return known(structure) ? array_of<terrane_model_interface>(structure->interfaces, count)
-                            : no_array<terrane_model_interface>(count);
+    return array_of<terrane_model_interface>(known(structure) ? &structure->interfaces : nullptr,
+                                             count);
 }
 
 const terrane_model_block* terrane_structure_blocks(const terrane_structure* structure,
                                                     size_t* count) {
-    return known(structure) ? array_of<terrane_model_block>(structure->blocks, count)
-                            : no_array<terrane_model_block>(count);
+    return array_of<terrane_model_block>(known(structure) ? &structure->blocks : nullptr, count);
 }
 
 const char* terrane_structure_block_name(const terrane_structure* structure, size_t block) {
@@ -102,12 +98,12 @@ terrane_code terrane_structure_get_lists(const terrane_structure* structure,
 
 const uint32_t* terrane_structure_patch_of(const terrane_structure* structure,
                                            size_t* triangle_count) {
-    return known(structure) ? array_of<uint32_t>(structure->structure.patch_of, triangle_count)
-                            : no_array<uint32_t>(triangle_count);
+    return array_of<uint32_t>(known(structure) ? &structure->structure.patch_of : nullptr,
+                              triangle_count);
 }
 
 const uint32_t* terrane_structure_interface_of(const terrane_structure* structure,
                                                size_t* triangle_count) {
-    return known(structure) ? array_of<uint32_t>(structure->structure.interface_of, triangle_count)
-                            : no_array<uint32_t>(triangle_count);
+    return array_of<uint32_t>(known(structure) ? &structure->structure.interface_of : nullptr,
+                              triangle_count);
 }

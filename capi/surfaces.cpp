@@ -19,8 +19,6 @@
 namespace terrane::capi::detail {
 namespace {
 
-using MadeSurfaces = Result<std::unique_ptr<terrane_surfaces>>;
-
 terrane_write_options default_writing() noexcept {
     return {sizeof(terrane_write_options), nullptr, 0, 1};
 }
@@ -54,10 +52,9 @@ void append(std::vector<Surface>& list, std::vector<Surface> more) {
     for (Surface& s : more) list.push_back(std::move(s));
 }
 
-MadeSurfaces handle_of(Result<std::vector<Surface>> made) {
-    if (!made) return made.error();
+std::unique_ptr<terrane_surfaces> handle_of(Result<std::vector<Surface>> made) {
     auto handle = std::make_unique<terrane_surfaces>();
-    handle->list = *std::move(made);
+    handle->list = must(std::move(made));
     return handle;
 }
 
@@ -96,9 +93,7 @@ WriteOptions writing_of(const terrane_write_options* given) {
 } // namespace terrane::capi::detail
 
 using namespace terrane::capi::detail;
-using terrane::Done;
-using terrane::Result;
-using terrane::Status;
+using terrane::ErrorCode;
 
 terrane_code terrane_read_options_init(terrane_read_options* options, size_t struct_size) {
     return init_options(options, struct_size, default_reading());
@@ -109,7 +104,7 @@ terrane_code terrane_write_options_init(terrane_write_options* options, size_t s
 }
 
 terrane_code terrane_surfaces_new(terrane_surfaces** out, terrane_error** error) {
-    return produce(out, error, [] { return Result(std::make_unique<terrane_surfaces>()); });
+    return produce(out, error, [] { return std::make_unique<terrane_surfaces>(); });
 }
 
 void terrane_surfaces_free(terrane_surfaces* surfaces) {
@@ -120,67 +115,59 @@ terrane_code terrane_surfaces_add(terrane_surfaces* surfaces, const char* name, 
                                   const double* vertices, size_t vertex_count,
                                   const uint32_t* triangles, size_t triangle_count,
                                   terrane_error** error) {
-    return call(error, [&]() -> Status {
+    return call(error, [&] {
         auto& list = needed(surfaces, "surfaces").list;
         need_array(vertices, vertex_count, "vertices");
         need_array(triangles, triangle_count, "triangles");
         auto surface =
             surface_of(name, role, points_of(vertices, vertex_count), triangles, triangle_count);
-        if (auto valid = terrane::validate(std::span(&surface, 1)); !valid) return valid;
+        must(terrane::validate(std::span(&surface, 1)));
         list.push_back(std::move(surface));
-        return Done{};
     });
 }
 
 terrane_code terrane_surfaces_append(terrane_surfaces* surfaces, const terrane_surfaces* others,
                                      terrane_error** error) {
-    return call(error, [&]() -> Status {
+    return call(error, [&] {
         auto copies = needed(others, "others").list;
         append(needed(surfaces, "surfaces").list, std::move(copies));
-        return Done{};
     });
 }
 
 terrane_code terrane_surfaces_read(terrane_surfaces* surfaces, const char* path,
                                    const terrane_read_options* options, terrane_error** error) {
-    return call(error, [&]() -> Status {
+    return call(error, [&] {
         auto& list = needed(surfaces, "surfaces").list;
         const auto [format, reading] = reading_of(options);
         const auto chosen = format ? format : terrane::format_of(needed_file(path));
-        if (const auto sound = check_reading({chosen}, reading, reading_names); !sound)
-            return sound.error();
-        auto read = terrane::read_surfaces(needed_file(path), format, reading);
-        if (!read) return read.error();
-        append(list, *std::move(read));
-        return Done{};
+        must(check_reading({chosen}, reading, reading_names));
+        auto read = must(terrane::read_surfaces(needed_file(path), format, reading));
+        append(list, std::move(read));
     });
 }
 
 terrane_code terrane_surfaces_parse(terrane_surfaces* surfaces, const void* contents, size_t size,
                                     const char* source, const terrane_read_options* options,
                                     terrane_error** error) {
-    return call(error, [&]() -> Status {
+    return call(error, [&] {
         auto& list = needed(surfaces, "surfaces").list;
         need_array(contents, size, "contents");
         const auto [format, reading] = reading_of(options);
         if (!format) throw BadArgument{"options.format", "must name the format of the contents"};
-        if (const auto sound = check_reading({format}, reading, reading_names); !sound)
-            return sound.error();
-        auto read = terrane::parse_surfaces({static_cast<const char*>(contents), size},
-                                            source ? source : "contents", *format, reading);
-        if (!read) return read.error();
-        append(list, *std::move(read));
-        return Done{};
+        must(check_reading({format}, reading, reading_names));
+        auto read = must(terrane::parse_surfaces({static_cast<const char*>(contents), size},
+                                                 source ? source : "contents", *format, reading));
+        append(list, std::move(read));
     });
 }
 
 terrane_code terrane_surfaces_write(const terrane_surfaces* surfaces, const char* path,
                                     const terrane_write_options* options, terrane_error** error) {
-    return call(error, [&]() -> Status {
+    return call(error, [&] {
         const auto& list = needed(surfaces, "surfaces").list;
         const auto writing = writing_of(options);
-        if (auto valid = terrane::validate(list); !valid) return valid;
-        return terrane::write_mesh(terrane::concatenate(list), needed_file(path), writing);
+        must(terrane::validate(list));
+        must(terrane::write_mesh(terrane::concatenate(list), needed_file(path), writing));
     });
 }
 
@@ -200,35 +187,33 @@ terrane_role terrane_surfaces_role(const terrane_surfaces* surfaces, size_t surf
 
 terrane_code terrane_surfaces_label(terrane_surfaces* surfaces, size_t surface, const char* name,
                                     terrane_role role, terrane_error** error) {
-    return call(error, [&]() -> Status {
+    return call(error, [&] {
         auto& list = needed(surfaces, "surfaces").list;
         std::string text = needed_text(name, "name");
         const auto meant = role_of(role);
         if (surface >= list.size())
-            return terrane::Error{terrane::ErrorCode::bad_index, "there is no such surface",
-                                  "surface " + std::to_string(surface)};
+            refuse(ErrorCode::bad_index, "there is no such surface",
+                   "surface " + std::to_string(surface));
         list[surface].name = std::move(text);
         list[surface].role = meant;
-        return Done{};
     });
 }
 
 const double* terrane_surfaces_vertices(const terrane_surfaces* surfaces, size_t surface,
                                         size_t* vertex_count) {
     const auto* found = surface_at(surfaces, surface);
-    return found ? array_of<double>(found->vertices, vertex_count) : no_array<double>(vertex_count);
+    return array_of<double>(found ? &found->vertices : nullptr, vertex_count);
 }
 
 const uint32_t* terrane_surfaces_triangles(const terrane_surfaces* surfaces, size_t surface,
                                            size_t* triangle_count) {
     const auto* found = surface_at(surfaces, surface);
-    return found ? array_of<uint32_t>(found->triangles, triangle_count)
-                 : no_array<uint32_t>(triangle_count);
+    return array_of<uint32_t>(found ? &found->triangles : nullptr, triangle_count);
 }
 
 terrane_code terrane_box_boundary(const double low[3], const double high[3], terrane_surfaces** out,
                                   terrane_error** error) {
-    return produce(out, error, [&]() -> MadeSurfaces {
+    return produce(out, error, [&] {
         need_array(low, 3, "low");
         need_array(high, 3, "high");
         const auto lowest = points_of(low, 1), highest = points_of(high, 1);
@@ -238,7 +223,7 @@ terrane_code terrane_box_boundary(const double low[3], const double high[3], ter
 
 terrane_code terrane_rotated_box_boundary(const terrane_rotated_box* box, terrane_surfaces** out,
                                           terrane_error** error) {
-    return produce(out, error, [&]() -> MadeSurfaces {
+    return produce(out, error, [&] {
         need_array(box, 1, "box");
         need_reserved(*box, "box");
         return handle_of(terrane::rotated_box_boundary(
@@ -253,7 +238,7 @@ terrane_code terrane_rotated_box_boundary(const terrane_rotated_box* box, terran
 
 terrane_code terrane_polygon_boundary(const double* corners, size_t corner_count, double low,
                                       double high, terrane_surfaces** out, terrane_error** error) {
-    return produce(out, error, [&]() -> MadeSurfaces {
+    return produce(out, error, [&] {
         need_array(corners, corner_count, "corners");
         std::vector<terrane::Point2> polygon(corner_count);
         if (corner_count > 0)
@@ -264,7 +249,7 @@ terrane_code terrane_polygon_boundary(const double* corners, size_t corner_count
 
 terrane_code terrane_closed_boundary(const terrane_surfaces* surfaces, const terrane_run* run,
                                      terrane_surfaces** out, terrane_error** error) {
-    return produce(out, error, [&]() -> MadeSurfaces {
+    return produce(out, error, [&] {
         return handle_of(terrane::closed_boundary(needed(surfaces, "surfaces").list, run_of(run)));
     });
 }

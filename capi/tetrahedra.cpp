@@ -106,10 +106,7 @@ TetrahedraRequest request_of(const terrane_tetrahedra_options* given) {
 } // namespace terrane::capi::detail
 
 using namespace terrane::capi::detail;
-using terrane::Error;
 using terrane::ErrorCode;
-using terrane::Result;
-using terrane::Status;
 
 terrane_tetrahedra::terrane_tetrahedra(terrane::FilledBlocks made) : filled(std::move(made)) {
     for (const terrane::TetrahedraViolation& v : filled.report.violations)
@@ -127,11 +124,10 @@ terrane_code terrane_tetrahedralize(const terrane_model* model,
                                     const terrane_tetrahedra_options* options,
                                     const terrane_run* run, terrane_tetrahedra** out,
                                     terrane_error** error) {
-    return produce(out, error, [&]() -> Result<std::unique_ptr<terrane_tetrahedra>> {
+    return produce(out, error, [&] {
         const terrane::Model& given = needed(model, "model").model;
-        auto filled = terrane::fill_blocks(given, request_of(options), run_of(run));
-        if (!filled) return filled.error();
-        return std::make_unique<terrane_tetrahedra>(*std::move(filled));
+        return std::make_unique<terrane_tetrahedra>(
+            must(terrane::fill_blocks(given, request_of(options), run_of(run))));
     });
 }
 
@@ -151,31 +147,29 @@ const char* terrane_tetrahedra_violation(const terrane_tetrahedra* tetrahedra, s
 
 const double* terrane_tetrahedra_vertices(const terrane_tetrahedra* tetrahedra,
                                           size_t* vertex_count) {
-    return known(tetrahedra)
-               ? array_of<double>(tetrahedra->filled.tetrahedra.vertices, vertex_count)
-               : no_array<double>(vertex_count);
+    return array_of<double>(known(tetrahedra) ? &tetrahedra->filled.tetrahedra.vertices : nullptr,
+                            vertex_count);
 }
 
 const uint32_t* terrane_tetrahedra_cells(const terrane_tetrahedra* tetrahedra, size_t* count) {
-    return known(tetrahedra) ? array_of<uint32_t>(tetrahedra->filled.tetrahedra.tetrahedra, count)
-                             : no_array<uint32_t>(count);
+    return array_of<uint32_t>(
+        known(tetrahedra) ? &tetrahedra->filled.tetrahedra.tetrahedra : nullptr, count);
 }
 
 const uint32_t* terrane_tetrahedra_block_of(const terrane_tetrahedra* tetrahedra, size_t* count) {
-    return known(tetrahedra) ? array_of<uint32_t>(tetrahedra->filled.tetrahedra.block_of, count)
-                             : no_array<uint32_t>(count);
+    return array_of<uint32_t>(known(tetrahedra) ? &tetrahedra->filled.tetrahedra.block_of : nullptr,
+                              count);
 }
 
 const uint32_t* terrane_tetrahedra_faces(const terrane_tetrahedra* tetrahedra, size_t* face_count) {
-    return known(tetrahedra) ? array_of<uint32_t>(tetrahedra->filled.tetrahedra.faces, face_count)
-                             : no_array<uint32_t>(face_count);
+    return array_of<uint32_t>(known(tetrahedra) ? &tetrahedra->filled.tetrahedra.faces : nullptr,
+                              face_count);
 }
 
 const uint32_t* terrane_tetrahedra_face_triangle(const terrane_tetrahedra* tetrahedra,
                                                  size_t* face_count) {
-    return known(tetrahedra)
-               ? array_of<uint32_t>(tetrahedra->filled.tetrahedra.face_triangle, face_count)
-               : no_array<uint32_t>(face_count);
+    return array_of<uint32_t>(
+        known(tetrahedra) ? &tetrahedra->filled.tetrahedra.face_triangle : nullptr, face_count);
 }
 
 terrane_code terrane_tetrahedra_face_surfaces(const terrane_tetrahedra* tetrahedra,
@@ -185,8 +179,8 @@ terrane_code terrane_tetrahedra_face_surfaces(const terrane_tetrahedra* tetrahed
 }
 
 const uint32_t* terrane_tetrahedra_twins(const terrane_tetrahedra* tetrahedra, size_t* count) {
-    return known(tetrahedra) ? array_of<uint32_t>(tetrahedra->filled.tetrahedra.twins, count)
-                             : no_array<uint32_t>(count);
+    return array_of<uint32_t>(known(tetrahedra) ? &tetrahedra->filled.tetrahedra.twins : nullptr,
+                              count);
 }
 
 size_t terrane_tetrahedra_surface_count(const terrane_tetrahedra* tetrahedra) {
@@ -210,8 +204,8 @@ const char* terrane_tetrahedra_block_name(const terrane_tetrahedra* tetrahedra, 
 
 const terrane_block_volume* terrane_tetrahedra_volumes(const terrane_tetrahedra* tetrahedra,
                                                        size_t* block_count) {
-    return known(tetrahedra) ? array_of<terrane_block_volume>(tetrahedra->volumes, block_count)
-                             : no_array<terrane_block_volume>(block_count);
+    return array_of<terrane_block_volume>(known(tetrahedra) ? &tetrahedra->volumes : nullptr,
+                                          block_count);
 }
 
 terrane_code terrane_tetrahedra_shape_report(const terrane_tetrahedra* tetrahedra,
@@ -227,14 +221,14 @@ const char* terrane_tetrahedra_mesher(const terrane_tetrahedra* tetrahedra) {
 
 terrane_code terrane_tetrahedra_write(const terrane_tetrahedra* tetrahedra, const char* path,
                                       const terrane_write_options* options, terrane_error** error) {
-    return call(error, [&]() -> Status {
+    return call(error, [&] {
         const terrane_tetrahedra& given = needed(tetrahedra, "tetrahedra");
         auto writing = writing_of(options);
         const char* const file = needed_file(path);
         if (!given.violations.empty())
-            return Error{ErrorCode::bad_option,
-                         "the check found violations: " + given.violations[0], "tetrahedra"};
+            refuse(ErrorCode::bad_option, "the check found violations: " + given.violations[0],
+                   "tetrahedra");
         writing.block_names = given.filled.block_names;
-        return terrane::write_tetrahedra(given.filled.tetrahedra, file, writing);
+        must(terrane::write_tetrahedra(given.filled.tetrahedra, file, writing));
     });
 }

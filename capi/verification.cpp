@@ -3,21 +3,20 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
-#include <terrane/io/files.hpp>
-#include <terrane/io/reading.hpp>
+#include <terrane/io/verifier_input.hpp>
 
 namespace terrane::capi::detail {
 namespace {
 
 namespace fs = std::filesystem;
-using MadeVerdict = Result<std::unique_ptr<terrane_verdict>>;
 
 terrane_verify_options default_verifying() noexcept {
     return {sizeof(terrane_verify_options), nullptr, 0, default_reading(), -1, -1};
@@ -34,64 +33,21 @@ std::unique_ptr<terrane_verdict> verdict_of(const std::vector<Violation>& violat
     return verdict;
 }
 
-/// Converts the exact result of the library to the claim that the verifier judges.
-ArrangementClaim claim_of(const Arrangement& a) {
-    ArrangementClaim claim;
-    for (std::uint32_t v = 0; v < a.vertices.size(); ++v)
-        claim.vertices.push_back(a.construction(VertexId(v)));
-    claim.triangles = a.triangles;
-    claim.parents_of = a.parents_of;
-    claim.intersection_edges = a.intersection_edges;
-    claim.degenerate = a.degenerate;
-    claim.duplicates = a.inputs.duplicates;
-    return claim;
-}
-
-/// Reads and parses an input file. A file whose hash differs from the certificate's need not parse:
-/// the verifier rejects it by its hash.
-Result<InputFile> read_input(const fs::path& path, const CertifiedInput& stated,
-                             const Reading& reading) {
-    const auto contents = read_file(path);
-    if (!contents) return contents.error();
-    const auto format = reading.format ? reading.format : format_of(stated.name);
-    if (!format)
-        return Error{ErrorCode::unknown_format, "no format that can be read has this extension",
-                     stated.name};
-    auto surfaces = parse_surfaces(*contents, stated.name, *format, reading.options);
-    InputFile file = input_file(*contents, {});
-    if (!surfaces && file.sha256 == stated.sha256) return surfaces.error();
-    if (surfaces) file.surfaces = *std::move(surfaces);
-    return file;
-}
-
-Result<std::vector<InputFile>> read_inputs(const fs::path& folder,
-                                           const terrane_verify_options& options,
-                                           const Certificate& certificate) {
-    const auto& stated = certificate.inputs;
+std::vector<InputFile> read_inputs(const fs::path& folder, const terrane_verify_options& options,
+                                   const Certificate& certificate) {
     need_array(options.inputs, options.input_count, "options.inputs");
-    if (options.inputs && options.input_count != stated.size())
-        return Error{ErrorCode::bad_option,
-                     "the certificate is about " + std::to_string(stated.size()) + " files, not " +
-                         std::to_string(options.input_count),
-                     "options.inputs"};
+    std::vector<fs::path> paths;
+    if (options.inputs)
+        for (const char* path : std::span(options.inputs, options.input_count))
+            paths.emplace_back(needed_text(path, "options.inputs"));
+    else
+        for (const CertifiedInput& input : certificate.inputs) paths.push_back(folder / input.name);
     const auto reading = reading_of(&options.reading);
-    std::vector<std::optional<Format>> formats;
-    for (const CertifiedInput& input : stated)
-        formats.push_back(reading.format ? reading.format : format_of(input.name));
-    if (const auto sound = check_reading(formats, reading.options,
-                                         {"options.reading.depth", "options.reading.max_edge"});
-        !sound)
-        return sound.error();
-    std::vector<InputFile> files;
-    for (std::size_t i = 0; i < stated.size(); ++i) {
-        const auto path = options.inputs
-                              ? fs::path(needed_text(options.inputs[i], "options.inputs"))
-                              : folder / stated[i].name;
-        auto file = read_input(path, stated[i], reading);
-        if (!file) return file.error();
-        files.push_back(*std::move(file));
-    }
-    return files;
+    return must(read_certified(certificate, paths,
+                               {reading.format,
+                                reading.options,
+                                "options.inputs",
+                                {"options.reading.depth", "options.reading.max_edge"}}));
 }
 
 /// Judges the output files that a certificate names; one that can't be judged is a violation, too.
@@ -121,19 +77,16 @@ void judge_outputs(const fs::path& folder, const Certificate& certificate,
     }
 }
 
-MadeVerdict judge(const char* path, const terrane_verify_options* given) {
+std::unique_ptr<terrane_verdict> judge(const char* path, const terrane_verify_options* given) {
     const fs::path file = needed_file(path);
     const auto options = options_of(given, default_verifying());
-    const auto text = read_file(file);
-    if (!text) return text.error();
-    const auto certificate = parse_certificate(*text, file.string());
-    if (!certificate) return certificate.error();
-    const auto inputs = read_inputs(file.parent_path(), options, *certificate);
-    if (!inputs) return inputs.error();
+    const auto text = must(read_file(file));
+    const auto certificate = must(parse_certificate(text, file.string()));
+    const auto inputs = read_inputs(file.parent_path(), options, certificate);
     const VerifyOptions limits{number_or_default(options.max_deviation, "options.max_deviation"),
                                number_or_default(options.max_change, "options.max_change")};
-    auto verdict = verdict_of(verify_certificate(*inputs, *certificate, limits).violations);
-    if (verdict->items.empty()) judge_outputs(file.parent_path(), *certificate, *verdict);
+    auto verdict = verdict_of(verify_certificate(inputs, certificate, limits).violations);
+    if (verdict->items.empty()) judge_outputs(file.parent_path(), certificate, *verdict);
     return verdict;
 }
 
@@ -155,7 +108,7 @@ terrane_code terrane_verify_options_init(terrane_verify_options* options, size_t
 terrane_code terrane_verify_arrangement(const terrane_surfaces* surfaces,
                                         const terrane_arrangement* arrangement,
                                         terrane_verdict** out, terrane_error** error) {
-    return produce(out, error, [&]() -> MadeVerdict {
+    return produce(out, error, [&] {
         const auto& list = needed(surfaces, "surfaces").list;
         return verdict_of(
             terrane::verify_arrangement(list, claim_of(*needed(arrangement, "arrangement").exact)));
@@ -164,7 +117,7 @@ terrane_code terrane_verify_arrangement(const terrane_surfaces* surfaces,
 
 terrane_code terrane_verify_mesh(const terrane_mesh* mesh, terrane_verdict** out,
                                  terrane_error** error) {
-    return produce(out, error, [&]() -> MadeVerdict {
+    return produce(out, error, [&] {
         const terrane::Mesh& judged = needed(mesh, "mesh").mesh;
         return verdict_of(terrane::verify_conforming(judged.vertices, judged.triangles));
     });
@@ -200,5 +153,5 @@ const char* terrane_verdict_sentence(const terrane_verdict* verdict, size_t viol
 const uint32_t* terrane_verdict_elements(const terrane_verdict* verdict, size_t violation,
                                          size_t* count) {
     const auto* item = item_at(verdict, violation);
-    return item ? array_of<uint32_t>(item->elements, count) : no_array<uint32_t>(count);
+    return array_of<uint32_t>(item ? &item->elements : nullptr, count);
 }

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <system_error>
 
+#include <terrane/algorithms/core/must.hpp>
 #include <terrane/algorithms/core/process_memory.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/commands/file_options.hpp>
@@ -41,23 +42,20 @@ constexpr auto licence =
 
 /// Runs a command. Its files and folders appear together at the end, unless it failed.
 ExitStatus run_and_publish(const Command& command) {
-    if (const auto sound = check_values(*command.options); !sound) return fail(sound.error());
-    if (const auto sound = check_file_options(*command.options); !sound) return fail(sound.error());
+    check_values(*command.options);
+    check_file_options(*command.options);
     FileSet files;
     for (const auto& path : files_to_keep(*command.options)) files.keep(path);
     const ExitStatus status = command.run();
     if (status != ExitStatus::done && status != ExitStatus::negative) return status;
-    if (const auto published = files.publish(); !published) return fail(published.error());
+    must(files.publish());
     return status;
 }
 
-/// Adds --quiet and --color to a command that does something: to "bench paper", not to "bench".
-/// The output of completion and manual is for programs.
+/// Adds --quiet and --color to a command, unless its output is for programs.
 void offer_output_options(CLI::App& command) {
-    const auto inner = command.get_subcommands([](const CLI::App*) { return true; });
-    for (CLI::App* app : inner) add_output_options(*app);
-    const bool for_programs = command.get_name() == "completion" || command.get_name() == "manual";
-    if (inner.empty() && !for_programs) add_output_options(command);
+    if (command.get_name() != "completion" && command.get_name() != "manual")
+        add_output_options(command);
 }
 
 /// Prints what was asked for, --help or --version, or what is wrong with the command line.
@@ -76,12 +74,11 @@ ExitStatus run(int argc, char** argv) {
     program.footer(main_footer);
     const std::array commands{
         // as --help lists them: what people use most comes first
-        arrange_command(program), volume_command(program), tetrahedralize_command(program),
-        improve_command(program), build_command(program),  ensemble_command(program),
-        check_command(program),   fill_command(program),   layer_command(program),
-        report_command(program),  view_command(program),   convert_command(program),
-        verify_command(program),  bench_command(program),  completion_command(program),
-        manual_command(program)};
+        arrange_command(program), volume_command(program),     tetrahedralize_command(program),
+        improve_command(program), build_command(program),      ensemble_command(program),
+        check_command(program),   fill_command(program),       layer_command(program),
+        report_command(program),  view_command(program),       convert_command(program),
+        verify_command(program),  completion_command(program), manual_command(program)};
     for (const Command& command : commands) {
         round_numbers_once(*command.options);
         offer_output_options(*command.options);
@@ -110,6 +107,8 @@ ExitStatus fail_without_memory() {
 ExitStatus run_guarded(int argc, char** argv) {
     try {
         return finish(run(argc, argv));
+    } catch (const Failure& failure) {
+        return finish(fail(failure.error));
     } catch (const std::bad_alloc&) {
         return fail_without_memory();
     } catch (const std::length_error&) { // an array beyond the largest possible length

@@ -6,13 +6,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
-#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/must.hpp>
 #include <terrane/capi/base.h>
 #include <terrane/kernel/point.hpp>
 
@@ -29,14 +30,18 @@ struct BadArgument {
 terrane_code report(const Error& failure, terrane_error** error) noexcept;
 terrane_code report(const BadArgument& bad, terrane_error** error) noexcept;
 
-/// Runs the work of a function, which returns a Status, and returns the code of its outcome.
+/// Runs the work of a function, which may throw errors, and returns the code of its outcome.
 template <class Work>
 terrane_code call(terrane_error** error, const Work& work) noexcept {
     if (error) *error = nullptr;
     try {
-        const Status done =
-            guarded("for this call", "C interface", [&]() -> Status { return work(); });
+        const Status done = guarded("for this call", "C interface", [&]() -> Status {
+            work();
+            return Done{};
+        });
         return done ? TERRANE_OK : report(done.error(), error);
+    } catch (const Failure& failure) {
+        return report(failure.error, error);
     } catch (const BadArgument& bad) {
         return report(bad, error);
     } catch (...) {
@@ -44,17 +49,15 @@ terrane_code call(terrane_error** error, const Work& work) noexcept {
     }
 }
 
-/// Runs work that makes a handle or throws, or returns an error, and hands the handle out.
+/// Runs work that makes a handle or throws an error, and hands the handle out.
 template <class Handle, class Work>
 terrane_code produce(Handle** out, terrane_error** error, const Work& work) noexcept {
     if (out) *out = nullptr;
-    return call(error, [&]() -> Status {
+    return call(error, [&] {
         if (!out) throw BadArgument{"out", "is null"};
-        auto made = work();
-        if (!made) return made.error();
-        (*made)->is_whole = true;
-        *out = made->release();
-        return Done{};
+        std::unique_ptr<Handle> made = work();
+        made->is_whole = true;
+        *out = made.release();
     });
 }
 
@@ -116,19 +119,12 @@ inline std::optional<double> number_or_default(double given, const char* argumen
 /// Gives a C array of triples as points; the array need not be aligned.
 std::vector<Point3> points_of(const double* numbers, std::size_t count);
 
-/// Returns a read-only array, for getters.
+/// Returns a read-only array, for getters; none if `values` is null.
 template <class T, class V>
-const T* array_of(const std::vector<V>& values, std::size_t* count) noexcept {
+const T* array_of(const std::vector<V>* values, std::size_t* count) noexcept {
     static_assert(sizeof(V) % sizeof(T) == 0);
-    if (count) *count = values.size();
-    return reinterpret_cast<const T*>(values.data());
-}
-
-/// Returns what getters return of a null handle.
-template <class T>
-const T* no_array(std::size_t* count) noexcept {
-    if (count) *count = 0;
-    return nullptr;
+    if (count) *count = values ? values->size() : 0;
+    return values ? reinterpret_cast<const T*>(values->data()) : nullptr;
 }
 
 /// Writes lists to *lists; without any if `found` is null.

@@ -278,7 +278,7 @@ Run run_of(const terrane_run* run);
 std::vector<terrane_contact> contacts_of(const std::vector<ImproperContact>& contacts);
 
 /// Returns a mesh with its proof, which is found if there is none. Errors: improper_contact, ...
-Result<ConformingMesh> proven(const terrane_mesh& mesh, const Run& run);
+ConformingMesh proven(const terrane_mesh& mesh, const Run& run);
 
 /// Returns how files are read: the format, if one is named, and the rest.
 struct Reading {

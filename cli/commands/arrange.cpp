@@ -31,45 +31,37 @@ Examples:
   terrane arrange --format ts --output-format obj - -o - < in.ts > out.obj
   terrane arrange large.obj -o model.pvtp --memory 4GiB)";
 
-Result<ExitStatus> arrange_files(const ArrangeCommand& command, Session& session) {
+ExitStatus arrange_files(const ArrangeCommand& command, Session& session) {
     if (command.tilewise.digest)
-        return usage("it needs --memory; a certificate has the digest, too", "--digest");
+        refuse("it needs --memory; a certificate has the digest, too", "--digest");
     if (command.tilewise.volumes)
-        return usage("it needs --memory; terrane volume finds them without", "--volumes");
+        refuse("it needs --memory; terrane volume finds them without", "--volumes");
     const FileOptions& files = command.model.files;
     const ProofOptions& proof = command.model.proof;
     auto outputs = plan_outputs(files, OutputKind::surfaces);
-    if (!outputs) return outputs.error();
     auto run = ModelRun::begin(command.model, session);
-    if (!run) return run.error();
-    if (auto made = run->make(); !made) return made.error();
-    const RoundedMesh& rounded = run->built().arranged.rounded;
+    run.make();
+    const RoundedMesh& rounded = run.built().arranged.rounded;
     bool clean = rounded.report.clean;
-    if (!clean) print(stderr, offending_pairs(run->inputs(), run->built().arranged));
+    if (!clean) print(stderr, offending_pairs(run.inputs(), run.built().arranged));
     if (clean) {
-        const auto narrow = stl_is_conforming(rounded.mesh, files, *outputs, session);
-        if (!narrow) return narrow.error();
-        clean = *narrow;
-        if (!clean) run->page().set_verdict(not_conforming_in_stl, false);
+        clean = stl_is_conforming(rounded.mesh, files, outputs, session);
+        if (!clean) run.page().set_verdict(not_conforming_in_stl, false);
     }
-    if (session.stopped()) return Error{ErrorCode::interrupted, "", ""};
+    if (session.stopped()) refuse(ErrorCode::interrupted, "", "");
 
     if (clean || command.keep_unverified) {
-        if (auto done = write_outputs(rounded.mesh, clean, files, *outputs, session); !done)
-            return done.error();
+        write_outputs(rounded.mesh, clean, files, outputs, session);
     } else {
         const bool proves = !proof.certificate.empty() || !proof.exact.empty();
         print(stderr, complaint(std::string(proves ? "the mesh is not" : "nothing") +
                                 " written (see --keep-unverified)"));
-        outputs->clear();
+        outputs.clear();
     }
     // The certificate of the exact result holds whether or not the doubles are conforming.
-    auto written = certified_outputs(*outputs, rounded.mesh, files.ascii);
-    if (!written) return written.error();
-    if (auto done = run->certify(*std::move(written)); !done) return done.error();
-    if (auto done = write_exact(proof, run->built().arranged.exact, run->told(), session); !done)
-        return done.error();
-    return run->end(clean);
+    run.certify(certified_outputs(outputs, rounded.mesh, files.ascii));
+    write_exact(proof, run.built().arranged.exact, run.told(), session);
+    return run.end(clean);
 }
 
 } // namespace
@@ -95,11 +87,9 @@ Command arrange_command(CLI::App& program) {
     app->footer(arrange_footer);
     return {app, [options] {
                 Session session(options->model.files.threads);
-                const auto status =
-                    options->tilewise.wanted()
-                        ? arrange_tilewise(options->model.files, options->tilewise, session)
-                        : arrange_files(*options, session);
-                return status ? status.value() : fail(status.error());
+                return options->tilewise.wanted()
+                           ? arrange_tilewise(options->model.files, options->tilewise, session)
+                           : arrange_files(*options, session);
             }};
 }
 

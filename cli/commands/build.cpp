@@ -14,6 +14,7 @@
 #include <terrane/cli/commands/build_help.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/commands/file_options.hpp>
+#include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/reports/fill_map.hpp>
 #include <terrane/cli/reports/fill_report.hpp>
 #include <terrane/cli/reports/pair_report.hpp>
@@ -63,66 +64,68 @@ public:
         if (command.resume && !folder_.empty()) kept_ = KeptStages::beside(folder_);
     }
 
-    Result<ExitStatus> operator()() {
-        auto status = run();
-        if (!kept_) return status;
-        if (status && *status == ExitStatus::done)
-            when_written([kept = *kept_] { kept.remove(); });
-        else if (kept_->any())
-            print(stderr, complaint(fmt::format("finished stages are kept in {}; --resume goes on "
-                                                "from there",
-                                                kept_->folder().string())));
-        return status;
+    ExitStatus operator()() {
+        try {
+            const ExitStatus status = run();
+            if (status != ExitStatus::done)
+                tell_kept();
+            else if (kept_)
+                when_written([kept = *kept_] { kept.remove(); });
+            return status;
+        } catch (const Failure&) {
+            tell_kept();
+            throw;
+        }
     }
 
 private:
-    Result<ExitStatus> run() {
+    void tell_kept() const {
+        if (kept_ && kept_->any())
+            print(stderr, complaint(fmt::format("finished stages are kept in {}; --resume goes on "
+                                                "from there",
+                                                kept_->folder().string())));
+    }
+
+    ExitStatus run() {
         journal_.note(fmt::format("terrane {}, {}", TERRANE_VERSION, source_));
-        if (auto done = check(); !done) return done.error();
-        if (auto done = read(); !done) return done.error();
-        if (auto done = make(); !done) return done.error();
+        check();
+        read();
+        make();
         if (!run_.refused().empty()) return end(ExitStatus::negative);
-        if (auto done = write(); !done) return done.error();
+        write();
         for (const std::string& name : written_)
             if (name.starts_with("certificate")) run_.add_certificate((folder_ / name).string());
         return end(ExitStatus::done);
     }
 
-    Result<ExitStatus> end(ExitStatus status) {
-        if (auto done = run_.write_page(); !done) return done.error();
+    ExitStatus end(ExitStatus status) {
+        run_.write_page();
         return status;
     }
 
     /// Reports configuration errors before the work starts.
-    Status check() {
-        if (folder_.empty())
-            return Error{ErrorCode::bad_option, "the key folder is missing, and there is no -o",
-                         source_};
-        if (auto possible = check_certifiable(project_); !possible) return possible;
+    void check() {
+        if (folder_.empty()) refuse("the key folder is missing, and there is no -o", source_);
+        must(check_certifiable(project_));
         if (project_.outputs.certificate) {
             auto certified = surface_files(project_);
             if (const auto* within = std::get_if<ProjectWithin>(&project_.volume))
                 for (const fs::path& file : within->files) certified.push_back(file.string());
-            if (auto named =
-                    check_certified_names((folder_ / "certificate.json").string(), certified);
-                !named)
-                return named;
+            check_certified_names((folder_ / "certificate.json").string(), certified);
         }
         if (!project_.outputs.tetrahedra.empty())
             if (const auto helper = find_tetgen_helper(); !helper)
-                return Error{helper.error().code, helper.error().message(),
-                             source_ + ": outputs.tetrahedra"};
-        return check_new_folder(folder_);
+                refuse(helper.error().code, helper.error().message(),
+                       source_ + ": outputs.tetrahedra");
+        must(check_new_folder(folder_));
     }
 
-    Status read() {
+    void read() {
         StageTimer timer(session_.run(), "read");
         begin_stage("read", Phase::computing);
-        auto read = terrane::read_inputs(project_, session_.run());
+        read_ = must(terrane::read_inputs(project_, session_.run()));
         session_.end_stage();
-        if (!read) return read.error();
-        read_ = std::move(*read);
-        if (auto sound = check_read_names(); !sound) return sound;
+        check_read_names();
         Inputs inputs;
         inputs.surfaces_of_file = read_.surfaces_of_entry;
         describe(read_.build.surfaces, inputs);
@@ -136,21 +139,21 @@ private:
         const ProjectOutputs& outputs = project_.outputs;
         const bool needs_blocks =
             !outputs.blocks.empty() || !outputs.tetrahedra.empty() || outputs.gocad;
-        return run_.take(std::move(read_.build), std::move(inputs), needs_blocks);
+        run_.take(std::move(read_.build), std::move(inputs), needs_blocks);
     }
 
     /// Checks that a certificate can state the names of the surfaces, if one is wanted.
-    [[nodiscard]] Status check_read_names() const {
-        if (!project_.outputs.certificate) return Done{};
+    void check_read_names() const {
+        if (!project_.outputs.certificate) return;
         std::vector<std::string> names, paths;
         for (std::size_t entry = 0; entry < project_.surfaces.size(); ++entry)
             paths.insert(paths.end(), read_.surfaces_of_entry[entry],
                          project_.surfaces[entry].file.string());
         for (const SurfaceInfo& surface : read_.as_read) names.push_back(surface.name);
-        return check_certified_surfaces(names, paths);
+        check_certified_surfaces(names, paths);
     }
 
-    Status make() {
+    void make() {
         Json resumed = Json::array();
         const BuildObserver observer{
             .begins = [&](BuildStage stage) { begin_stage(name_of(stage), Phase::computing); },
@@ -159,9 +162,8 @@ private:
                     journal_.say(fmt::format("taken from {}\n", kept_->folder().string()));
                     resumed.push_back(name_of(stage));
                 }};
-        auto made = run_.make(observer, kept_ ? kept_->store() : StageStore{});
+        run_.make(observer, kept_ ? kept_->store() : StageStore{});
         run_.statistics()["resumed"] = std::move(resumed);
-        return made;
     }
 
     /// Counts the stages of the project: reading, those that are wanted, and writing.
@@ -181,32 +183,27 @@ private:
         session_.begin(name, phase);
     }
 
-    Status write() {
+    void write() {
         Stopwatch watch;
         begin_stage("write", Phase::folder);
-        auto folder = NewFolder::create(folder_);
-        if (!folder) return folder.error();
-        const fs::path& to = folder.value().temporary();
+        auto folder = must(NewFolder::create(folder_));
+        const fs::path& to = folder.temporary();
         for (const auto step :
              {&Build::write_outputs, &Build::write_interpolated, &Build::write_certificates}) {
-            if (auto done = (this->*step)(to); !done) return done;
-            if (session_.stopped()) return Error{ErrorCode::interrupted, "", ""};
+            (this->*step)(to);
+            if (session_.stopped()) refuse(ErrorCode::interrupted, "", "");
         }
         written_.insert(written_.end(), {"statistics.json", "log.txt"});
         std::string list;
         for (const std::string& name : written_) list += "  " + name + "\n";
         const auto said = "wrote " + folder_.string() + ":\n" + list;
         session_.begin("write", Phase::folder); // so that the time up to here is known
-        if (auto done =
-                write_statistics(run_.statistics(), (to / "statistics.json").string(), session_);
-            !done)
-            return done;
+        write_statistics(run_.statistics(), (to / "statistics.json").string(), session_);
         journal_.note("done");
-        if (auto done = write_file(to / "log.txt", journal_.log() + said); !done) return done;
-        auto published = folder.value().publish();
+        must(write_file(to / "log.txt", journal_.log() + said));
+        must(folder.publish());
         session_.end_stage();
-        if (published) tell_when_written(stdout, said);
-        return published;
+        tell_when_written(stdout, said);
     }
 
     [[nodiscard]] const Built& built() const { return run_.built(); }
@@ -220,31 +217,25 @@ private:
                 run_.inputs().unit};
     }
 
-    Status write_outputs(const fs::path& to) {
-        const auto written = write_results(results(), to, session_.run());
-        if (!written) return written.error();
-        written_.insert(written_.end(), written->begin(), written->end());
-        return Done{};
+    void write_outputs(const fs::path& to) {
+        const auto written = must(write_results(results(), to, session_.run()));
+        written_.insert(written_.end(), written.begin(), written.end());
     }
 
-    Status write_interpolated(const fs::path& to) {
-        if (!built().preprocessed.filled) return Done{};
+    void write_interpolated(const fs::path& to) {
+        if (!built().preprocessed.filled) return;
         written_.insert(written_.end(), {"interpolated.csv", "filled.svg"});
-        if (auto done = write_file(to / "interpolated.csv", csv_of(*built().preprocessed.filled));
-            !done)
-            return done;
-        return write_file(to / "filled.svg", map_of(*built().preprocessed.filled));
+        must(write_file(to / "interpolated.csv", csv_of(*built().preprocessed.filled)));
+        must(write_file(to / "filled.svg", map_of(*built().preprocessed.filled)));
     }
 
-    Status write_certificates(const fs::path& to) {
-        const auto written =
-            terrane::write_certificates(results(), read_, built().arranged, to, session_.run());
-        if (!written) return written.error();
-        for (const WrittenCertificate& c : *written) {
+    void write_certificates(const fs::path& to) {
+        const auto written = must(
+            terrane::write_certificates(results(), read_, built().arranged, to, session_.run()));
+        for (const WrittenCertificate& c : written) {
             warn_of_deviation(c.name, c.deviation, built().arranged.surfaces);
             written_.push_back(c.name);
         }
-        return Done{};
     }
 
     const Project& project_;
@@ -260,19 +251,17 @@ private:
     std::vector<std::string> written_; ///< names in the folder
 };
 
-Result<ExitStatus> build(const BuildCommand& command) {
+ExitStatus build(const BuildCommand& command) {
     Session session(command.threads.value_or(0));
-    auto project = read_project(command.project);
-    if (!project) return project.error();
-    if (!command.folder.empty()) project->folder = command.folder;
-    if (auto sound = check_project_files(*command.page.app, *project); !sound) return sound.error();
-    project->check = command.check;
-    session.use_threads(command.threads.value_or(project->threads));
+    auto project = must(read_project(command.project));
+    if (!command.folder.empty()) project.folder = command.folder;
+    check_project_files(*command.page.app, project);
+    project.check = command.check;
+    session.use_threads(command.threads.value_or(project.threads));
     FileOptions page_files = command.page;
-    page_files.inputs = surface_files(*project);
+    page_files.inputs = surface_files(project);
     auto page = plan_page(page_files, session);
-    if (!page) return page.error();
-    return Build(project.value(), command, std::move(*page), std::move(page_files), session)();
+    return Build(project, command, std::move(page), std::move(page_files), session)();
 }
 
 } // namespace
@@ -281,17 +270,15 @@ Command build_command(CLI::App& program) {
     constexpr unsigned most_threads = 1024;
     auto command = std::make_shared<BuildCommand>();
     auto* app = program.add_subcommand("build", "The whole chain from one project file");
-    app->add_option("PROJECT", command->project, "What to read, to make and to write, as JSON")
-        ->required()
-        ->type_name("FILE.json");
-    app->add_option("-o,--output", command->folder,
-                    "Folder for the results, made by the program (default: as the project says)")
-        ->type_name("DIR");
-    app->add_option("--threads", command->threads,
-                    "How many threads to use; the result is the same (default: as the project "
-                    "says)")
-        ->check(CLI::Range(0U, most_threads).description(""))
-        ->type_name("N");
+    add_value(*app, "PROJECT", command->project, "FILE.json",
+              "What to read, to make and to write, as JSON")
+        ->required();
+    add_value(*app, "-o,--output", command->folder, "DIR",
+              "Folder for the results, made by the program (default: as the project says)");
+    add_value(*app, "--threads", command->threads, "N",
+              "How many threads to use; the result is the same (default: as the project "
+              "says)")
+        ->check(CLI::Range(0U, most_threads).description(""));
     add_check(*app, command->check);
     add_report(*app, command->page);
     app->add_flag("--strict", command->strict, "Stop with status 2 at warnings about the inputs");
@@ -299,10 +286,7 @@ Command build_command(CLI::App& program) {
                   "Keep finished stages in DIR.stages until the run ends well, and take those that "
                   "are there");
     app->footer(build_footer);
-    return {app, [command] {
-                const auto status = build(*command);
-                return status ? status.value() : fail(status.error());
-            }};
+    return {app, [command] { return build(*command); }};
 }
 
 } // namespace terrane::cli

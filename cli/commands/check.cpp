@@ -30,30 +30,22 @@ Examples:
   terrane check model.obj
   terrane check horizons.ts faults.ts --json > findings.json)";
 
-Result<ExitStatus> check_files(const CheckCommand& command, Session& session) {
-    const auto nothing = plan_outputs(command.files, OutputKind::surfaces);
-    if (!nothing) return nothing.error();
+ExitStatus check_files(const CheckCommand& command, Session& session) {
+    plan_outputs(command.files, OutputKind::surfaces);
     auto page = plan_page(command.files, session);
-    if (!page) return page.error();
     const auto inputs = read_inputs(command.files, session);
-    if (!inputs) return inputs.error();
-    if (const auto added = add_page_inputs(*page, command.files, *inputs); !added)
-        return added.error();
+    add_page_inputs(page, command.files, inputs);
     Json warnings;
-    if (const auto sound = examine(inputs->surfaces, {}, *inputs, session, warnings); !sound)
-        return sound.error();
+    examine(inputs.surfaces, {}, inputs, session, warnings);
     session.begin("check", Phase::computing);
-    const auto report = check(inputs.value().surfaces, session.run());
+    const CheckReport r = must(check(inputs.surfaces, session.run()));
     session.end_stage();
-    if (!report) return report.error();
-    const CheckReport& r = report.value();
     if (command.json)
-        print(stdout, text_of(json_of(r, inputs.value())));
+        print(stdout, text_of(json_of(r, inputs)));
     else
-        say(stdout, report_text(r, inputs.value(), name_of_inputs(command.files), command.all));
-    if (const auto drawn = page->add_check(inputs->surfaces, r, session.run()); !drawn)
-        return drawn.error();
-    return write_run(*page, json_of(r, *inputs), command.files, session, r.clean());
+        say(stdout, report_text(r, inputs, name_of_inputs(command.files), command.all));
+    must(page.add_check(inputs.surfaces, r, session.run()));
+    return write_run(page, json_of(r, inputs), command.files, session, r.clean());
 }
 
 } // namespace
@@ -69,8 +61,7 @@ Command check_command(CLI::App& program) {
     app->footer(check_footer);
     return {app, [options] {
                 Session session(options->files.threads);
-                const auto status = check_files(*options, session);
-                return status ? status.value() : fail(status.error());
+                return check_files(*options, session);
             }};
 }
 

@@ -17,7 +17,6 @@ struct Command {
 };
 
 Command arrange_command(CLI::App& program);
-Command bench_command(CLI::App& program);
 Command build_command(CLI::App& program);
 Command check_command(CLI::App& program);
 Command completion_command(CLI::App& program);

@@ -38,10 +38,9 @@ Examples:
 Command completion_command(CLI::App& program) {
     auto shell = std::make_shared<std::string>();
     auto* app = program.add_subcommand("completion", "Print a script that completes for a shell");
-    app->add_option("SHELL", *shell, "The shell: bash, zsh, fish")
+    add_value(*app, "SHELL", *shell, "SHELL", "The shell: bash, zsh, fish")
         ->required()
-        ->check(one_of({"bash", "zsh", "fish"}))
-        ->type_name("SHELL");
+        ->check(one_of({"bash", "zsh", "fish"}));
     app->footer(completion_footer);
     return {app, [&program, shell] {
                 const auto table = command_table(program);
@@ -55,8 +54,8 @@ Command completion_command(CLI::App& program) {
 Command manual_command(CLI::App& program) {
     auto name = std::make_shared<std::string>();
     auto* app = program.add_subcommand("manual", "Print a manual page");
-    app->add_option("COMMAND", *name, "The command; without it the page of the whole program")
-        ->type_name("COMMAND");
+    add_value(*app, "COMMAND", *name, "COMMAND",
+              "The command; without it the page of the whole program");
     app->footer(manual_footer);
     std::vector<std::string> names; // of all commands, of which this one is the last
     for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))

@@ -5,6 +5,7 @@
 
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/stages/page_output.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
@@ -40,46 +41,39 @@ bool loses_digits(const Mesh& mesh) {
 }
 
 /// Joins the pieces of a .pvtp file to the mesh that they were made of.
-Result<ExitStatus> join_pieces(const FileOptions& files, const std::vector<Output>& outputs,
-                               Session& session) {
+ExitStatus join_pieces(const FileOptions& files, const std::vector<Output>& outputs,
+                       Session& session) {
     if (!files.report.empty())
-        return usage("there is no page of a model in pieces; convert it first", "--report");
+        refuse("there is no page of a model in pieces; convert it first", "--report");
     session.begin("read", Phase::idle);
-    const auto mesh = read_pvtp(files.inputs.front());
+    const auto mesh = must(read_pvtp(files.inputs.front()));
     session.end_stage();
-    if (!mesh) return mesh.error();
-    const auto written = write_output(*mesh, outputs.front(), {.ascii = files.ascii}, session);
-    if (!written) return written.error();
+    write_output(mesh, outputs.front(), {.ascii = files.ascii}, session);
     return ExitStatus::done;
 }
 
-Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session) {
+ExitStatus convert_file(const ConvertCommand& command, Session& session) {
     FileOptions files = command.files;
     files.inputs = {command.input};
     files.outputs = {command.output};
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
-    if (!outputs) return outputs.error();
     if (std::filesystem::path(command.input).extension() == ".pvtp")
-        return join_pieces(files, *outputs, session);
+        return join_pieces(files, outputs, session);
     auto page = plan_page(files, session);
-    if (!page) return page.error();
     const auto inputs = read_inputs(files, session);
-    if (!inputs) return inputs.error();
-    if (const auto added = add_page_inputs(*page, files, *inputs); !added) return added.error();
-    Json statistics = statistics_of(*inputs); // for the page alone
-    if (const auto sound = examine(inputs->surfaces, {}, *inputs, session, statistics); !sound)
-        return sound.error();
-    const Mesh mesh = concatenate(inputs.value().surfaces);
-    const Output& output = outputs.value().front();
-    const auto written = write_output(mesh, output, {.ascii = files.ascii}, session);
-    if (!written) return written.error();
+    add_page_inputs(page, files, inputs);
+    Json statistics = statistics_of(inputs); // for the page alone
+    examine(inputs.surfaces, {}, inputs, session, statistics);
+    const Mesh mesh = concatenate(inputs.surfaces);
+    const Output& output = outputs.front();
+    write_output(mesh, output, {.ascii = files.ascii}, session);
     if (!left_out_of(output).empty())
         tell_when_written(stdout, wrote(output)); // else it says nothing
     if (output.format == Format::stl && !files.ascii && loses_digits(mesh))
         warn(output.path + ": coordinates were rounded to float32, all that binary STL holds; "
                            "--ascii or another format keeps them");
-    page->add_mesh(mesh);
-    return write_run(*page, statistics, files, session, true);
+    page.add_mesh(mesh);
+    return write_run(page, statistics, files, session, true);
 }
 
 } // namespace
@@ -87,19 +81,15 @@ Result<ExitStatus> convert_file(const ConvertCommand& command, Session& session)
 Command convert_command(CLI::App& program) {
     auto options = std::make_shared<ConvertCommand>();
     auto* app = program.add_subcommand("convert", "Write surfaces in another format, unchanged");
-    app->add_option("IN", options->input, "File with surfaces; - is standard input")
-        ->required()
-        ->type_name("FILE");
-    app->add_option("OUT", options->output, "File to write; - is standard output")
-        ->required()
-        ->type_name("FILE");
-    app->add_option("--format", options->files.format,
-                    "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, vtu, vtk, msh, inp, "
-                    "mesh, poly, smesh")
-        ->type_name("FORMAT");
-    app->add_option("--output-format", options->files.output_format,
-                    "Format of OUT, where its extension does not tell")
-        ->type_name("FORMAT");
+    add_value(*app, "IN", options->input, "FILE", "File with surfaces; - is standard input")
+        ->required();
+    add_value(*app, "OUT", options->output, "FILE", "File to write; - is standard output")
+        ->required();
+    add_value(*app, "--format", options->files.format, "FORMAT",
+              "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, vtu, vtk, msh, inp, "
+              "mesh, poly, smesh");
+    add_value(*app, "--output-format", options->files.output_format, "FORMAT",
+              "Format of OUT, where its extension does not tell");
     add_reading(*app, options->files);
     add_strict(*app, options->files);
     add_msh(*app, options->files);
@@ -108,8 +98,7 @@ Command convert_command(CLI::App& program) {
     app->footer(convert_footer);
     return {app, [options] {
                 Session session(1);
-                const auto status = convert_file(*options, session);
-                return status ? status.value() : fail(status.error());
+                return convert_file(*options, session);
             }};
 }
 

@@ -105,14 +105,13 @@ std::vector<fs::path> package_places() {
 }
 
 /// Puts these folders first where Python looks for packages.
-Status set_python_path() {
+void set_python_path() {
     std::string path;
     for (const fs::path& folder : package_places()) path += folder.string() + ":";
     if (const char* const old = std::getenv("PYTHONPATH")) path += old;
     while (path.ends_with(':')) path.pop_back();
     if (!path.empty() && setenv("PYTHONPATH", path.c_str(), 1) != 0)
-        return Error{ErrorCode::out_of_memory, "there is not enough memory", ""};
-    return Done{};
+        refuse(ErrorCode::out_of_memory, "there is not enough memory", "");
 }
 
 std::vector<std::string> arguments_of(const EnsembleCommand& c, const std::string& python) {
@@ -140,20 +139,16 @@ std::vector<std::string> arguments_of(const EnsembleCommand& c, const std::strin
 }
 
 /// Checks before the interpreter starts what needs none.
-Status check_ensemble(const EnsembleCommand& command) {
-    const auto project = read_project(command.project);
-    if (!project) return project.error();
-    if (project->uncertainty.empty())
-        return Error{ErrorCode::bad_option, "is missing: it says how the surfaces move",
-                     command.project + ": uncertainty"};
-    if (command.folder.empty() && project->folder.empty())
-        return Error{ErrorCode::bad_option, "the key folder is missing, and there is no -o",
-                     command.project};
+void check_ensemble(const EnsembleCommand& command) {
+    const auto project = must(read_project(command.project));
+    if (project.uncertainty.empty())
+        refuse("is missing: it says how the surfaces move", command.project + ": uncertainty");
+    if (command.folder.empty() && project.folder.empty())
+        refuse("the key folder is missing, and there is no -o", command.project);
     for (const char* const other : {"--realisations", "--contact", "--grid", "--engine",
                                     "--workers", "--scheduler", "--retries"})
         if (command.only && command.app->count(other) > 0)
-            return Error{ErrorCode::bad_option, "is for all versions, not for --only", other};
-    return Done{};
+            refuse("is for all versions, not for --only", other);
 }
 
 /// Becomes the interpreter; returns only if there is none. The session blocks interrupts in this thread, so that they
@@ -161,9 +156,9 @@ Status check_ensemble(const EnsembleCommand& command) {
 ExitStatus run_ensemble(const EnsembleCommand& command) {
     {
         Session session(1);
-        if (const auto sound = check_ensemble(command); !sound) return fail(sound.error());
+        check_ensemble(command);
     }
-    if (const auto set = set_python_path(); !set) return fail(set.error());
+    set_python_path();
     const char* const named = std::getenv("TERRANE_PYTHON");
     std::string python = named != nullptr && *named != '\0' ? named : TERRANE_PYTHON_PROGRAM;
     if (named == nullptr && access(python.c_str(), X_OK) != 0) python = "python3";
@@ -190,40 +185,33 @@ Command ensemble_command(CLI::App& program) {
         program.add_subcommand("ensemble", "Many versions of a model whose surfaces are uncertain");
     const auto number = [&](const char* name, auto& value, const char* help, std::uint64_t least,
                             std::uint64_t largest) {
-        app->add_option(name, value, help)
-            ->check(CLI::Range(least, largest).description(""))
-            ->type_name("N");
+        add_value(*app, name, value, "N", help)->check(CLI::Range(least, largest).description(""));
     };
-    app->add_option("PROJECT", command->project, "What to read and to build, and what is uncertain")
-        ->required()
-        ->type_name("FILE.json");
-    app->add_option("-o,--output", command->folder,
-                    "Folder for the results, made by the program (default: as the project says)")
-        ->type_name("DIR");
+    add_value(*app, "PROJECT", command->project, "FILE.json",
+              "What to read and to build, and what is uncertain")
+        ->required();
+    add_value(*app, "-o,--output", command->folder, "DIR",
+              "Folder for the results, made by the program (default: as the project says)");
     number("--realisations", command->realisations, "How many versions (default: 500)", 1, most);
     number("--seed", command->seed, "Other seeds give other versions (default: 1)", 0, INT64_MAX);
-    app->add_option("--contact", command->contacts,
-                    "z of a contact, above which volumes and columns are measured; repeated")
-        ->allow_extra_args(false)
-        ->type_name("Z");
+    add_value(*app, "--contact", command->contacts, "Z",
+              "z of a contact, above which volumes and columns are measured; repeated")
+        ->allow_extra_args(false);
     number("--grid", command->grid, "Cells of maps along the longer side (default: 50)", 1,
            most_cells);
     number("--only", command->only,
            "Make this version alone: its surfaces, and a project that builds them", 0, most);
-    app->add_option("--engine", command->engine,
-                    "What computes: processes, mpi, serial (default: processes)")
-        ->check(one_of({"processes", "mpi", "serial"}))
-        ->type_name("NAME");
+    add_value(*app, "--engine", command->engine, "NAME",
+              "What computes: processes, mpi, serial (default: processes)")
+        ->check(one_of({"processes", "mpi", "serial"}));
     number("--workers", command->workers, "How many processes (default: as many as cores)", 1,
            most_workers);
-    app->add_option("--scheduler", command->scheduler,
-                    "Address of a Dask scheduler whose workers compute instead")
-        ->type_name("ADDRESS");
+    add_value(*app, "--scheduler", command->scheduler, "ADDRESS",
+              "Address of a Dask scheduler whose workers compute instead");
     number("--retries", command->retries,
            "How often a version is tried again after its worker was lost (default: 2)", 0, 1000);
-    app->add_option("--threads", command->threads, "Threads of each worker (default: 1)")
-        ->check(CLI::Range(1U, most_threads).description(""))
-        ->type_name("N");
+    add_value(*app, "--threads", command->threads, "N", "Threads of each worker (default: 1)")
+        ->check(CLI::Range(1U, most_threads).description(""));
     command->app = app;
     app->footer(ensemble_footer);
     return {app, [command] { return run_ensemble(*command); }};

@@ -117,41 +117,35 @@ bool may_replace(const NamedFile& out, const NamedFile& in) {
     return out.replaces && is_among(replaced_options, in.option);
 }
 
-Status check_outputs(const std::vector<NamedFile>& outputs) {
+void check_outputs(const std::vector<NamedFile>& outputs) {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const NamedFile& out = outputs[i];
         const bool is_standard = is_standard_output(out.path);
         if (is_standard && !has_standard_output())
-            return Error{ErrorCode::cannot_open, "cannot be written: it is closed",
-                         "standard output"};
+            refuse(ErrorCode::cannot_open, "cannot be written: it is closed", "standard output");
         for (std::size_t j = 0; j < i; ++j) {
             if (is_standard && is_standard_output(outputs[j].path))
-                return Error{ErrorCode::bad_option,
-                             "standard output can take only one file, and " + outputs[j].option +
-                                 " names it, too",
-                             out.option};
+                refuse("standard output can take only one file, and " + outputs[j].option +
+                           " names it, too",
+                       out.option);
             if (!is_standard && overlap(out.path, outputs[j].path))
-                return Error{ErrorCode::bad_option,
-                             (are_same(out.path, outputs[j].path)
-                                  ? "names the same file as "
-                                  : "names a file in another one, or the folder of it: see ") +
-                                 outputs[j].option + ": " + out.path.string(),
-                             out.option};
+                refuse((are_same(out.path, outputs[j].path)
+                            ? "names the same file as "
+                            : "names a file in another one, or the folder of it: see ") +
+                           outputs[j].option + ": " + out.path.string(),
+                       out.option);
         }
     }
-    return Done{};
 }
 
-Status check_inputs_stay(const std::vector<NamedFile>& outputs,
-                         const std::vector<NamedFile>& inputs) {
+void check_inputs_stay(const std::vector<NamedFile>& outputs,
+                       const std::vector<NamedFile>& inputs) {
     std::error_code failed;
     for (const NamedFile& out : outputs)
         for (const NamedFile& in : inputs)
             if (out.path != "-" && !out.is_folder && !may_replace(out, in) &&
                 !fs::is_directory(in.path, failed) && overlap(out.path, in.path))
-                return Error{ErrorCode::bad_option,
-                             "would replace a file that is read: " + out.path.string(), out.option};
-    return Done{};
+                refuse("would replace a file that is read: " + out.path.string(), out.option);
 }
 
 /// Says what is wrong with a word that could be a number; empty: nothing. Infinity is also what no
@@ -176,17 +170,16 @@ bool is_text(const CLI::Option& option, const std::string& value) {
 }
 
 /// Checks the numbers in a value: all of it, or what is behind the name in NAME=L.
-Status check_number_words(const CLI::Option& option, const std::string& value) {
+void check_number_words(const CLI::Option& option, const std::string& value) {
     const std::string type = option.get_type_name();
     const bool is_named = type.find('=') != std::string::npos;
     const bool is_whole = type == "N" || type == "LIST";
     for (std::size_t at = is_named ? value.rfind('=') + 1 : 0; at < value.size();) {
         const std::size_t end = std::min(value.find_first_of(",; \t", at), value.size());
         if (const auto flaw = flaw_of_number(value.substr(at, end - at), is_whole); !flaw.empty())
-            return Error{ErrorCode::bad_option, flaw + value, name_of(option)};
+            refuse(flaw + value, name_of(option));
         at = end + 1;
     }
-    return Done{};
 }
 
 /// Returns the text of a number with the digits of its nearest double, where CLI11, which rounds to a long
@@ -204,55 +197,49 @@ void round_numbers_once(CLI::App& command) {
         if (!is_text(*option, "")) option->transform(rounded_once);
 }
 
-Status check_values(const CLI::App& command) {
+void check_values(const CLI::App& command) {
     for (const CLI::Option* option : command.get_options()) {
         for (const std::string& value : option->results()) {
-            if (value.empty())
-                return Error{ErrorCode::bad_option, "the value is empty", name_of(*option)};
+            if (value.empty()) refuse("the value is empty", name_of(*option));
             if (is_text(*option, value)) continue;
-            if (auto sound = check_number_words(*option, value); !sound) return sound;
+            check_number_words(*option, value);
         }
     }
-    return Done{};
 }
 
-Status check_file_options(const CLI::App& command) {
+void check_file_options(const CLI::App& command) {
     const FilesOfCommand files = files_of(command);
-    if (auto sound = check_outputs(files.outputs); !sound) return sound;
-    if (auto sound = check_inputs_stay(files.outputs, files.inputs); !sound) return sound;
+    check_outputs(files.outputs);
+    check_inputs_stay(files.outputs, files.inputs);
     for (const NamedFile& out : files.outputs)
         if (!out.is_folder && out.option != "--output") // whose format is checked first
-            if (auto sound = check_folder(out.path.string()); !sound) return sound;
-    return Done{};
+            check_folder(out.path.string());
 }
 
-Status check_project_files(const CLI::App& command, const Project& project) {
+void check_project_files(const CLI::App& command, const Project& project) {
     std::vector<NamedFile> inputs{{"PROJECT", project.source}};
     for (const fs::path& file : named_files(project)) inputs.push_back({"PROJECT", file});
     std::vector<NamedFile> outputs = files_of(command).outputs;
     if (!project.folder.empty() && command.get_option("--output")->empty())
         outputs.push_back({"key folder", project.folder, false, true});
-    if (auto sound = check_outputs(outputs); !sound) return sound;
+    check_outputs(outputs);
     if (!project.folder.empty() && command.get_option("--resume")->count() > 0)
         outputs.push_back({"--resume", stages_folder(project.folder)});
-    if (auto sound = check_inputs_stay(outputs, inputs); !sound) return sound;
+    check_inputs_stay(outputs, inputs);
     if (FileSet::current() != nullptr)
         for (const NamedFile& in : inputs) FileSet::current()->keep(in.path);
-    return Done{};
 }
 
-Status check_files_beside(const CLI::App& command, const std::vector<Output>& outputs) {
+void check_files_beside(const CLI::App& command, const std::vector<Output>& outputs) {
     const FilesOfCommand files = files_of(command);
     std::vector<NamedFile> named = files.inputs;
     for (const NamedFile& file : files.outputs) named.push_back(file);
     for (const Output& output : outputs) {
         const auto refused = [&](const fs::path& file, const std::string& option) {
-            return Error{
-                ErrorCode::bad_option,
-                fmt::format("{} may be one of the files next to {}, whose names begin with "
-                            "{}_",
-                            file.string(), output.path, fs::path(output.path).stem().string()),
-                option};
+            refuse(fmt::format("{} may be one of the files next to {}, whose names begin with "
+                               "{}_",
+                               file.string(), output.path, fs::path(output.path).stem().string()),
+                   option);
         };
         for (const NamedFile& file : named)
             if (may_be_beside(output.format, output.path, followed(file.path)))
@@ -266,7 +253,6 @@ Status check_files_beside(const CLI::App& command, const std::vector<Output>& ou
                 return refused("a file next to " + other.path, "--output");
         }
     }
-    return Done{};
 }
 
 std::vector<fs::path> files_to_keep(const CLI::App& command) {

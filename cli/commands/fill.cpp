@@ -56,7 +56,7 @@ Examples:
   terrane fill fold.obj -o filled.obj --method rbf --certificate filled.json)";
 
 /// Reads the numbers of the holes to fill; none: all.
-Result<std::optional<std::vector<std::size_t>>> holes_of(const FillCommand& command) {
+std::optional<std::vector<std::size_t>> holes_of(const FillCommand& command) {
     if (command.holes == default_holes) return std::optional<std::vector<std::size_t>>();
     std::vector<std::size_t> numbers;
     std::string_view rest = command.holes;
@@ -67,14 +67,14 @@ Result<std::optional<std::vector<std::size_t>>> holes_of(const FillCommand& comm
         const auto [end, failed] =
             std::from_chars(token.data(), token.data() + token.size(), number);
         if (failed != std::errc() || end != token.data() + token.size())
-            return usage(fmt::format("{} is no number of a hole: see --list", token), "--holes");
+            refuse(fmt::format("{} is no number of a hole: see --list", token), "--holes");
         numbers.push_back(number);
     }
     return std::optional(std::move(numbers));
 }
 
-Status write_all(const FillCommand& command, const std::vector<Output>& outputs, ModelRun& run,
-                 Session& session) {
+void write_all(const FillCommand& command, const std::vector<Output>& outputs, ModelRun& run,
+               Session& session) {
     const FillWork& work = *run.built().preprocessed.filled;
     const FileOptions& files = command.model.files;
     std::vector<Surface> surfaces;
@@ -91,110 +91,90 @@ Status write_all(const FillCommand& command, const std::vector<Output>& outputs,
     for (const Output& output : outputs) {
         WriteOptions options{.ascii = files.ascii};
         if (output.format == Format::vtp) options.cells = cells;
-        if (const auto written = write_output(mesh, output, options, session); !written)
-            return written.error();
+        write_output(mesh, output, options, session);
         tell_when_written(run.told(), wrote(output));
     }
-    if (!command.map.empty())
-        if (auto written = write_file(command.map, map_of(work)); !written) return written;
-    if (!command.points.empty())
-        if (auto written = write_file(command.points, csv_of(work)); !written) return written;
-    auto written = certified_outputs(outputs, mesh, files.ascii);
-    if (!written) return written.error();
-    return run.certify(*std::move(written));
+    if (!command.map.empty()) must(write_file(command.map, map_of(work)));
+    if (!command.points.empty()) must(write_file(command.points, csv_of(work)));
+    run.certify(certified_outputs(outputs, mesh, files.ascii));
 }
 
-Result<std::vector<Output>> plan(const FillCommand& command) {
+std::vector<Output> plan(const FillCommand& command) {
     auto outputs = plan_outputs(command.model.files, OutputKind::surfaces);
-    if (!outputs) return outputs;
-    if (outputs->empty() && !command.list) return usage("-o OUT is needed, or --list");
+    if (outputs.empty() && !command.list) refuse("-o OUT is needed, or --list");
     for (const auto& path : {command.map, command.points})
-        if (!path.empty())
-            if (const auto folder = check_folder(path); !folder) return folder.error();
+        if (!path.empty()) check_folder(path);
     return outputs;
 }
 
-Result<ExitStatus> list_holes(ModelRun& run, const FillOptions& options, Session& session) {
+ExitStatus list_holes(ModelRun& run, const FillOptions& options, Session& session) {
     std::vector<FillTask> tasks;
     for (std::uint32_t s = 0; s < run.surfaces().size(); ++s)
         tasks.push_back({SurfaceId(s), options});
     session.begin("holes", Phase::computing);
-    const auto work = find_holes(run.surfaces(), tasks, session.run());
+    const auto work = must(find_holes(run.surfaces(), tasks, session.run()));
     session.end_stage();
-    if (!work) return work.error();
-    print(run.told(), borders_text(*work) + holes_table(*work));
-    add_statistics(run.statistics(), *work);
-    run.page().add_filled(*work);
+    print(run.told(), borders_text(work) + holes_table(work));
+    add_statistics(run.statistics(), work);
+    run.page().add_filled(work);
     run.page().set_verdict("Holes are listed, and none is filled.", true);
     return run.end(true);
 }
 
-Status read_smoothing(FillCommand& command) {
+void read_smoothing(FillCommand& command) {
     const std::string& text = command.smoothing;
-    if (text == no_smoothing) return Done{};
-    if (command.method != "rbf")
-        return Error{ErrorCode::bad_option, "is of --method rbf", "--smoothing"};
+    if (text == no_smoothing) return;
+    if (command.method != "rbf") refuse("is of --method rbf", "--smoothing");
     const auto length = text == "auto" ? 0.0 : parse_number(text);
     if (!length || (text != "auto" && !(*length > 0)))
-        return usage("needs none, auto or a length: " + text, "--smoothing");
+        refuse("needs none, auto or a length: " + text, "--smoothing");
     command.settings.smoothing = *length;
-    return Done{};
 }
 
 /// Refuses options that --method rbf would not heed.
-Status refuse_for_rbf(const CLI::App& app, const FillCommand& command) {
-    if (command.method != "rbf") return Done{};
+void refuse_for_rbf(const CLI::App& app, const FillCommand& command) {
+    if (command.method != "rbf") return;
     for (const char* const name : {"--model", "--isotropic", "--rings"})
-        if (app.count(name) > 0)
-            return Error{ErrorCode::bad_option, "is of --method kriging", name};
-    return Done{};
+        if (app.count(name) > 0) refuse("is of --method kriging", name);
 }
 
-Result<ExitStatus> fill_files(FillCommand& command, Session& session) {
+ExitStatus fill_files(FillCommand& command, Session& session) {
     const auto outputs = plan(command);
-    if (!outputs) return outputs.error();
     auto holes = holes_of(command);
-    if (!holes) return holes.error();
     FillOptions options = command.settings;
     if (command.method == "rbf") options.method = FillMethod::rbf;
     options.model = variogram_model_named(command.variogram);
     command.model.project.fill = {{.options = options}};
-    command.model.project.only_holes = *std::move(holes);
+    command.model.project.only_holes = std::move(holes);
     auto run = ModelRun::begin(command.model, session);
-    if (!run) return run.error();
-    if (command.list) return list_holes(*run, options, session);
-    if (auto made = run->make(); !made) return made.error();
-    if (!run->refused().empty()) return run->end(false);
-    const auto left_open = refusals_text(*run->built().preprocessed.filled);
+    if (command.list) return list_holes(run, options, session);
+    run.make();
+    if (!run.refused().empty()) return run.end(false);
+    const auto left_open = refusals_text(*run.built().preprocessed.filled);
     print(stderr, left_open);
-    if (auto done = write_all(command, *outputs, *run, session); !done) return done.error();
-    return run->end(left_open.empty());
+    write_all(command, outputs, run, session);
+    return run.end(left_open.empty());
 }
 
 void add_choice(CLI::App& app, FillCommand& command) {
-    app.add_option("--holes", command.holes,
-                   "Which ones, by the numbers of --list: all, or N,N,... (default: all)")
-        ->type_name("LIST");
+    add_value(app, "--holes", command.holes, "LIST",
+              "Which ones, by the numbers of --list: all, or N,N,... (default: all)");
     add_fields(app, command.settings);
     app.add_flag("--list", command.list, "Say which holes there are, and fill none");
 }
 
 void add_method(CLI::App& app, FillCommand& command) {
-    app.add_option("--method", command.method,
-                   "kriging, for z = f(x, y), or rbf, for any surface (default: kriging)")
-        ->check(one_of({"kriging", "rbf"}))
-        ->type_name("METHOD");
-    app.add_option(
-           "--model", command.variogram,
-           "Of the variogram of kriging: auto, spherical, exponential, gaussian, matern, power "
-           "(default: auto, "
-           "what fits best)")
-        ->check(one_of({"auto", "spherical", "exponential", "gaussian", "matern", "power"}))
-        ->type_name("MODEL");
-    app.add_option("--smoothing", command.smoothing,
-                   "Of rbf: none; auto, as much as predicts data best from others; or the root "
-                   "mean square by which data may be missed (default: none)")
-        ->type_name("none|auto|LENGTH");
+    add_value(app, "--method", command.method, "METHOD",
+              "kriging, for z = f(x, y), or rbf, for any surface (default: kriging)")
+        ->check(one_of({"kriging", "rbf"}));
+    add_value(app, "--model", command.variogram, "MODEL",
+              "Of the variogram of kriging: auto, spherical, exponential, gaussian, matern, power "
+              "(default: auto, "
+              "what fits best)")
+        ->check(one_of({"auto", "spherical", "exponential", "gaussian", "matern", "power"}));
+    add_value(app, "--smoothing", command.smoothing, "none|auto|LENGTH",
+              "Of rbf: none; auto, as much as predicts data best from others; or the root "
+              "mean square by which data may be missed (default: none)");
 }
 
 } // namespace
@@ -208,11 +188,10 @@ Command fill_command(CLI::App& program) {
     app->get_option("--output")->required(false);
     add_method(*app, *options);
     add_choice(*app, *options);
-    app->add_option("--map", options->map, "Draw it before and after, and the expected error")
-        ->type_name("FILE.svg");
-    app->add_option("--points", options->points,
-                    "Write interpolated points with deviation and variance")
-        ->type_name("FILE.csv");
+    add_value(*app, "--map", options->map, "FILE.svg",
+              "Draw it before and after, and the expected error");
+    add_value(*app, "--points", options->points, "FILE.csv",
+              "Write interpolated points with deviation and variance");
     app->add_flag("--ascii", options->model.files.ascii, "STL as text, with doubles, not float32");
     add_msh(*app, options->model.files);
     add_certificate(*app, options->model.proof.certificate);
@@ -222,14 +201,11 @@ Command fill_command(CLI::App& program) {
     options->model.project.last = BuildStage::preprocess;
     app->footer(fill_footer);
     return {app, [app, options] {
-                if (const auto good = check_fields<FillOptions>(*app); !good)
-                    return fail(good.error());
-                if (const auto good = refuse_for_rbf(*app, *options); !good)
-                    return fail(good.error());
-                if (const auto read = read_smoothing(*options); !read) return fail(read.error());
+                check_fields<FillOptions>(*app);
+                refuse_for_rbf(*app, *options);
+                read_smoothing(*options);
                 Session session(options->model.files.threads);
-                const auto status = fill_files(*options, session);
-                return status ? status.value() : fail(status.error());
+                return fill_files(*options, session);
             }};
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/fields.hpp>
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
@@ -41,58 +42,44 @@ Examples:
   terrane improve model.ml -o model.vtp --edge-length 400 --edge-length-of F1=150 --turn 15)";
 
 /// Reads the lengths among the options.
-Result<ProjectImprove> improvement_of(const ImproveCommand& command) {
+ProjectImprove improvement_of(const ImproveCommand& command) {
     ProjectImprove improve = *command.model.project.improve;
     if (command.edge_length != "auto") {
         const auto length = parse_number(command.edge_length);
         if (!length || !(*length > 0))
-            return usage("needs a positive length or auto: " + command.edge_length,
-                         "--edge-length");
+            refuse("needs a positive length or auto: " + command.edge_length, "--edge-length");
         improve.options.edge_length = *length;
     }
-    for (const std::string& text : command.edge_length_of) {
-        const auto named = parse_named_length(text);
-        if (!named || !(named->second > 0))
-            return usage("needs NAME=L, with a positive length: " + text, "--edge-length-of");
-        improve.edge_length_of.push_back(*named);
-    }
+    for (const std::string& text : command.edge_length_of)
+        improve.edge_length_of.push_back(positive_named_length(text, "--edge-length-of"));
     if (improve.resolution.dissolve && improve.resolution.length == 0)
-        return usage("needs --resolution", "--dissolve");
+        refuse("needs --resolution", "--dissolve");
     return improve;
 }
 
-Result<ExitStatus> improve_files(ImproveCommand& command, Session& session) {
+ExitStatus improve_files(ImproveCommand& command, Session& session) {
     const FileOptions& files = command.model.files;
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
-    if (!outputs) return outputs.error();
-    if (!command.histogram.empty())
-        if (auto folder = check_folder(command.histogram); !folder) return folder.error();
+    if (!command.histogram.empty()) check_folder(command.histogram);
     auto improve = improvement_of(command);
-    if (!improve) return improve.error();
-    command.model.project.improve = *std::move(improve);
+    command.model.project.improve = std::move(improve);
     auto run = ModelRun::begin(command.model, session);
-    if (!run) return run.error();
-    if (auto made = run->make(); !made) return made.error();
-    if (!run->refused().empty()) return run->end(false);
-    const Improved& improved = run->built().improved->improved;
-    const auto narrow = stl_is_conforming(improved.mesh, files, *outputs, session);
-    if (!narrow) return narrow.error();
-    if (!*narrow) {
-        run->page().set_verdict(not_conforming_in_stl, false);
+    run.make();
+    if (!run.refused().empty()) return run.end(false);
+    const Improved& improved = run.built().improved->improved;
+    const auto narrow = stl_is_conforming(improved.mesh, files, outputs, session);
+    if (!narrow) {
+        run.page().set_verdict(not_conforming_in_stl, false);
         print(stderr, complaint("nothing written"));
-        return run->end(false);
+        return run.end(false);
     }
     if (!command.histogram.empty()) {
-        if (auto drawn = write_file(command.histogram, histogram_of(improved.report)); !drawn)
-            return drawn.error();
-        say_written(run->told(), command.histogram);
+        must(write_file(command.histogram, histogram_of(improved.report)));
+        say_written(run.told(), command.histogram);
     }
-    if (auto done = write_outputs(improved.mesh, true, files, *outputs, session); !done)
-        return done.error();
-    auto written = certified_outputs(*outputs, improved.mesh, files.ascii);
-    if (!written) return written.error();
-    if (auto done = run->certify(*std::move(written)); !done) return done.error();
-    return run->end(true);
+    write_outputs(improved.mesh, true, files, outputs, session);
+    run.certify(certified_outputs(outputs, improved.mesh, files.ascii));
+    return run.end(true);
 }
 
 /// Adds the options of improvement; those of lengths as texts, which are read with the surfaces.
@@ -100,15 +87,13 @@ void add_improvement(CLI::App& app, ImproveCommand& command) {
     ImproveOptions::describe(
         [&](const Field& field, const auto&) {
             if (field.name == "edge_length")
-                app.add_option("--edge-length", command.edge_length,
-                               help_of(field) + "; auto: " + std::string(field.otherwise) +
-                                   " (default: auto)")
-                    ->type_name("L");
+                add_value(app, "--edge-length", command.edge_length, "L",
+                          help_of(field) + "; auto: " + std::string(field.otherwise) +
+                              " (default: auto)");
             if (field.name == "edge_length_of")
-                app.add_option("--edge-length-of", command.edge_length_of,
-                               help_of(field) + "; may be repeated")
-                    ->allow_extra_args(false)
-                    ->type_name("NAME=L");
+                add_value(app, "--edge-length-of", command.edge_length_of, "NAME=L",
+                          help_of(field) + "; may be repeated")
+                    ->allow_extra_args(false);
         },
         command.model.project.improve->options);
     add_fields(app, command.model.project.improve->options);
@@ -129,8 +114,8 @@ Command improve_command(CLI::App& program) {
     command->model.project.improve.emplace();
     command->model.project.last = BuildStage::improve;
     add_improvement(*app, *command);
-    app->add_option("--histogram", command->histogram, "Histograms of q before and after")
-        ->type_name("FILE.svg");
+    add_value(*app, "--histogram", command->histogram, "FILE.svg",
+              "Histograms of q before and after");
     add_arranging(*app, command->model);
     app->add_flag("--ascii", command->model.files.ascii, "STL as text, with doubles, not float32");
     add_msh(*app, command->model.files);
@@ -140,13 +125,10 @@ Command improve_command(CLI::App& program) {
     add_report(*app, command->model.files);
     app->footer(improve_footer);
     return {app, [command, app] {
-                if (const auto good = check_fields<ImproveOptions>(*app); !good)
-                    return fail(good.error());
-                if (const auto good = check_fields<Resolution>(*app); !good)
-                    return fail(good.error());
+                check_fields<ImproveOptions>(*app);
+                check_fields<Resolution>(*app);
                 Session session(command->model.files.threads);
-                const auto status = improve_files(*command, session);
-                return status ? status.value() : fail(status.error());
+                return improve_files(*command, session);
             }};
 }
 

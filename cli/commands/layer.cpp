@@ -42,66 +42,58 @@ Examples:
   terrane layer basin.ts --layer top=1 --layer base=2 -o basin.obj --certificate basin.json)";
 
 /// Puts the input files into files.inputs, whichever of the two ways to call the command was used.
-Status plan_inputs(LayerCommand& command) {
+void plan_inputs(LayerCommand& command) {
     const bool pair = !command.hard.empty() || !command.soft.empty();
     if (pair) {
         if (command.hard.empty() || command.soft.empty() || command.keep.empty())
-            return usage("needs --hard, --soft and --keep together", "layer");
+            refuse("needs --hard, --soft and --keep together", "layer");
         if (!command.layers.empty() || !command.model.files.inputs.empty())
-            return usage("takes either --hard and --soft, or files and --layer", "layer");
+            refuse("takes either --hard and --soft, or files and --layer", "layer");
         command.model.files.inputs = {command.hard, command.soft};
-        return Done{};
+        return;
     }
     if (command.layers.empty() || command.model.files.inputs.empty())
-        return usage("needs --hard and --soft, or files and --layer for each horizon", "layer");
-    if (!command.keep.empty()) return usage("goes with --hard and --soft only", "--keep");
-    return Done{};
+        refuse("needs --hard and --soft, or files and --layer for each horizon", "layer");
+    if (!command.keep.empty()) refuse("goes with --hard and --soft only", "--keep");
 }
 
 /// Returns the layers of a command whose surfaces were read.
-Result<ProjectLayers> layers_of(const LayerCommand& command, const Inputs& inputs,
-                                std::span<const SurfaceInfo> infos) {
+ProjectLayers layers_of(const LayerCommand& command, const Inputs& inputs,
+                        std::span<const SurfaceInfo> infos) {
     ProjectLayers layers{.min_thickness = command.min_thickness};
     if (command.layers.empty()) {
         for (const std::size_t file : {0U, 1U})
             if (inputs.surfaces_of_file[file] != 1)
-                return usage("must hold one surface, or name them with --layer",
-                             file == 0 ? "--hard" : "--soft");
+                refuse("must hold one surface, or name them with --layer",
+                       file == 0 ? "--hard" : "--soft");
         layers.order = {{inputs.labels[1], 0, 1}, {inputs.labels[0], 1, 0}};
         if (command.keep == "lower") std::swap(layers.order[0], layers.order[1]);
         return layers;
     }
     for (const std::string& text : command.layers) {
         const auto named = parse_named_length(text);
-        if (!named) return usage("needs NAME=HARDNESS, a number: " + text, "--layer");
+        if (!named) refuse("needs NAME=HARDNESS, a number: " + text, "--layer");
         auto found = surfaces_called(named->first, infos, inputs.labels);
         if (found.size() > 1) // labels are unique
             std::erase_if(found, [&](std::uint32_t s) { return inputs.labels[s] != named->first; });
-        if (found.empty())
-            return usage(not_called("surface", named->first, inputs.labels), "--layer");
+        if (found.empty()) refuse(not_called("surface", named->first, inputs.labels), "--layer");
         layers.order.push_back({named->first, named->second, found[0]});
     }
     return layers;
 }
 
-Result<ExitStatus> layer_files(const LayerCommand& command, Session& session) {
+ExitStatus layer_files(const LayerCommand& command, Session& session) {
     const FileOptions& files = command.model.files;
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
-    if (!outputs) return outputs.error();
     auto run = ModelRun::begin(command.model, session);
-    if (!run) return run.error();
-    auto layers = layers_of(command, run->inputs(), infos_of(run->surfaces()));
-    if (!layers) return layers.error();
-    run->project().layers = *std::move(layers);
-    if (auto made = run->make(); !made) return made.error();
-    if (!run->refused().empty()) return run->end(false);
-    const Mesh& mesh = run->built().preprocessed.layered->rounded.mesh;
-    if (auto done = write_outputs(mesh, false, files, *outputs, session); !done)
-        return done.error();
-    auto written = certified_outputs(*outputs, mesh, files.ascii);
-    if (!written) return written.error();
-    if (auto done = run->certify(*std::move(written)); !done) return done.error();
-    return run->end(true);
+    auto layers = layers_of(command, run.inputs(), infos_of(run.surfaces()));
+    run.project().layers = std::move(layers);
+    run.make();
+    if (!run.refused().empty()) return run.end(false);
+    const Mesh& mesh = run.built().preprocessed.layered->rounded.mesh;
+    write_outputs(mesh, false, files, outputs, session);
+    run.certify(certified_outputs(outputs, mesh, files.ascii));
+    return run.end(true);
 }
 
 } // namespace
@@ -111,19 +103,17 @@ Command layer_command(CLI::App& program) {
     auto* app = program.add_subcommand("layer", "Make soft horizons give way to harder ones");
     add_inputs(*app, command->model.files);
     app->get_option("IN")->required(false); // or --hard and --soft
-    app->add_option("--hard", command->hard, "File with the hard horizon")->type_name("FILE");
-    app->add_option("--soft", command->soft, "File with the soft horizon")->type_name("FILE");
-    app->add_option("--keep", command->keep, "Side of the hard one on which the soft one stays")
-        ->check(one_of({"upper", "lower"}))
-        ->type_name("upper|lower");
-    app->add_option("--layer", command->layers,
-                    "A horizon and its hardness; repeated, from the top down")
-        ->allow_extra_args(false)
-        ->type_name("NAME=HARDNESS");
-    app->add_option("--min-thickness", command->min_thickness,
-                    "Least thickness along z between a soft horizon and harder ones, in the unit "
-                    "of the files (default: 0)")
-        ->type_name("LENGTH");
+    add_value(*app, "--hard", command->hard, "FILE", "File with the hard horizon");
+    add_value(*app, "--soft", command->soft, "FILE", "File with the soft horizon");
+    add_value(*app, "--keep", command->keep, "upper|lower",
+              "Side of the hard one on which the soft one stays")
+        ->check(one_of({"upper", "lower"}));
+    add_value(*app, "--layer", command->layers, "NAME=HARDNESS",
+              "A horizon and its hardness; repeated, from the top down")
+        ->allow_extra_args(false);
+    add_value(*app, "--min-thickness", command->min_thickness, "LENGTH",
+              "Least thickness along z between a soft horizon and harder ones, in the unit "
+              "of the files (default: 0)");
     add_output(*app, command->model.files, "File for the mesh; - is standard output");
     add_max_move(*app, command->model.project.max_move);
     command->model.project.check = few_pairs;
@@ -136,11 +126,9 @@ Command layer_command(CLI::App& program) {
     add_report(*app, command->model.files);
     app->footer(layer_footer);
     return {app, [command] {
-                if (const auto planned = plan_inputs(*command); !planned)
-                    return fail(planned.error());
+                plan_inputs(*command);
                 Session session(command->model.files.threads);
-                const auto status = layer_files(*command, session);
-                return status ? status.value() : fail(status.error());
+                return layer_files(*command, session);
             }};
 }
 

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/stages/model_run.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 
@@ -43,15 +44,12 @@ Examples:
   terrane view horizons.ts faults.ts
   terrane view model.html)";
 
-Result<ExitStatus> report_files(const ModelCommand& command, Session& session) {
-    if (const auto planned = plan_outputs(command.files, OutputKind::surfaces); !planned)
-        return planned.error();
+ExitStatus report_files(const ModelCommand& command, Session& session) {
+    plan_outputs(command.files, OutputKind::surfaces);
     auto run = ModelRun::begin(command, session);
-    if (!run) return run.error();
-    if (auto found = run->page().add_holes(run->surfaces(), session.run()); !found)
-        return found.error();
-    if (auto made = run->make(); !made) return made.error();
-    return run->end(run->refused().empty());
+    must(run.page().add_holes(run.surfaces(), session.run()));
+    run.make();
+    return run.end(run.refused().empty());
 }
 
 /// Returns the parts of a text between separators.
@@ -81,16 +79,16 @@ int start(const std::string& command, const std::string& page) {
 }
 
 /// Opens a page by the first command of BROWSER that starts. Colons separate commands, as Python and xdg-open have it.
-Status open_page(const std::string& path) {
+void open_page(const std::string& path) {
     const char* const named = std::getenv("BROWSER");
     const std::string commands = named != nullptr && *named != '\0' ? named : "xdg-open";
     int failed = ENOENT;
     for (const std::string& command : split(commands, ':'))
-        if ((failed = start(command, path)) == 0) return Done{};
-    return Error{ErrorCode::cannot_open,
-                 fmt::format("{} cannot open it ({}); set BROWSER, or open the page by hand",
-                             commands, std::strerror(failed)),
-                 path};
+        if ((failed = start(command, path)) == 0) return;
+    refuse(ErrorCode::cannot_open,
+           fmt::format("{} cannot open it ({}); set BROWSER, or open the page by hand", commands,
+                       std::strerror(failed)),
+           path);
 }
 
 bool is_page(const std::string& path) {
@@ -98,34 +96,38 @@ bool is_page(const std::string& path) {
 }
 
 /// Makes a folder for a page, and returns the path of the page in it.
-Result<std::string> temporary_page(const FileOptions& files) {
+std::string temporary_page(const FileOptions& files) {
     std::error_code failed;
     std::string folder = std::filesystem::temp_directory_path(failed) / "terrane-view-XXXXXX";
     if (failed || ::mkdtemp(folder.data()) == nullptr)
-        return Error{ErrorCode::cannot_open, "no folder can be made here", folder};
+        refuse(ErrorCode::cannot_open, "no folder can be made here", folder);
     const auto stem = std::filesystem::path(files.inputs.front()).stem().string();
     return folder + "/" + (stem.empty() || stem == "-" ? "report" : stem) + ".html";
 }
 
-Result<ExitStatus> view_files(ModelCommand& command) {
+ExitStatus view_files(ModelCommand& command) {
     const auto& inputs = command.files.inputs;
     if (inputs.size() == 1 && is_page(inputs.front())) {
-        if (const auto page = read_file(inputs.front()); !page) return page.error();
-        if (const auto opened = open_page(inputs.front()); !opened) return opened.error();
+        must(read_file(inputs.front()));
+        open_page(inputs.front());
         return ExitStatus::done;
     }
-    auto page = temporary_page(command.files);
-    if (!page) return page.error();
-    command.files.report = *page;
+    const auto page = command.files.report = temporary_page(command.files);
     Session session(command.files.threads);
-    auto status = report_files(command, session);
-    if (status)
-        when_written([path = *page] {
-            if (const auto opened = open_page(path); !opened) warn(opened.error().message());
+    try {
+        const ExitStatus status = report_files(command, session);
+        when_written([page] {
+            try {
+                open_page(page);
+            } catch (const Failure& failure) {
+                warn(failure.error.message());
+            }
         });
-    else
-        std::filesystem::remove(std::filesystem::path(*page).parent_path());
-    return status;
+        return status;
+    } catch (const Failure&) {
+        std::filesystem::remove(std::filesystem::path(page).parent_path());
+        throw;
+    }
 }
 
 /// Adds the options that `report` and `view` share.
@@ -146,24 +148,20 @@ Command view_command(CLI::App& program) {
     auto* app = program.add_subcommand("view", "Look at surfaces, or at a report, in a browser");
     add_model_options(*app, *command);
     app->footer(view_footer);
-    return {app, [command] {
-                const auto status = view_files(*command);
-                return status ? status.value() : fail(status.error());
-            }};
+    return {app, [command] { return view_files(*command); }};
 }
 
 Command report_command(CLI::App& program) {
     auto command = std::make_shared<ModelCommand>();
     auto* app = program.add_subcommand("report", "Show a model and its flaws in a page");
     add_model_options(*app, *command);
-    app->add_option("-o,--output", command->files.report, "The page; - is standard output")
-        ->required()
-        ->type_name("FILE.html");
+    add_value(*app, "-o,--output", command->files.report, "FILE.html",
+              "The page; - is standard output")
+        ->required();
     app->footer(report_footer);
     return {app, [command] {
                 Session session(command->files.threads);
-                const auto status = report_files(*command, session);
-                return status ? status.value() : fail(status.error());
+                return report_files(*command, session);
             }};
 }
 

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -67,42 +63,22 @@ Examples:
   terrane tetrahedralize model.ml -o model.vtu --output-format ogs --blocks-only
   terrane tetrahedralize horizons.ts faults.ts -o model.vtu --box 0,0,-3000,10000,10000,500)";
 
-/// Parses "x0,y0,z0,x1,y1,z1".
-std::optional<Box3> parse_box(std::string_view text) {
-    std::array<double, 6> numbers{};
-    const char* at = text.data();
-    const char* const end = text.data() + text.size();
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        if (i > 0 && (at == end || *at++ != ',')) return std::nullopt;
-        const auto [after, failed] = std::from_chars(at, end, numbers[i]);
-        if (failed != std::errc()) return std::nullopt;
-        at = after;
-    }
-    if (at != end) return std::nullopt;
-    return Box3{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
-}
-
-Status add_sizes(const std::vector<std::string>& texts, const char* option,
-                 std::vector<ProjectSize>& sizes) {
-    for (const std::string& text : texts) {
-        const auto size = parse_named_length(text);
-        if (!size || !(size->second > 0))
-            return usage("needs NAME=L, with a positive length: " + text, option);
-        sizes.push_back(*size);
-    }
-    return Done{};
+void add_sizes(const std::vector<std::string>& texts, const char* option,
+               std::vector<ProjectSize>& sizes) {
+    for (const std::string& text : texts) sizes.push_back(positive_named_length(text, option));
 }
 
 /// Adds what the texts of options say.
-Status read_texts(TetrahedralizeCommand& command) {
+void read_texts(TetrahedralizeCommand& command) {
     ProjectTetrahedra& wanted = command.model.project.tetrahedra;
     if (!command.around.empty()) {
-        wanted.options.box = parse_box(command.around);
-        if (!wanted.options.box) return usage("needs six numbers: x0,y0,z0,x1,y1,z1", "--around");
+        const auto n = numbers_in(command.around);
+        if (!n || n->size() != 6) refuse("needs six numbers: x0,y0,z0,x1,y1,z1", "--around");
+        wanted.options.box = Box3{{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]}};
     }
     if (command.blocks_only) wanted.outside = false;
-    if (auto added = add_sizes(command.size_of, "--size-of", wanted.size_of); !added) return added;
-    return add_sizes(command.size_in, "--size-in", wanted.size_in);
+    add_sizes(command.size_of, "--size-of", wanted.size_of);
+    add_sizes(command.size_in, "--size-in", wanted.size_in);
 }
 
 /// Names an output, and the number of its further files.
@@ -112,92 +88,80 @@ std::string said_of(const Output& output, std::size_t files) {
                        std::filesystem::path(output.path).stem().string());
 }
 
-Status write_all(const FilledBlocks& filled, const std::vector<Output>& outputs,
-                 const FileOptions& files, Session& session) {
+void write_all(const FilledBlocks& filled, const std::vector<Output>& outputs,
+               const FileOptions& files, Session& session) {
     WriteOptions options;
     options.block_names = filled.block_names;
     options.order = files.order;
     for (const Output& output : outputs) {
         const auto written = write_output(filled.tetrahedra, output, options, session);
-        if (!written) return written.error();
-        say_written(summary_stream(files), said_of(output, written->size()));
+        say_written(summary_stream(files), said_of(output, written.size()));
     }
-    return Done{};
 }
 
 /// Checks before any work is done what can be checked then.
-Status check_outputs(const ModelCommand& command, const std::vector<Output>& outputs) {
-    if (auto sound = check_files_beside(*command.files.app, outputs); !sound) return sound;
+void check_outputs(const ModelCommand& command, const std::vector<Output>& outputs) {
+    check_files_beside(*command.files.app, outputs);
     const bool is_certified = !command.proof.certificate.empty();
     for (const Output& output : outputs) {
         if (output.format == Format::pylith && !command.project.tetrahedra.split.empty())
-            return usage("PyLith splits nodes itself: leave out --split", output.path);
+            refuse("PyLith splits nodes itself: leave out --split", output.path);
         if (is_certified && output.path == "-")
-            return usage("a certificate is about files, and is one", "--certificate");
+            refuse("a certificate is about files, and is one", "--certificate");
         if (is_certified && !is_certifiable(output.format, command.files.order))
-            return usage("a certificate is about tetrahedra of first order in .vtu, .msh, .inp or "
-                         ".mesh",
-                         output.path);
+            refuse("a certificate is about tetrahedra of first order in .vtu, .msh, .inp or "
+                   ".mesh",
+                   output.path);
     }
-    if (const auto helper = find_tetgen_helper(); !helper) return helper.error();
-    return Done{};
+    must(find_tetgen_helper());
 }
 
-Result<ExitStatus> tetrahedralize_files(TetrahedralizeCommand& command, Session& session) {
+ExitStatus tetrahedralize_files(TetrahedralizeCommand& command, Session& session) {
     const FileOptions& files = command.model.files;
-    if (auto read = read_texts(command); !read) return read.error();
+    read_texts(command);
     const auto outputs = plan_outputs(files, OutputKind::tetrahedra);
-    if (!outputs) return outputs.error();
-    if (auto sound = check_outputs(command.model, *outputs); !sound) return sound.error();
+    check_outputs(command.model, outputs);
     auto run = ModelRun::begin(command.model, session);
-    if (!run) return run.error();
-    if (auto made = run->make(); !made) return made.error();
-    if (!run->refused().empty()) return run->end(false);
-    if (auto done = write_all(*run->built().filled, *outputs, files, session); !done)
-        return done.error();
+    run.make();
+    if (!run.refused().empty()) return run.end(false);
+    write_all(*run.built().filled, outputs, files, session);
     std::vector<ResultFile> written;
-    for (const Output& output : *outputs)
+    for (const Output& output : outputs)
         written.push_back({output.path, certified_format(output.format)});
-    if (auto done = run->certify(std::move(written)); !done) return done.error();
-    return run->end(true);
+    run.certify(std::move(written));
+    return run.end(true);
 }
 
 void add_tetrahedra_options(CLI::App& app, TetrahedralizeCommand& command) {
     ProjectTetrahedra& wanted = command.model.project.tetrahedra;
     TetrahedraOptions& options = wanted.options;
-    app.add_option("--around", command.around,
-                   "Box that closes the domain, x0,y0,z0,x1,y1,z1, around all that is kept")
-        ->type_name("BOX");
+    add_value(app, "--around", command.around, "BOX",
+              "Box that closes the domain, x0,y0,z0,x1,y1,z1, around all that is kept");
     add_fields(app, options);
-    app.add_option("--size-of", command.size_of,
-                   "Edge length on a surface, and near it; may be repeated")
-        ->allow_extra_args(false)
-        ->type_name("NAME=L");
-    app.add_option(
-           "--size-in", command.size_in,
-           "Edge length in a block, by its number or name, instead of --edge-length; may be "
-           "repeated")
-        ->allow_extra_args(false)
-        ->type_name("BLOCK=L");
-    app.add_option("--split", wanted.split,
-                   "Nodes of their own on either side of a surface; fault: of all with that role; "
-                   "may be repeated")
-        ->allow_extra_args(false)
-        ->type_name("NAME");
+    add_value(app, "--size-of", command.size_of, "NAME=L",
+              "Edge length on a surface, and near it; may be repeated")
+        ->allow_extra_args(false);
+    add_value(app, "--size-in", command.size_in, "BLOCK=L",
+              "Edge length in a block, by its number or name, instead of --edge-length; may be "
+              "repeated")
+        ->allow_extra_args(false);
+    add_value(app, "--split", wanted.split, "NAME",
+              "Nodes of their own on either side of a surface; fault: of all with that role; "
+              "may be repeated")
+        ->allow_extra_args(false);
     app.add_flag("--blocks-only", command.blocks_only,
                  "No tetrahedra outside of the blocks, in region 0");
     app.add_flag_callback(
         "--no-optimise", [&options] { options.optimise.reset(); },
         "Leave the shapes of tetrahedra as the mesher made them");
-    app.add_option("--mesher", options.mesher,
-                   "tetgen, gmsh, or auto: TetGen, and Gmsh where that fails (default: auto)")
+    add_value(app, "--mesher", options.mesher, "PROGRAM",
+              "tetgen, gmsh, or auto: TetGen, and Gmsh where that fails (default: auto)")
         ->transform(
             CLI::CheckedTransformer(std::map<std::string, Mesher>{{"auto", Mesher::automatic},
                                                                   {"tetgen", Mesher::tetgen},
                                                                   {"gmsh", Mesher::gmsh}})
                 .description(""))
-        ->transform(listing({"auto", "tetgen", "gmsh"}))
-        ->type_name("PROGRAM");
+        ->transform(listing({"auto", "tetgen", "gmsh"}));
 }
 
 } // namespace
@@ -226,8 +190,7 @@ Command tetrahedralize_command(CLI::App& program) {
     app->footer(tetrahedralize_footer);
     return {app, [command] {
                 Session session(command->model.files.threads);
-                const auto status = tetrahedralize_files(*command, session);
-                return status ? status.value() : fail(status.error());
+                return tetrahedralize_files(*command, session);
             }};
 }
 

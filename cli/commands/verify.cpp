@@ -4,6 +4,7 @@
 
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/reports/verdict_report.hpp>
 #include <terrane/cli/stages/judgement.hpp>
@@ -38,18 +39,17 @@ Examples:
   terrane verify model.json data/horizons.ts data/faults.ts
   terrane verify model.json --output sent/model.vtp)";
 
-Result<ExitStatus> verify_file(const VerifyCommand& command) {
+ExitStatus verify_file(const VerifyCommand& command) {
     Session session(1); // of which only the interrupts and the progress line are wanted
     session.begin("verify", Phase::idle);
     const auto judged = judge_certificate(command.request);
-    if (!judged) return judged.error();
     session.end_stage();
     const std::string& path = command.request.certificate;
     if (command.json)
-        print(stdout, verdict_json(*judged));
+        print(stdout, verdict_json(judged));
     else
-        say(stdout, verdict_text(*judged, path == "-" ? "standard input" : one_line(path)));
-    return judged->status();
+        say(stdout, verdict_text(judged, path == "-" ? "standard input" : one_line(path)));
+    return judged.status();
 }
 
 } // namespace
@@ -57,29 +57,23 @@ Result<ExitStatus> verify_file(const VerifyCommand& command) {
 Command verify_command(CLI::App& program) {
     auto options = std::make_shared<VerifyCommand>();
     auto* app = program.add_subcommand("verify", "Judge a certificate from its input files");
-    app->add_option("CERT", options->request.certificate, "Certificate; - is standard input")
-        ->required()
-        ->type_name("CERT");
-    app->add_option("IN", options->request.files.inputs, "The input files")->type_name("FILE");
+    add_value(*app, "CERT", options->request.certificate, "CERT",
+              "Certificate; - is standard input")
+        ->required();
+    add_value(*app, "IN", options->request.files.inputs, "FILE", "The input files");
     add_reading(*app, options->request.files);
-    app->add_option("--output", options->request.outputs,
-                    "An output file that is not where the certificate says; may be repeated")
-        ->type_name("FILE");
-    app->add_option("--max-deviation", options->request.options.max_deviation,
-                    "The largest distance between the mesh and the inputs that is accepted")
-        ->check(CLI::NonNegativeNumber.description(""))
-        ->type_name("D");
-    app->add_option("--max-change", options->request.options.max_change,
-                    "The largest limit of a change to surfaces that is accepted, for instance of "
-                    "improved triangles")
-        ->check(CLI::NonNegativeNumber.description(""))
-        ->type_name("D");
+    add_value(*app, "--output", options->request.outputs, "FILE",
+              "An output file that is not where the certificate says; may be repeated");
+    add_value(*app, "--max-deviation", options->request.options.max_deviation, "D",
+              "The largest distance between the mesh and the inputs that is accepted")
+        ->check(CLI::NonNegativeNumber.description(""));
+    add_value(*app, "--max-change", options->request.options.max_change, "D",
+              "The largest limit of a change to surfaces that is accepted, for instance of "
+              "improved triangles")
+        ->check(CLI::NonNegativeNumber.description(""));
     app->add_flag("--json", options->json, "The verdict as JSON");
     app->footer(verify_footer);
-    return {app, [options] {
-                const auto status = verify_file(*options);
-                return status ? status.value() : fail(status.error());
-            }};
+    return {app, [options] { return verify_file(*options); }};
 }
 
 } // namespace terrane::cli

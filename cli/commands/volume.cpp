@@ -86,35 +86,28 @@ Examples:
   terrane volume *.ts -o model --polygon licence.txt --between -4000,0
   terrane volume top.ts base.ts F1.ts box.ts -o model --role F1=fault --role box=boundary)";
 
-Status write_folder(const VolumeCommand& command, const ModelReports& reports, Session& session) {
+void write_folder(const VolumeCommand& command, const ModelReports& reports, Session& session) {
     session.begin("write", Phase::folder);
-    auto folder = NewFolder::create(command.folder);
-    if (!folder) return folder.error();
-    if (auto done = write_model_files(reports, command.part_format, folder.value().temporary(),
-                                      session.run());
-        !done)
-        return done;
-    auto published = folder.value().publish();
+    auto folder = must(NewFolder::create(command.folder));
+    must(write_model_files(reports, command.part_format, folder.temporary(), session.run()));
+    must(folder.publish());
     session.end_stage();
-    return published;
 }
 
 /// Checks before any work is done that the folder is given and will do, or that none is wanted.
-Status check_output(const VolumeCommand& command) {
+void check_output(const VolumeCommand& command) {
     const std::string& certificate = command.model.proof.certificate;
-    if (!certificate.empty())
-        if (auto named = check_certified_names(certificate, {command.folder}); !named) return named;
+    if (!certificate.empty()) check_certified_names(certificate, {command.folder});
     if (!certificate.empty() && !is_certified(command.part_format))
-        return Error{ErrorCode::bad_option, "is about parts as vtp or obj only", "--certificate"};
+        refuse("is about parts as vtp or obj only", "--certificate");
     for (const std::string& file : {command.gocad, command.lines})
-        if (!file.empty())
-            if (auto folder = check_folder(file); !folder) return folder;
+        if (!file.empty()) check_folder(file);
     if (!command.suggests) {
         if (!command.seal_plot.empty())
-            return Error{ErrorCode::bad_option, "draws what --suggest-seal finds; that is missing",
-                         "--seal-plot"};
-        if (!command.folder.empty()) return check_new_folder(command.folder);
-        return Error{ErrorCode::bad_option, "the folder for the model is missing", "--output"};
+            refuse("draws what --suggest-seal finds; that is missing", "--seal-plot");
+        if (command.folder.empty()) refuse("the folder for the model is missing", "--output");
+        must(check_new_folder(command.folder));
+        return;
     }
     const std::array<std::pair<const char*, const std::string*>, 8> of_models{
         {{"--output", &command.folder},
@@ -126,97 +119,72 @@ Status check_output(const VolumeCommand& command) {
          {"--lines", &command.lines},
          {"--cells", &command.cells.cells}}};
     for (const auto& [option, value] : of_models)
-        if (!value->empty())
-            return Error{ErrorCode::bad_option, "needs a model, and --suggest-seal makes none",
-                         option};
-    return Done{};
+        if (!value->empty()) refuse("needs a model, and --suggest-seal makes none", option);
 }
 
 /// Writes a text to a file of its own, and says so.
-Status write_text(const VolumeCommand& command, const std::string& path, const std::string& text,
-                  Session& session) {
+void write_text(const VolumeCommand& command, const std::string& path, const std::string& text,
+                Session& session) {
     session.begin("write", Phase::writing);
-    auto written = write_file(path, text);
+    must(write_file(path, text));
     session.end_stage();
-    if (written) say_written(summary_stream(command.model.files), path);
-    return written;
+    say_written(summary_stream(command.model.files), path);
 }
 
-Status write_tables(const VolumeCommand& command, const ModelRun& run, Session& session) {
+void write_tables(const VolumeCommand& command, const ModelRun& run, Session& session) {
     const Model& model = *run.built().model;
     const Inputs& inputs = run.inputs();
     const auto write = [&](const std::string& path, const std::string& text) {
-        return write_text(command, path, text, session);
+        write_text(command, path, text, session);
     };
     if (!command.relations.empty()) {
         const auto relations = find_relations(model.mesh, model.structure, model.borders);
-        if (auto done = write(command.relations, csv_of(relations, inputs.labels)); !done)
-            return done;
+        write(command.relations, csv_of(relations, inputs.labels));
     }
     if (!command.juxtaposition.empty())
-        if (auto done = write(command.juxtaposition, csv_of(find_juxtapositions(model.structure),
-                                                            inputs.labels, model.structure));
-            !done)
-            return done;
+        write(command.juxtaposition,
+              csv_of(find_juxtapositions(model.structure), inputs.labels, model.structure));
     if (!command.gocad.empty())
-        if (auto done = write(command.gocad,
-                              to_gocad_model(model.mesh, model.volumes, model.structure,
-                                             std::filesystem::path(command.gocad).stem().string(),
-                                             inputs.unit));
-            !done)
-            return done;
-    if (command.lines.empty()) return Done{};
-    const auto lines = lines_to_gocad(model.mesh, model.structure);
-    if (!lines) return Error{lines.error().code, lines.error().sentence, command.lines};
-    return write(command.lines, *lines);
+        write(command.gocad,
+              to_gocad_model(model.mesh, model.volumes, model.structure,
+                             std::filesystem::path(command.gocad).stem().string(), inputs.unit));
+    if (command.lines.empty()) return;
+    write(command.lines, must(lines_to_gocad(model.mesh, model.structure), command.lines));
 }
 
-Result<ExitStatus> suggest_seal(const VolumeCommand& command, ModelRun& run, Session& session) {
+ExitStatus suggest_seal(const VolumeCommand& command, ModelRun& run, Session& session) {
     const auto options = arranging_of(run.project(), run.surfaces());
-    if (!options) return at_option(options.error(), *command.model.files.app);
+    if (!options) throw Failure{at_option(options.error(), *command.model.files.app)};
     session.begin("seal", Phase::computing);
-    const auto advice = advise_seal(run.surfaces(), run.boundary(), *options, session.run());
+    const auto advice = must(advise_seal(run.surfaces(), run.boundary(), *options, session.run()));
     session.end_stage();
-    if (!advice) return advice.error();
-    print(run.told(), text_of(*advice, run.inputs()));
+    print(run.told(), text_of(advice, run.inputs()));
     if (!command.seal_plot.empty())
-        if (auto done =
-                write_text(command, command.seal_plot, seal_plot(*advice, run.inputs()), session);
-            !done)
-            return done.error();
-    add_statistics(run.statistics(), *advice);
+        write_text(command, command.seal_plot, seal_plot(advice, run.inputs()), session);
+    add_statistics(run.statistics(), advice);
     add_constants(run.statistics(), "seal", seal_constants());
     add_constants(run.statistics(), "seal_choice", seal_choice_constants());
     return run.end(true);
 }
 
-Result<ExitStatus> find_blocks(const VolumeCommand& command, Session& session) {
+ExitStatus find_blocks(const VolumeCommand& command, Session& session) {
     const FileOptions& files = command.model.files;
-    if (const auto planned = plan_outputs(files, OutputKind::surfaces); !planned)
-        return planned.error();
-    if (auto good = check_output(command); !good) return good.error();
+    plan_outputs(files, OutputKind::surfaces);
+    check_output(command);
     const auto grid = read_grid(command.cells);
-    if (!grid) return grid.error();
     auto run = ModelRun::begin(command.model, session);
-    if (!run) return run.error();
-    if (command.suggests) return suggest_seal(command, *run, session);
-    if (auto made = run->make(); !made) return made.error();
-    if (!run->refused().empty()) return run->end(false);
-    const Model& model = *run->built().model;
-    if (auto done =
-            write_folder(command, {model, run->built().arranged.sealed, run->leaks()}, session);
-        !done)
-        return done.error();
-    say_written(run->told(), command.folder);
-    if (auto done = write_tables(command, *run, session); !done) return done.error();
-    if (*grid) {
-        const auto said = write_cells(command.cells, **grid, model, run->inputs(), session);
-        if (!said) return said.error();
-        tell_when_written(run->told(), *said);
-    }
-    if (auto done = run->certify(outputs_of(model, command.folder, command.part_format)); !done)
-        return done.error();
-    return run->end(true);
+    if (command.suggests) return suggest_seal(command, run, session);
+    run.make();
+    if (!run.refused().empty()) return run.end(false);
+    const Model& model = *run.built().model;
+    write_folder(command, {model, run.built().arranged.sealed, run.leaks()}, session);
+    say_written(run.told(), command.folder);
+    write_tables(command, run, session);
+    if (grid)
+        tell_when_written(run.told(),
+                          write_cells(command.cells, *grid, model, run.inputs(), session));
+    run.certify(outputs_of(model, command.folder, command.part_format));
+    return run.end(true);
 }
 
 } // namespace
@@ -225,33 +193,27 @@ Command volume_command(CLI::App& program) {
     auto command = std::make_shared<VolumeCommand>();
     auto* app = program.add_subcommand("volume", "Find the blocks that surfaces enclose");
     add_inputs(*app, command->model.files);
-    app->add_option("-o,--output", command->folder, "Folder for the model; made by the program")
-        ->type_name("DIR");
+    add_value(*app, "-o,--output", command->folder, "DIR",
+              "Folder for the model; made by the program");
     app->add_flag("--suggest-seal", command->suggests,
                   "List natural breaks in the widths of gaps, and the blocks for each distance; "
                   "write no model");
-    app->add_option("--seal-plot", command->seal_plot,
-                    "Draw this, with --suggest-seal: lengths of gaps by their widths, and blocks")
-        ->type_name("FILE.svg");
+    add_value(*app, "--seal-plot", command->seal_plot, "FILE.svg",
+              "Draw this, with --suggest-seal: lengths of gaps by their widths, and blocks");
     add_naming(*app, command->model);
-    app->add_option("--parts", command->part_format,
-                    "Format of blocks and interfaces: vtp, obj, ts, ply, off, stl, msh, msh22, "
-                    "inp, mesh, poly, smesh, a file of each; auto: vtp, and if they are more than "
-                    "1000, one file for all blocks and one for all interfaces (default: auto)")
-        ->check(one_of(part_formats()))
-        ->type_name("FORMAT");
-    app->add_option("--relations", command->relations,
-                    "Which surface stops at, crosses or ends near which other one, as a table")
-        ->type_name("FILE.csv");
-    app->add_option("--juxtaposition", command->juxtaposition,
-                    "Which blocks face each other across which surface, as a table")
-        ->type_name("FILE.csv");
-    app->add_option("--gocad", command->gocad,
-                    "The model with its blocks as regions, for GOCAD and RINGMesh")
-        ->type_name("FILE.ml");
-    app->add_option("--lines", command->lines,
-                    "The lines of the model as PLine of GOCAD: cutoffs, free borders, ...")
-        ->type_name("FILE.pl");
+    add_value(*app, "--parts", command->part_format, "FORMAT",
+              "Format of blocks and interfaces: vtp, obj, ts, ply, off, stl, msh, msh22, "
+              "inp, mesh, poly, smesh, a file of each; auto: vtp, and if they are more than "
+              "1000, one file for all blocks and one for all interfaces (default: auto)")
+        ->check(one_of(part_formats()));
+    add_value(*app, "--relations", command->relations, "FILE.csv",
+              "Which surface stops at, crosses or ends near which other one, as a table");
+    add_value(*app, "--juxtaposition", command->juxtaposition, "FILE.csv",
+              "Which blocks face each other across which surface, as a table");
+    add_value(*app, "--gocad", command->gocad, "FILE.ml",
+              "The model with its blocks as regions, for GOCAD and RINGMesh");
+    add_value(*app, "--lines", command->lines, "FILE.pl",
+              "The lines of the model as PLine of GOCAD: cutoffs, free borders, ...");
     add_cells(*app, command->cells);
     add_certificate(*app, command->model.proof.certificate);
     add_arranging(*app, command->model);
@@ -263,8 +225,7 @@ Command volume_command(CLI::App& program) {
     app->footer(volume_footer);
     return {app, [command] {
                 Session session(command->model.files.threads);
-                const auto status = find_blocks(*command, session);
-                return status ? status.value() : fail(status.error());
+                return find_blocks(*command, session);
             }};
 }
 

@@ -20,6 +20,7 @@
 #include <terrane/algorithms/tiles/tiled_arrangement.hpp>
 #include <terrane/cli/mpi/agreement.hpp>
 #include <terrane/cli/mpi/mpi_supersteps.hpp>
+#include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/command_table.hpp>
 #include <terrane/cli/options/manual.hpp>
 #include <terrane/cli/options/output_options.hpp>
@@ -129,16 +130,15 @@ void declare(CLI::App& program, MpiCommand& command) {
     auto* arrange = program.add_subcommand(
         "arrange", "Make one conforming mesh of surfaces that cross, in pieces");
     arrange->footer(mpi_footer);
-    arrange->add_option("IN", command.inputs, "Files with surfaces")->required()->type_name("FILE");
-    arrange->add_option("-o,--output", command.output, "File that names the pieces")
-        ->required()
-        ->type_name("OUT.pvtp");
+    add_value(*arrange, "IN", command.inputs, "FILE", "Files with surfaces")->required();
+    add_value(*arrange, "-o,--output", command.output, "OUT.pvtp", "File that names the pieces")
+        ->required();
     arrange->add_flag("--digest", command.digest, "Say the digest of the exact result");
     arrange->add_flag("--volumes", command.volumes,
                       "Find the volumes that the surfaces enclose, and tell those on both sides of "
                       "each triangle");
-    arrange->add_option("--stats", command.stats, "Write counts of work and messages as JSON")
-        ->type_name("FILE.json");
+    add_value(*arrange, "--stats", command.stats, "FILE.json",
+              "Write counts of work and messages as JSON");
     add_output_options(*arrange);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Words that an option takes. They are kept in the name of a validator of CLI11, where completion and
-// manual pages find them.
+// Options with values, and the words that they take. These are kept in the name of a validator of CLI11, where
+// completion and manual pages find them.
 #pragma once
 
 #include <string>
@@ -10,6 +10,13 @@
 #include <CLI/CLI.hpp>
 
 namespace terrane::cli {
+
+/// Adds an option, or an argument, whose value --help calls `placeholder`.
+template <class T>
+CLI::Option* add_value(CLI::App& app, const std::string& name, T& value,
+                       const std::string& placeholder, const std::string& help) {
+    return app.add_option(name, value, help)->type_name(placeholder);
+}
 
 /// Checks that a value is one of the words, and lists them.
 CLI::Validator one_of(const std::vector<std::string>& words);

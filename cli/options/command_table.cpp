@@ -118,20 +118,8 @@ std::vector<CLI::App*> commands_of(const CLI::App& app) {
 
 CommandRow row_of(CLI::App& command) {
     CommandRow row{command.get_name(), command.get_description(), command.get_footer(), {}};
-    const auto inner = commands_of(command);
-    if (!inner.empty()) {
-        OptionRow names;
-        names.position = names.placeholder = "COMMAND";
-        names.kind = ValueKind::choice;
-        names.required = true;
-        for (const CLI::App* app : inner) names.words.push_back(app->get_name());
-        names.description = inner.front()->get_description();
-        row.options.push_back(names);
-        row.footer = inner.front()->get_footer();
-    }
-    for (CLI::App* app : inner.empty() ? std::vector<CLI::App*>{&command} : inner)
-        for (CLI::Option* option : app->get_options())
-            row.options.push_back(row_of(*option, command.get_name()));
+    for (CLI::Option* option : command.get_options())
+        row.options.push_back(row_of(*option, command.get_name()));
     return row;
 }
 

@@ -34,8 +34,7 @@ struct CommandRow {
     std::vector<OptionRow> options;        ///< in the order of --help
 };
 
-/// Returns the commands in the order of --help. The arguments of a command of a command ("bench
-/// paper") are in the row of the outer one, after a positional argument that names the inner ones.
+/// Returns the commands in the order of --help.
 std::vector<CommandRow> command_table(const CLI::App& program);
 
 /// Returns the rows of positional arguments, or of options.

@@ -11,7 +11,9 @@
 #include <CLI/CLI.hpp>
 
 #include <terrane/algorithms/core/fields.hpp>
-#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/must.hpp>
+
+#include <terrane/cli/options/choices.hpp>
 
 namespace terrane::cli {
 
@@ -32,14 +34,12 @@ void add_fields(CLI::App& app, Options& options) {
             if constexpr (std::is_same_v<T, bool>)
                 app.add_flag(name, value, help_of(field));
             else if constexpr (std::is_arithmetic_v<T>)
-                app.add_option(name, value,
-                               help_of(field) + " (default: " +
-                                   default_of(field, static_cast<double>(value)) + ")")
-                    ->type_name(std::string(field.placeholder));
+                add_value(app, name, value, std::string(field.placeholder),
+                          help_of(field) +
+                              " (default: " + default_of(field, static_cast<double>(value)) + ")");
             else if constexpr (std::is_same_v<T, std::optional<double>>)
-                app.add_option(name, value,
-                               help_of(field) + " (default: " + std::string(field.otherwise) + ")")
-                    ->type_name(std::string(field.placeholder));
+                add_value(app, name, value, std::string(field.placeholder),
+                          help_of(field) + " (default: " + std::string(field.otherwise) + ")");
         },
         options);
 }
@@ -49,7 +49,7 @@ std::optional<double> number_given(const CLI::App& app, const std::string& optio
 
 /// Refuses numbers of described options that can't be meant, before anything is read.
 template <class Options>
-Status check_fields(const CLI::App& app) {
+void check_fields(const CLI::App& app) {
     std::optional<Error> wrong;
     const Options options{};
     Options::describe(
@@ -60,8 +60,7 @@ Status check_fields(const CLI::App& app) {
                 wrong = Error{ErrorCode::bad_option, *std::move(flaw), name};
         },
         options);
-    if (wrong) return *std::move(wrong);
-    return Done{};
+    if (wrong) throw Failure{*std::move(wrong)};
 }
 
 } // namespace terrane::cli

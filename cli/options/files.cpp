@@ -25,17 +25,16 @@ namespace {
 
 constexpr unsigned most_threads = 1024;
 
-Result<Format> format_of_output(const FileOptions& options, const std::string& path) {
+Format format_of_output(const FileOptions& options, const std::string& path) {
     const std::string& named = !options.output_format.empty() ? options.output_format
                                : path == "-"                  ? options.format
                                                               : std::string();
     const auto format = named.empty() ? format_of(path) : format_named(named);
     if (format == Format::msh && options.msh == "2.2") return Format::msh22;
     if (format) return *format;
-    if (!named.empty()) return Error{ErrorCode::unknown_format, "unknown format " + named, ""};
-    if (path == "-") return usage("the format must be given: --format FORMAT", "standard output");
-    return Error{ErrorCode::unknown_format, "no format that can be written has this extension",
-                 path};
+    if (!named.empty()) refuse(ErrorCode::unknown_format, "unknown format " + named, "");
+    if (path == "-") refuse("the format must be given: --format FORMAT", "standard output");
+    refuse(ErrorCode::unknown_format, "no format that can be written has this extension", path);
 }
 
 std::optional<Format> format_of_input(const FileOptions& options, const std::string& path) {
@@ -48,32 +47,28 @@ bool fits(Format format, OutputKind kind) {
     return holds_surfaces(format) || holds_outlines(format);
 }
 
-Status check_streams(const FileOptions& options) {
+void check_streams(const FileOptions& options) {
     const auto dashes = [](const std::vector<std::string>& names) {
         return std::count(names.begin(), names.end(), "-");
     };
-    if (dashes(options.inputs) > 1) return usage("standard input can be read only once");
+    if (dashes(options.inputs) > 1) refuse("standard input can be read only once");
     if (dashes(options.outputs) + (options.stats == "-" ? 1 : 0) + (options.report == "-" ? 1 : 0) >
         1)
-        return usage("standard output can take only one file");
+        refuse("standard output can take only one file");
     if (dashes(options.inputs) == 1 && options.format.empty() && options.input_format.empty())
-        return usage("the format must be given: --format FORMAT", "standard input");
+        refuse("the format must be given: --format FORMAT", "standard input");
     if (!options.format.empty() && !format_named(options.format))
-        return Error{ErrorCode::unknown_format, "unknown format " + options.format, ""};
+        refuse(ErrorCode::unknown_format, "unknown format " + options.format, "");
     if (!options.input_format.empty() && !format_named(options.input_format))
-        return Error{ErrorCode::unknown_format, "unknown format " + options.input_format, ""};
-    return Done{};
+        refuse(ErrorCode::unknown_format, "unknown format " + options.input_format, "");
 }
 
 /// Refuses what writing would refuse, before any work is done.
-Status check_tetrahedra(const FileOptions& options, const std::string& path, Format format) {
+void check_tetrahedra(const FileOptions& options, const std::string& path, Format format) {
     if (path == "-" && has_several_files(format))
-        return Error{ErrorCode::bad_option,
-                     "in this format tetrahedra are several files: name the first",
-                     "standard output"};
+        refuse("in this format tetrahedra are several files: name the first", "standard output");
     if (options.order == 2 && !holds_second_order(format))
-        return Error{ErrorCode::unsupported, "this format has no tetrahedra of second order", path};
-    return Done{};
+        refuse(ErrorCode::unsupported, "this format has no tetrahedra of second order", path);
 }
 
 /// Writes by write(mesh, path, options), and shows that at a terminal.
@@ -83,25 +78,21 @@ auto write_with(const AnyMesh& mesh, const Output& output, WriteOptions options,
     const bool to_stream = output.path == "-"; // among which no progress may be
     session.begin(to_stream ? "" : "write", to_stream ? Phase::idle : Phase::writing);
     options.format = output.format;
-    auto status = write(mesh, output.path, options);
+    auto written = must(write(mesh, output.path, options));
     session.end_stage();
-    return status;
+    return written;
 }
 
 } // namespace
 
-Error usage(std::string sentence, std::string place) {
-    return {ErrorCode::bad_option, std::move(sentence), std::move(place)};
-}
-
 // Checks the folder before the work starts, as a missing one would otherwise show only at the end.
-Status check_folder(const std::string& path) {
-    if (path == "-") return Done{};
+void check_folder(const std::string& path) {
+    if (path == "-") return;
     const auto parent_of = [](const fs::path& file) {
         return file.has_parent_path() ? file.parent_path() : fs::path(".");
     };
     const auto refused = [&](std::string sentence) {
-        return Error{ErrorCode::cannot_open, std::move(sentence), path};
+        refuse(ErrorCode::cannot_open, std::move(sentence), path);
     };
     std::error_code failed;
     if (const auto folder = parent_of(path); !fs::is_directory(folder, failed))
@@ -118,40 +109,30 @@ Status check_folder(const std::string& path) {
     const bool beside = there == fs::file_type::not_found || there == fs::file_type::regular;
     if (beside && access(folder.c_str(), W_OK) != 0) // the new file is made in the same folder
         return refused("nothing can be written in this folder");
-    return Done{};
 }
 
 void add_inputs(CLI::App& command, FileOptions& options) {
-    command.add_option("IN", options.inputs, "Files with surfaces; - is standard input")
-        ->required()
-        ->type_name("FILE");
-    command
-        .add_option("--format", options.format,
-                    "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, vtu, vtk, msh, inp, "
-                    "mesh, poly, smesh")
-        ->type_name("FORMAT");
+    add_value(command, "IN", options.inputs, "FILE", "Files with surfaces; - is standard input")
+        ->required();
+    add_value(command, "--format", options.format, "FORMAT",
+              "Format of whatever is -: ts, ml, obj, off, stl, ply, vtp, vtu, vtk, msh, inp, "
+              "mesh, poly, smesh");
     add_reading(command, options);
     add_strict(command, options);
 }
 
 void add_reading(CLI::App& command, FileOptions& options) {
-    command
-        .add_option("--input-format", options.input_format,
-                    "Format of IN, where its extension does not tell; of grids and points: irap, "
-                    "zmap, cps3, asc, xyz, vs, sticks")
-        ->type_name("FORMAT");
+    add_value(command, "--input-format", options.input_format, "FORMAT",
+              "Format of IN, where its extension does not tell; of grids and points: irap, "
+              "zmap, cps3, asc, xyz, vs, sticks");
     command.add_flag("--depth", options.read.depth,
                      "Grids and points: heights are depths, positive down");
-    command
-        .add_option("--max-edge", options.read.max_edge,
-                    "Points: triangles with longer edges are left out (default: twice the median)")
-        ->check(CLI::PositiveNumber.description(""))
-        ->type_name("LENGTH");
-    command
-        .add_option("--unit", options.read.unit,
-                    "Convert what has a stated unit: m, km, cm, ft, ftUS (default: as it is)")
-        ->check(one_of({"m", "km", "cm", "ft", "ftUS"}))
-        ->type_name("UNIT");
+    add_value(command, "--max-edge", options.read.max_edge, "LENGTH",
+              "Points: triangles with longer edges are left out (default: twice the median)")
+        ->check(CLI::PositiveNumber.description(""));
+    add_value(command, "--unit", options.read.unit, "UNIT",
+              "Convert what has a stated unit: m, km, cm, ft, ftUS (default: as it is)")
+        ->check(one_of({"m", "km", "cm", "ft", "ftUS"}));
 }
 
 void add_strict(CLI::App& command, FileOptions& options) {
@@ -159,53 +140,45 @@ void add_strict(CLI::App& command, FileOptions& options) {
 }
 
 void add_output(CLI::App& command, FileOptions& options, const char* help) {
-    command.add_option("-o,--output", options.outputs, help)
+    add_value(command, "-o,--output", options.outputs, "OUT", help)
         ->required()
-        ->allow_extra_args(false)
-        ->type_name("OUT");
-    command
-        .add_option("--output-format", options.output_format,
-                    "Format of OUT, where its extension does not tell")
-        ->type_name("FORMAT");
+        ->allow_extra_args(false);
+    add_value(command, "--output-format", options.output_format, "FORMAT",
+              "Format of OUT, where its extension does not tell");
 }
 
 void add_msh(CLI::App& command, FileOptions& options) {
-    command.add_option("--msh", options.msh, "Version of .msh files: 4.1 or 2.2 (default: 4.1)")
-        ->check(one_of({"4.1", "2.2"}))
-        ->type_name("VERSION");
+    add_value(command, "--msh", options.msh, "VERSION",
+              "Version of .msh files: 4.1 or 2.2 (default: 4.1)")
+        ->check(one_of({"4.1", "2.2"}));
 }
 
 void add_order(CLI::App& command, FileOptions& options) {
-    command
-        .add_option("--order", options.order,
-                    "Order of tetrahedra in files: 2 has a node in the middle of each edge "
-                    "(default: 1)")
-        ->check(CLI::Range(1U, 2U).description(""))
-        ->type_name("ORDER");
+    add_value(command, "--order", options.order, "ORDER",
+              "Order of tetrahedra in files: 2 has a node in the middle of each edge "
+              "(default: 1)")
+        ->check(CLI::Range(1U, 2U).description(""));
 }
 
 void add_threads(CLI::App& command, FileOptions& options) {
-    command
-        .add_option("--threads", options.threads,
-                    "How many threads to use; the result is the same (default: 0, all cores)")
-        ->check(CLI::Range(0U, most_threads).description(""))
-        ->type_name("N");
+    add_value(command, "--threads", options.threads, "N",
+              "How many threads to use; the result is the same (default: 0, all cores)")
+        ->check(CLI::Range(0U, most_threads).description(""));
 }
 
 void add_stats(CLI::App& command, FileOptions& options) {
-    command.add_option("--stats", options.stats, "Write counts, times and memory as JSON")
-        ->type_name("FILE.json");
+    add_value(command, "--stats", options.stats, "FILE.json",
+              "Write counts, times and memory as JSON");
 }
 
 void add_report(CLI::App& command, FileOptions& options) {
     options.app = &command;
-    command
-        .add_option("--report", options.report, "Write a page to look at: the model and its flaws")
-        ->type_name("FILE.html");
+    add_value(command, "--report", options.report, "FILE.html",
+              "Write a page to look at: the model and its flaws");
 }
 
 /// Refuses options that say how files are read or written where there is no such file.
-Status check_use(const FileOptions& options, const std::vector<Output>& outputs) {
+void check_use(const FileOptions& options, const std::vector<Output>& outputs) {
     const auto writes = [&outputs](Format format) {
         return std::any_of(outputs.begin(), outputs.end(),
                            [format](const Output& o) { return o.format == format; });
@@ -214,62 +187,52 @@ Status check_use(const FileOptions& options, const std::vector<Output>& outputs)
         return std::find(names.begin(), names.end(), "-") != names.end();
     };
     if (options.ascii && !writes(Format::stl))
-        return usage("is for STL files, and none is written", "--ascii");
+        refuse("is for STL files, and none is written", "--ascii");
     if (!options.msh.empty() && !writes(Format::msh) && !writes(Format::msh22))
-        return usage("is for .msh files, and none is written", "--msh");
+        refuse("is for .msh files, and none is written", "--msh");
     if (!options.format.empty() && !is_stream(options.inputs) && !is_stream(options.outputs))
-        return usage("is the format of -, and no file is -", "--format");
-    return Done{};
+        refuse("is the format of -, and no file is -", "--format");
 }
 
-Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind kind) {
-    if (const auto status = check_streams(options); !status) return status.error();
+std::vector<Output> plan_outputs(const FileOptions& options, OutputKind kind) {
+    check_streams(options);
     std::vector<Output> outputs;
     for (const auto& path : options.outputs) {
         const auto format = format_of_output(options, path);
-        if (!format) return format.error();
-        if (!fits(format.value(), kind))
-            return Error{ErrorCode::unsupported,
-                         kind == OutputKind::surfaces
-                             ? holds_tetrahedra(format.value())
-                                   ? "this format is for tetrahedra, not for surfaces"
-                                   : "this format is read, not written"
-                             : "tetrahedra are written as .vtu, .msh, .inp, .mesh, .exo or .ugi, "
-                               "and by --output-format as ogs, geos or pylith",
-                         path};
-        if (kind == OutputKind::tetrahedra)
-            if (auto sound = check_tetrahedra(options, path, format.value()); !sound)
-                return sound.error();
-        if (const auto folder = check_folder(path); !folder) return folder.error();
-        outputs.push_back({path, format.value()});
+        if (!fits(format, kind))
+            refuse(ErrorCode::unsupported,
+                   kind == OutputKind::surfaces
+                       ? holds_tetrahedra(format)
+                             ? "this format is for tetrahedra, not for surfaces"
+                             : "this format is read, not written"
+                       : "tetrahedra are written as .vtu, .msh, .inp, .mesh, .exo or .ugi, "
+                         "and by --output-format as ogs, geos or pylith",
+                   path);
+        if (kind == OutputKind::tetrahedra) check_tetrahedra(options, path, format);
+        check_folder(path);
+        outputs.push_back({path, format});
     }
-    if (!options.stats.empty())
-        if (const auto folder = check_folder(options.stats); !folder) return folder.error();
-    if (const auto used = check_use(options, outputs); !used) return used.error();
+    if (!options.stats.empty()) check_folder(options.stats);
+    check_use(options, outputs);
     return outputs;
 }
 
-Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
+Inputs read_inputs(const FileOptions& options, Session& session) {
     const StageTimer timer(session.run(), "read");
     std::vector<std::optional<Format>> formats;
     for (const auto& path : options.inputs) {
         const auto named = format_of_input(options, path);
         formats.push_back(named ? named : format_of(path));
     }
-    if (const auto sound = check_reading(formats, options.read, {"--depth", "--max-edge"}); !sound)
-        return sound.error();
+    must(check_reading(formats, options.read, {"--depth", "--max-edge"}));
     Inputs all;
     session.begin("read", Phase::idle);
     for (const auto& path : options.inputs) {
-        auto read = read_surfaces(path, format_of_input(options, path), options.read);
-        if (!read) {
-            session.end_stage();
-            return read.error();
-        }
-        all.surfaces_of_file.push_back(read.value().size());
+        auto read = must(read_surfaces(path, format_of_input(options, path), options.read));
+        all.surfaces_of_file.push_back(read.size());
         append_stated_blocks(read_stated_blocks(path, format_of_input(options, path)),
                              all.surfaces.size(), all.stated_blocks);
-        for (Surface& s : read.value()) {
+        for (Surface& s : read) {
             all.vertices += s.vertices.size();
             all.triangles += s.triangles.size();
             all.surfaces.push_back(std::move(s));
@@ -278,7 +241,7 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
     }
     session.end_stage();
     if (std::max(all.vertices, all.triangles) >= UINT32_MAX)
-        return Error{ErrorCode::unsupported, "more than 4294967294 vertices or triangles", ""};
+        refuse(ErrorCode::unsupported, "more than 4294967294 vertices or triangles", "");
     describe(all.surfaces, all);
     all.statistics_wanted = !options.stats.empty();
     all.strict = options.strict;
@@ -300,13 +263,12 @@ std::string name_of_inputs(const FileOptions& options) {
     return others == 0 ? name : fmt::format("{} and {}", name, counted(others, "more file"));
 }
 
-Status write_output(const Mesh& mesh, const Output& output, WriteOptions options,
-                    Session& session) {
-    return write_with(mesh, output, options, session, write_mesh);
+void write_output(const Mesh& mesh, const Output& output, WriteOptions options, Session& session) {
+    write_with(mesh, output, options, session, write_mesh);
 }
 
-Result<std::vector<fs::path>> write_output(const TetrahedralMesh& mesh, const Output& output,
-                                           WriteOptions options, Session& session) {
+std::vector<fs::path> write_output(const TetrahedralMesh& mesh, const Output& output,
+                                   WriteOptions options, Session& session) {
     return write_with(mesh, output, options, session, write_tetrahedra_files);
 }
 

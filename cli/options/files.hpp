@@ -12,7 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/must.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/cli/session/quantities.hpp>
@@ -59,18 +59,14 @@ struct Output {
 
 enum class OutputKind { surfaces, tetrahedra };
 
-/// Makes a bad_option error: `sentence` names the flaw of the call, `place` is the option or
-/// file.
-Error usage(std::string sentence, std::string place = {});
-
 /// Checks the output names before any work is done and finds the format of each. Errors: bad_option
 /// for a standard stream used twice or without a format; unknown_format; unsupported for a format
 /// that can't hold the kind of mesh, or its order; cannot_open for a missing folder.
-Result<std::vector<Output>> plan_outputs(const FileOptions& options, OutputKind kind);
+std::vector<Output> plan_outputs(const FileOptions& options, OutputKind kind);
 
 /// Returns cannot_open if the file can't be written: its folder is missing or not writable, or it
 /// is a folder.
-Status check_folder(const std::string& path);
+void check_folder(const std::string& path);
 
 struct Inputs {
     std::vector<Surface> surfaces;
@@ -89,7 +85,7 @@ struct Inputs {
 
 /// Reads all inputs. Errors: those of read_surfaces; interrupted; unsupported if 32 bits can't
 /// count all vertices or triangles.
-Result<Inputs> read_inputs(const FileOptions& options, Session& session);
+Inputs read_inputs(const FileOptions& options, Session& session);
 
 /// Sets the labels, the unit and the extent of the inputs by their surfaces.
 void describe(std::span<const Surface> surfaces, Inputs& inputs);
@@ -99,10 +95,9 @@ std::string name_of_inputs(const FileOptions& options);
 
 /// Writes the mesh with `options`, but in the format of `output`; of tetrahedra it returns the files.
 /// Errors: those of write_mesh and write_tetrahedra.
-Status write_output(const Mesh& mesh, const Output& output, WriteOptions options, Session& session);
-Result<std::vector<std::filesystem::path>> write_output(const TetrahedralMesh& mesh,
-                                                        const Output& output, WriteOptions options,
-                                                        Session& session);
+void write_output(const Mesh& mesh, const Output& output, WriteOptions options, Session& session);
+std::vector<std::filesystem::path> write_output(const TetrahedralMesh& mesh, const Output& output,
+                                                WriteOptions options, Session& session);
 
 /// Returns a clause that names what an output lacks although its format could hold it: the regions
 /// of a model in a .ml file. It is empty for an output that lacks nothing.

@@ -24,7 +24,6 @@ void add_output_options(CLI::App& command) {
 OutputSettings output_settings(const CLI::App& program) {
     OutputSettings settings;
     for (const CLI::App* command : program.get_subcommands()) {
-        settings = output_settings(*command); // of "bench paper", say
         if (const auto* quiet = command->get_option_no_throw(quiet_option))
             settings.quiet |= quiet->count() > 0;
         const auto* colours = command->get_option_no_throw(colour_option);

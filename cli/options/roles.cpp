@@ -7,18 +7,18 @@
 #include <system_error>
 
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/cli/options/choices.hpp>
 
 namespace terrane::cli {
 namespace {
 
-Status set_role(const std::string& text, Inputs& inputs) {
+void set_role(const std::string& text, Inputs& inputs) {
     static const std::map<std::string, Role> roles{
         {"horizon", Role::horizon}, {"fault", Role::fault}, {"boundary", Role::boundary}};
     const auto at = text.rfind('=');
     const auto role = at == std::string::npos ? roles.end() : roles.find(text.substr(at + 1));
     if (role == roles.end())
-        return Error{ErrorCode::bad_option,
-                     "needs NAME=ROLE, with horizon, fault or boundary: " + text, "--role"};
+        refuse("needs NAME=ROLE, with horizon, fault or boundary: " + text, "--role");
     const std::string name = text.substr(0, at);
     bool found = false;
     for (std::size_t s = 0; s < inputs.surfaces.size(); ++s) {
@@ -26,24 +26,20 @@ Status set_role(const std::string& text, Inputs& inputs) {
         inputs.surfaces[s].role = role->second;
         found = true;
     }
-    if (found) return Done{};
-    return Error{ErrorCode::bad_option, not_called("surface", name, inputs.labels), "--role"};
+    if (found) return;
+    refuse(not_called("surface", name, inputs.labels), "--role");
 }
 
 } // namespace
 
 void add_roles(CLI::App& command, std::vector<std::string>& roles) {
-    command
-        .add_option("--role", roles,
-                    "What a surface is: horizon, fault or boundary; may be repeated")
-        ->allow_extra_args(false)
-        ->type_name("NAME=ROLE");
+    add_value(command, "--role", roles, "NAME=ROLE",
+              "What a surface is: horizon, fault or boundary; may be repeated")
+        ->allow_extra_args(false);
 }
 
-Status set_roles(const std::vector<std::string>& roles, Inputs& inputs) {
-    for (const std::string& role : roles)
-        if (auto set = set_role(role, inputs); !set) return set;
-    return Done{};
+void set_roles(const std::vector<std::string>& roles, Inputs& inputs) {
+    for (const std::string& role : roles) set_role(role, inputs);
 }
 
 std::optional<double> parse_number(std::string_view text) {
@@ -60,6 +56,27 @@ std::optional<ProjectSize> parse_named_length(std::string_view text) {
     const auto length = parse_number(text.substr(at + 1));
     if (!length) return std::nullopt;
     return ProjectSize(text.substr(0, at), *length);
+}
+
+ProjectSize positive_named_length(std::string_view text, const char* option) {
+    const auto named = parse_named_length(text);
+    if (!named || !(named->second > 0))
+        refuse("needs NAME=L, with a positive length: " + std::string(text), option);
+    return *named;
+}
+
+std::optional<std::vector<double>> numbers_in(std::string_view text) {
+    std::vector<double> numbers;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (true) {
+        if (at != end && *at == '+') ++at;
+        const auto [after, failed] = std::from_chars(at, end, numbers.emplace_back());
+        if (failed != std::errc()) return std::nullopt;
+        if (after == end) return numbers;
+        if (*after != ',') return std::nullopt;
+        at = after + 1;
+    }
 }
 
 } // namespace terrane::cli

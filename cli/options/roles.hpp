@@ -20,12 +20,18 @@ namespace terrane::cli {
 void add_roles(CLI::App& command, std::vector<std::string>& roles);
 
 /// Sets the roles given as NAME=ROLE. Errors: bad_option.
-Status set_roles(const std::vector<std::string>& roles, Inputs& inputs);
+void set_roles(const std::vector<std::string>& roles, Inputs& inputs);
 
 /// Reads a finite number that takes up the whole text, in no locale.
 std::optional<double> parse_number(std::string_view text);
 
 /// Reads a length for a surface or block, NAME=L, split at the last '='.
 std::optional<ProjectSize> parse_named_length(std::string_view text);
+
+/// Reads NAME=L with a positive length, or refuses it.
+ProjectSize positive_named_length(std::string_view text, const char* option);
+
+/// Reads numbers separated by commas; returns none for anything else.
+std::optional<std::vector<double>> numbers_in(std::string_view text);
 
 } // namespace terrane::cli

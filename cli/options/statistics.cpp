@@ -96,11 +96,11 @@ Json seconds_json(const Session& session) {
     return json;
 }
 
-Status write_statistics(Json json, const std::string& path, const Session& session) {
-    if (path.empty()) return Done{};
+void write_statistics(Json json, const std::string& path, const Session& session) {
+    if (path.empty()) return;
     json["seconds"] = seconds_json(session);
     json["peak_rss_mb"] = peak_memory();
-    return write_file(path, text_of(json));
+    must(write_file(path, text_of(json)));
 }
 
 std::string text_of(const Json& json) {

@@ -32,7 +32,7 @@ void add_constants(Json& json, const char* stage, std::span<const NamedConstant>
 /// Returns the seconds of the stages that have ended, and of the whole run so far.
 Json seconds_json(const Session& session);
 /// Adds these seconds and the peak memory, and writes the document; does nothing for an empty path.
-Status write_statistics(Json json, const std::string& path, const Session& session);
+void write_statistics(Json json, const std::string& path, const Session& session);
 
 /// Returns the peak resident memory of the process in MiB.
 double peak_memory();

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -13,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include <terrane/cli/options/choices.hpp>
+#include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/quantities.hpp>
 #include <terrane/cli/session/text_width.hpp>
@@ -25,51 +26,36 @@ namespace {
 constexpr std::size_t most_surfaces_cut = 40; ///< printed
 constexpr std::size_t most_borders = 20;
 
-/// Parses numbers separated by commas; returns none for anything else.
-std::optional<std::vector<double>> numbers_in(std::string_view text) {
-    std::vector<double> numbers;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (true) {
-        if (at != end && *at == '+') ++at;
-        const auto [after, failed] = std::from_chars(at, end, numbers.emplace_back());
-        if (failed != std::errc()) return std::nullopt;
-        if (after == end) return numbers;
-        if (*after != ',') return std::nullopt;
-        at = after + 1;
-    }
-}
-
-Result<std::vector<Point2>> read_polygon(const std::string& path) {
+std::vector<Point2> read_polygon(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file)
-        return Error{ErrorCode::cannot_open, "is neither numbers x,y,x,y,... nor a file: " + path,
-                     "--polygon"};
+        refuse(ErrorCode::cannot_open, "is neither numbers x,y,x,y,... nor a file: " + path,
+               "--polygon");
     const std::string text{std::istreambuf_iterator<char>(file), {}};
-    return read_outline(text, path);
+    return must(read_outline(text, path));
 }
 
-Result<std::vector<Point2>> polygon_of(const std::string& text) {
+std::vector<Point2> polygon_of(const std::string& text) {
     const auto numbers = numbers_in(text);
     if (!numbers) return read_polygon(text);
-    if (numbers->size() % 2 != 0) return usage("needs pairs of numbers: x,y,x,y,...", "--polygon");
+    if (numbers->size() % 2 != 0) refuse("needs pairs of numbers: x,y,x,y,...", "--polygon");
     std::vector<Point2> corners;
     for (std::size_t i = 0; i < numbers->size(); i += 2)
         corners.push_back({(*numbers)[i], (*numbers)[i + 1]});
     return corners;
 }
 
-Result<ProjectVolume> box_of(const std::string& text) {
+ProjectVolume box_of(const std::string& text) {
     const auto n = numbers_in(text);
-    if (!n || n->size() != 6) return usage("needs six numbers: x0,y0,z0,x1,y1,z1", "--box");
-    return ProjectVolume(ProjectBox{{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]}});
+    if (!n || n->size() != 6) refuse("needs six numbers: x0,y0,z0,x1,y1,z1", "--box");
+    return ProjectBox{{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]}};
 }
 
-Result<ProjectVolume> rotated_box_of(const VolumeOptions& options) {
+ProjectVolume rotated_box_of(const VolumeOptions& options) {
     const auto n = numbers_in(options.rotated_box);
     if (!n || (n->size() != 7 && n->size() != 9))
-        return usage("needs seven or nine numbers: x,y,z,across,along,up,azimuth[,plunge,roll]",
-                     "--rotated-box");
+        refuse("needs seven or nine numbers: x,y,z,across,along,up,azimuth[,plunge,roll]",
+               "--rotated-box");
     RotatedBox box;
     box.place = {(*n)[0], (*n)[1], (*n)[2]};
     box.is_corner = options.corner;
@@ -79,57 +65,44 @@ Result<ProjectVolume> rotated_box_of(const VolumeOptions& options) {
         box.plunge = (*n)[7];
         box.roll = (*n)[8];
     }
-    return ProjectVolume(box);
+    return box;
 }
 
-Result<ProjectVolume> prism_of(const VolumeOptions& options) {
+ProjectVolume prism_of(const VolumeOptions& options) {
     const auto depths = numbers_in(options.between);
-    if (!depths || depths->size() != 2) return usage("needs two numbers: z0,z1", "--between");
-    auto corners = polygon_of(options.polygon);
-    if (!corners) return corners.error();
-    return ProjectVolume(ProjectPolygon{*std::move(corners), {(*depths)[0], (*depths)[1]}});
+    if (!depths || depths->size() != 2) refuse("needs two numbers: z0,z1", "--between");
+    return ProjectPolygon{polygon_of(options.polygon), {(*depths)[0], (*depths)[1]}};
 }
 
 } // namespace
 
 void add_volume_options(CLI::App& command, VolumeOptions& options) {
     const std::string group = "Volume of interest";
-    command
-        .add_option("--box", options.box,
-                    "Cut all surfaces by this box, and keep the inside: x0,y0,z0,x1,y1,z1")
-        ->type_name("BOX")
+    add_value(command, "--box", options.box, "BOX",
+              "Cut all surfaces by this box, and keep the inside: x0,y0,z0,x1,y1,z1")
         ->group(group);
-    command
-        .add_option("--rotated-box", options.rotated_box,
-                    "The same for a box turned about its centre: x,y,z,across,along,up,azimuth "
-                    "(degrees clockwise from y, of the edges along)[,plunge,roll]")
-        ->type_name("BOX")
+    add_value(command, "--rotated-box", options.rotated_box, "BOX",
+              "The same for a box turned about its centre: x,y,z,across,along,up,azimuth "
+              "(degrees clockwise from y, of the edges along)[,plunge,roll]")
         ->group(group);
     command
         .add_flag("--corner", options.corner,
                   "Of a rotated box x,y,z is the lowest corner, not the centre")
         ->group(group);
-    command
-        .add_option("--polygon", options.polygon,
-                    "The same for a polygon between two depths: x,y,x,y,..., or a file: GeoJSON, "
-                    "a shapefile, or x and y on each line")
-        ->type_name("POLYGON")
+    add_value(command, "--polygon", options.polygon, "POLYGON",
+              "The same for a polygon between two depths: x,y,x,y,..., or a file: GeoJSON, "
+              "a shapefile, or x and y on each line")
         ->group(group);
-    command.add_option("--between", options.between, "The two depths of the polygon: z0,z1")
-        ->type_name("Z0,Z1")
+    add_value(command, "--between", options.between, "Z0,Z1",
+              "The two depths of the polygon: z0,z1")
         ->group(group);
-    command
-        .add_option("--within", options.within,
-                    "The same for a closed surface; may be repeated where it is in several files")
+    add_value(command, "--within", options.within, "FILE",
+              "The same for a closed surface; may be repeated where it is in several files")
         ->allow_extra_args(false)
-        ->type_name("FILE")
         ->group(group);
-    command
-        .add_option(
-            "--extend", options.extend,
-            "Extend surfaces that end inside, other than faults, along their tangent plane to "
-            "the boundary where it is no farther than this (default: they end inside)")
-        ->type_name("D")
+    add_value(command, "--extend", options.extend, "D",
+              "Extend surfaces that end inside, other than faults, along their tangent plane to "
+              "the boundary where it is no farther than this (default: they end inside)")
         ->group(group);
 }
 
@@ -137,38 +110,35 @@ bool is_polygon_file(const std::string& value) {
     return !numbers_in(value);
 }
 
-Status check_volume_options(const VolumeOptions& o) {
+void check_volume_options(const VolumeOptions& o) {
     const int given = int{!o.box.empty()} + int{!o.rotated_box.empty()} + int{!o.polygon.empty()} +
                       int{!o.within.empty()};
     if (given > 1)
-        return usage("only one of these can be given", "--box, --rotated-box, --polygon, --within");
+        refuse("only one of these can be given", "--box, --rotated-box, --polygon, --within");
     if (o.polygon.empty() != o.between.empty())
-        return usage("each needs the other one", "--polygon, --between");
-    if (o.extend != 0 && given == 0) return usage("needs a volume of interest", "--extend");
-    if (o.corner && o.rotated_box.empty()) return usage("needs --rotated-box", "--corner");
-    return Done{};
+        refuse("each needs the other one", "--polygon, --between");
+    if (o.extend != 0 && given == 0) refuse("needs a volume of interest", "--extend");
+    if (o.corner && o.rotated_box.empty()) refuse("needs --rotated-box", "--corner");
 }
 
-Result<ProjectVolume> volume_of(const VolumeOptions& options) {
+ProjectVolume volume_of(const VolumeOptions& options) {
     if (!options.box.empty()) return box_of(options.box);
     if (!options.rotated_box.empty()) return rotated_box_of(options);
     if (!options.polygon.empty()) return prism_of(options);
-    if (options.within.empty()) return ProjectVolume();
-    return ProjectVolume(ProjectWithin{{options.within.begin(), options.within.end()}});
+    if (options.within.empty()) return {};
+    return ProjectWithin{{options.within.begin(), options.within.end()}};
 }
 
-Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& session) {
-    const auto volume = volume_of(options);
-    if (!volume) return volume.error();
-    auto made = boundary_of(*volume, {}, session.run());
-    if (made) return made;
+std::vector<Surface> boundary_of(const VolumeOptions& options, Session& session) {
+    auto made = boundary_of(volume_of(options), {}, session.run());
+    if (made) return *std::move(made);
     Error error = made.error();
     const auto is_about = [&](const std::string& file) { return error.place.starts_with(file); };
     if (!options.within.empty() && std::ranges::none_of(options.within, is_about))
         error.sentence = "--within " + options.within.front() + ": " + error.sentence;
     if (error.code == ErrorCode::not_closed || error.code == ErrorCode::improper_contact)
         error.code = ErrorCode::bad_option; // the options are wrong, the surfaces may be good
-    return error;
+    throw Failure{error};
 }
 
 std::string text_of(const VolumeReport& report, const Inputs& inputs) {
@@ -196,27 +166,23 @@ std::string text_of(const VolumeReport& report, const Inputs& inputs) {
     if (shown > most_surfaces_cut)
         text += fmt::format("  and {} more\n", shown - most_surfaces_cut);
     if (outside > 0) text += fmt::format("  {} outside\n", counted(outside, "surface"));
-    for (std::size_t b = 0; b < std::min(report.borders.size(), most_borders); ++b)
-        text += fmt::format(
-            "  {} ends inside: along {} at {}\n", inputs.labels[report.borders[b].surface],
-            quantities.length(report.borders[b].length), quantities.place(report.borders[b].place));
-    if (report.borders.size() > most_borders)
-        text += fmt::format("  and {} more\n", report.borders.size() - most_borders);
-    return text;
+    return text + listed(report.borders, most_borders, [&](const OpenBorder& border) {
+               return fmt::format("  {} ends inside: along {} at {}\n",
+                                  inputs.labels[border.surface], quantities.length(border.length),
+                                  quantities.place(border.place));
+           });
 }
 
 std::string text_of(std::span<const ExtendedBorder> borders, const Inputs& inputs) {
     if (borders.empty()) return "extended: no surface ends inside\n";
     const Quantities quantities = inputs.quantities();
-    std::string text = "borders inside the volume, extended to its boundary or too far from it\n";
-    for (std::size_t b = 0; b < std::min(borders.size(), most_borders); ++b)
-        text +=
-            fmt::format("  {}: along {} at {}: {}\n", inputs.labels[borders[b].surface],
-                        quantities.length(borders[b].length), quantities.place(borders[b].place),
-                        borders[b].reached ? "extended" : "too far");
-    if (borders.size() > most_borders)
-        text += fmt::format("  and {} more\n", borders.size() - most_borders);
-    return text;
+    const std::string head =
+        "borders inside the volume, extended to its boundary or too far from it\n";
+    return head + listed(borders, most_borders, [&](const ExtendedBorder& border) {
+               return fmt::format("  {}: along {} at {}: {}\n", inputs.labels[border.surface],
+                                  quantities.length(border.length), quantities.place(border.place),
+                                  border.reached ? "extended" : "too far");
+           });
 }
 
 void add_statistics(Json& json, std::span<const ExtendedBorder> borders) {

@@ -38,15 +38,15 @@ void add_volume_options(CLI::App& command, VolumeOptions& options);
 bool is_polygon_file(const std::string& value);
 
 /// Checks, before any work is done, that the options fit together. Errors: bad_option.
-Status check_volume_options(const VolumeOptions& options);
+void check_volume_options(const VolumeOptions& options);
 
 /// Returns the volume of interest that the options define, if any. Errors: bad_option; those of
 /// reading a polygon.
-Result<ProjectVolume> volume_of(const VolumeOptions& options);
+ProjectVolume volume_of(const VolumeOptions& options);
 
 /// Makes its boundary. Precondition: wanted(). Errors: those of the makers (volume_of_interest.hpp) and
 /// of reading files; bad_option.
-Result<std::vector<Surface>> boundary_of(const VolumeOptions& options, Session& session);
+std::vector<Surface> boundary_of(const VolumeOptions& options, Session& session);
 
 /// Reports what the cut left of each surface, and where surfaces end inside.
 std::string text_of(const VolumeReport& report, const Inputs& inputs);

@@ -187,13 +187,11 @@ std::string offending_pairs(const Inputs& inputs, const Arranged& arranged) {
     return text;
 }
 
-Result<std::size_t> float32_flaws(const Mesh& mesh, const Run& run) {
+std::size_t float32_flaws(const Mesh& mesh, const Run& run) {
     std::vector<Surface> one(1);
     for (const Point3& p : mesh.vertices) one[0].vertices.push_back(narrowed(p));
     one[0].triangles = mesh.triangles;
-    const auto report = check(one, run);
-    if (!report) return report.error();
-    const CheckReport& r = report.value();
+    const CheckReport r = must(check(one, run));
     return r.contacts.size() + r.degenerate.size() + r.repeated.size();
 }
 

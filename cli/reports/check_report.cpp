@@ -22,12 +22,9 @@ constexpr std::array contact_kinds{ContactKind::crossing,      ContactKind::copl
 /// Lists the first of `items`, one per line, and says how many were left out.
 template <class Item, class Line>
 std::string listing(const std::vector<Item>& items, bool all, const Line& line) {
-    const auto count = all ? items.size() : std::min(items.size(), most_listed);
-    std::string text;
-    for (std::size_t i = 0; i < count; ++i) text += "  " + line(items[i]) + "\n";
-    if (count < items.size())
-        text += fmt::format("  and {} more (--all lists them)\n", items.size() - count);
-    return text;
+    return listed(
+        items, all ? items.size() : most_listed,
+        [&](const Item& item) { return "  " + line(item) + "\n"; }, " (--all lists them)");
 }
 
 std::string kinds_text(const CheckReport& r) {

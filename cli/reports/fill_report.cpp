@@ -101,13 +101,10 @@ std::string refusals_text(const FillWork& work) {
 
 std::string contacts_text(const FillWork& work, std::span<const NewContact> contacts) {
     constexpr std::size_t most_contacts = 10;
-    std::string text;
-    for (const NewContact& c : contacts.first(std::min(most_contacts, contacts.size())))
-        text += fmt::format("  {}, hole {}: {} at {}\n", work.surfaces[c.task].label, c.hole,
-                            name_of(c.kind), place_text(c.place));
-    if (contacts.size() > most_contacts)
-        text += fmt::format("  and {} more\n", contacts.size() - most_contacts);
-    return text;
+    return listed(contacts, most_contacts, [&](const NewContact& c) {
+        return fmt::format("  {}, hole {}: {} at {}\n", work.surfaces[c.task].label, c.hole,
+                           name_of(c.kind), place_text(c.place));
+    });
 }
 
 void add_statistics(Json& json, const FillWork& work) {

@@ -29,15 +29,12 @@ std::string text_of(const BlockMerge& report, const Inputs& inputs) {
     const Quantities quantities = inputs.quantities();
     auto text = fmt::format("blocks below {}: {} merged with a neighbour\n",
                             quantities.volume(report.least, 4), report.merged.size());
-    for (std::size_t i = 0; i < std::min(report.merged.size(), most_merged); ++i) {
-        const MergedBlock& m = report.merged[i];
-        text += fmt::format("  volume {}, {} thick, at {}: {} of {} removed, area {}\n",
-                            quantities.volume(m.volume, 4), quantities.length(m.thickness, 2),
-                            quantities.place(m.place), counted(m.triangles, "triangle"),
-                            names_of(m, inputs), quantities.area(m.area));
-    }
-    if (report.merged.size() > most_merged)
-        text += fmt::format("  and {} more\n", report.merged.size() - most_merged);
+    text += listed(report.merged, most_merged, [&](const MergedBlock& m) {
+        return fmt::format("  volume {}, {} thick, at {}: {} of {} removed, area {}\n",
+                           quantities.volume(m.volume, 4), quantities.length(m.thickness, 2),
+                           quantities.place(m.place), counted(m.triangles, "triangle"),
+                           names_of(m, inputs), quantities.area(m.area));
+    });
     if (report.kept > 0)
         text += fmt::format("  {} kept, with no neighbour inside of the model\n", report.kept);
     return text;

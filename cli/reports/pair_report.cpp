@@ -15,15 +15,12 @@ void add_check(CLI::App& command, PairCheckOptions& check) {
         for (const auto m : {PairCheck::bounds, PairCheck::full}) all.emplace(name_of(m), m);
         return all;
     }();
-    command
-        .add_option(
-            "--check", check.method,
-            "Which pairs of triangles of the mesh exact predicates test: bounds (those that "
-            "no proven bound clears) or full (all whose boxes overlap); the verdict is the "
-            "same (default: bounds)")
+    add_value(command, "--check", check.method, "bounds|full",
+              "Which pairs of triangles of the mesh exact predicates test: bounds (those that "
+              "no proven bound clears) or full (all whose boxes overlap); the verdict is the "
+              "same (default: bounds)")
         ->transform(CLI::Transformer(methods, CLI::ignore_case).description(""))
         ->transform(listing({"bounds", "full"}))
-        ->type_name("bounds|full")
         ->each([&check](const std::string&) {
             check.count_up_to = SIZE_MAX;
             check.most_per_triangle = UINT64_MAX;

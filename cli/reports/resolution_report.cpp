@@ -17,15 +17,6 @@ namespace {
 
 constexpr std::size_t most_lines = 20; ///< printed of each kind
 
-/// Writes the first lines of a list, and how many follow.
-template <class List, class Line>
-std::string listed(const List& list, const Line& line) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min(list.size(), most_lines); ++i) text += line(list[i]);
-    if (list.size() > most_lines) text += fmt::format("  and {} more\n", list.size() - most_lines);
-    return text;
-}
-
 std::string block_name(std::uint32_t block) {
     return block == 0 ? std::string("the outside") : fmt::format("block {}", block);
 }
@@ -54,11 +45,11 @@ std::string contacts_text(const SimplifyReport& report, const Inputs& inputs) {
     const auto verb = [](const ChangedContact& c) {
         return c.is_new ? "touch now" : "touch no more";
     };
-    auto text = listed(report.block_contacts, [&](const ChangedContact& c) {
+    auto text = listed(report.block_contacts, most_lines, [&](const ChangedContact& c) {
         return fmt::format("  {} and {} {}\n", block_name(c.between[0]), block_name(c.between[1]),
                            verb(c));
     });
-    return text + listed(report.surface_contacts, [&](const ChangedContact& c) {
+    return text + listed(report.surface_contacts, most_lines, [&](const ChangedContact& c) {
                return fmt::format("  {} and {} {}\n", inputs.labels[c.between[0]],
                                   inputs.labels[c.between[1]], verb(c));
            });
@@ -82,7 +73,7 @@ std::string text_of(const SimplifyReport& report, const Inputs& inputs) {
                         report.is_shown ? good("verified") : bad("NOT verified"),
                         quantities.length(report.max_move), quantities.length(out),
                         quantities.length(back));
-    text += listed(report.blocks,
+    text += listed(report.blocks, most_lines,
                    [&](const ChangedBlock& change) { return change_of(change, quantities); });
     text += contacts_text(report, inputs);
     for (const std::uint32_t s : report.vanished)
@@ -92,7 +83,7 @@ std::string text_of(const SimplifyReport& report, const Inputs& inputs) {
     if (report.left.empty()) return text;
     text += fmt::format("  left alone: {} ({})\n", counted(report.left.size(), "place"),
                         reasons_of(report));
-    return text + listed(report.left, [&](const LeftAlone& left) {
+    return text + listed(report.left, most_lines, [&](const LeftAlone& left) {
                return fmt::format("    {} apart at {}: {}\n", quantities.length(left.distance, 3),
                                   quantities.place(left.place), name_of(left.reason));
            });

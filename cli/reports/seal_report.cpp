@@ -50,17 +50,12 @@ std::string distances_text(const SealReport& report, const Inputs& inputs) {
 
 std::string open_text(const SealReport& report, const Inputs& inputs) {
     const Quantities quantities = inputs.quantities();
-    std::string text;
-    for (std::size_t i = 0; i < std::min(report.open.size(), most_open); ++i) {
-        const OpenGap& gap = report.open[i];
-        text += fmt::format(
+    return listed(report.open, most_open, [&](const OpenGap& gap) {
+        return fmt::format(
             "  left open: {} by {} along {}, up to {} apart at {}: {}\n", inputs.labels[gap.from],
             gap.from == gap.to ? "itself" : inputs.labels[gap.to], quantities.length(gap.length),
             quantities.length(gap.width, 2), quantities.place(gap.place), sentence_for(gap.reason));
-    }
-    if (report.open.size() > most_open)
-        text += fmt::format("  and {} more\n", report.open.size() - most_open);
-    return text;
+    });
 }
 
 } // namespace
@@ -75,16 +70,13 @@ std::string text_of(const SealReport& report, const Inputs& inputs) {
     for (const SealChange& c : report.changes) length += c.length;
     auto text = fmt::format("sealed by at most {}: {}, along {}\n", distance,
                             counted(report.changes.size(), "change"), quantities.length(length));
-    for (std::size_t i = 0; i < std::min(report.changes.size(), most_changes); ++i) {
-        const SealChange& c = report.changes[i];
-        text += fmt::format("  {} {} along {}, by up to {} at {}: {} {}\n",
-                            inputs.labels[c.surface], name_of(c.kind), quantities.length(c.length),
-                            quantities.length(c.largest, 2), quantities.place(c.place),
-                            counted(c.triangles, "triangle"),
-                            c.kind == SealKind::extended ? "more" : "less");
-    }
-    if (report.changes.size() > most_changes)
-        text += fmt::format("  and {} more\n", report.changes.size() - most_changes);
+    text += listed(report.changes, most_changes, [&](const SealChange& c) {
+        return fmt::format("  {} {} along {}, by up to {} at {}: {} {}\n", inputs.labels[c.surface],
+                           name_of(c.kind), quantities.length(c.length),
+                           quantities.length(c.largest, 2), quantities.place(c.place),
+                           counted(c.triangles, "triangle"),
+                           c.kind == SealKind::extended ? "more" : "less");
+    });
     if (report.left > 0)
         text += fmt::format("  free borders this near to another surface are left along {}\n",
                             quantities.length(report.left));

@@ -205,14 +205,12 @@ std::string verdict_text(const Judgement& judged, const std::string& name) {
         const auto& digest = judged.certificate.digest;
         return digest.empty() ? text : text + one_line(digest) + "\n";
     }
-    auto text =
-        fmt::format("{}: {} {}\n", name, bad("refuted:"), counted(violations.size(), "violation"));
-    for (std::size_t i = 0; i < violations.size() && i < most_violations; ++i)
-        text += fmt::format("  {}: {}\n", name_of(violations[i].rule),
-                            one_line(violations[i].sentence));
-    if (violations.size() > most_violations)
-        text += fmt::format("  and {} more\n", violations.size() - most_violations);
-    return text;
+    return fmt::format("{}: {} {}\n", name, bad("refuted:"),
+                       counted(violations.size(), "violation")) +
+           listed(violations, most_violations, [](const Violation& violation) {
+               return fmt::format("  {}: {}\n", name_of(violation.rule),
+                                  one_line(violation.sentence));
+           });
 }
 
 std::string verdict_json(const Judgement& judged) {

@@ -62,4 +62,14 @@ ExitStatus finish(ExitStatus status);
 /// Returns the count with its noun: "1 triangle", "2 triangles".
 std::string counted(std::size_t count, std::string_view noun);
 
+/// Returns line(item) of the first items of a list, and says how many more there are.
+template <class List, class Line>
+std::string listed(const List& list, std::size_t most, const Line& line,
+                   const std::string& rest = {}) {
+    std::string text;
+    for (std::size_t i = 0; i < list.size() && i < most; ++i) text += line(list[i]);
+    if (list.size() <= most) return text;
+    return text + "  and " + std::to_string(list.size() - most) + " more" + rest + "\n";
+}
+
 } // namespace terrane::cli

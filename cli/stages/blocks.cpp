@@ -75,20 +75,17 @@ std::string dangling_text(const Inputs& inputs, const Model& model) {
     return text.empty() ? "no surface dangles\n" : "surfaces that dangle:\n" + text;
 }
 
-std::string leak_line(const Inputs& inputs, const Leak& l) {
-    const Quantities quantities = inputs.quantities();
-    return fmt::format("  {} ends by {}: along {}, {} apart, most at {}\n", inputs.labels[l.from],
-                       l.from == l.to ? "itself" : inputs.labels[l.to], quantities.length(l.length),
-                       quantities.lengths(l.least, l.largest, 2), quantities.place(l.place));
-}
-
 std::string leak_lines(const Inputs& inputs, std::span<const Leak> leaks, const char* rest) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min(leaks.size(), most_leaks); ++i)
-        text += leak_line(inputs, leaks[i]);
-    if (leaks.size() > most_leaks)
-        text += fmt::format("  and {} more{}\n", leaks.size() - most_leaks, rest);
-    return text;
+    const Quantities quantities = inputs.quantities();
+    return listed(
+        leaks, most_leaks,
+        [&](const Leak& l) {
+            return fmt::format(
+                "  {} ends by {}: along {}, {} apart, most at {}\n", inputs.labels[l.from],
+                l.from == l.to ? "itself" : inputs.labels[l.to], quantities.length(l.length),
+                quantities.lengths(l.least, l.largest, 2), quantities.place(l.place));
+        },
+        rest);
 }
 
 /// Lists the leaks that separate blocks, counts the harmless ones, and returns the others.
@@ -149,14 +146,13 @@ void add_statistics(Json& json, const Model& model) {
                        {"free_borders", model.borders.size()}};
 }
 
-Result<std::optional<LeakAdvice>> judge_leaks(const Arranged& arranged, const Model& model,
-                                              Session& session) {
-    if (arranged.sealed || model.borders.empty()) return std::optional<LeakAdvice>();
+std::optional<LeakAdvice> judge_leaks(const Arranged& arranged, const Model& model,
+                                      Session& session) {
+    if (arranged.sealed || model.borders.empty()) return std::nullopt;
     session.begin("leaks", Phase::computing);
     auto advice = judge_leaks(arranged, model.borders, {}, session.run());
     session.end_stage();
-    if (!advice) return advice.error();
-    return std::optional(std::move(*advice));
+    return advice ? std::optional(*std::move(advice)) : std::nullopt;
 }
 
 std::string model_text(const Inputs& inputs, const Model& model,

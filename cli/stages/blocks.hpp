@@ -16,10 +16,9 @@ namespace terrane::cli {
 /// Adds the model's counts, volumes and times to the statistics.
 void add_statistics(Json& statistics, const Model& model);
 
-/// Judges the leaks of an arrangement, unless it was sealed or no surface ends. Errors: those of
-/// terrane::judge_leaks.
-Result<std::optional<LeakAdvice>> judge_leaks(const Arranged& arranged, const Model& model,
-                                              Session& session);
+/// Judges the leaks of an arrangement, unless it was sealed, no surface ends, or that fails.
+std::optional<LeakAdvice> judge_leaks(const Arranged& arranged, const Model& model,
+                                      Session& session);
 
 /// Reports blocks, structure, dangling surfaces and leaks, which may have been judged.
 std::string model_text(const Inputs& inputs, const Model& model,

@@ -25,11 +25,11 @@ struct CellOptions {
 void add_cells(CLI::App& command, CellOptions& options);
 
 /// Checks the options and reads the grid, before any work is done; none if none is given.
-Result<std::optional<CornerPointGrid>> read_grid(const CellOptions& options);
+std::optional<CornerPointGrid> read_grid(const CellOptions& options);
 
 /// Finds the block of each cell, writes the file, and returns its summary. Errors: bad_option if
 /// the grid has another unit than the inputs; those of locate_points and of writing.
-Result<std::string> write_cells(const CellOptions& options, const CornerPointGrid& grid,
-                                const Model& model, const Inputs& inputs, Session& session);
+std::string write_cells(const CellOptions& options, const CornerPointGrid& grid, const Model& model,
+                        const Inputs& inputs, Session& session);
 
 } // namespace terrane::cli

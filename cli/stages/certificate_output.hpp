@@ -31,21 +31,21 @@ void warn_of_deviation(const std::string& certificate, double deviation,
                        std::span<const Surface> inputs);
 
 /// Checks the file names before any work is done. Errors: bad_option, cannot_open.
-Status plan_proof(const ProofOptions& options, const FileOptions& files);
+void plan_proof(const ProofOptions& options, const FileOptions& files);
 
 /// Checks before any work is done that a certificate can name these files. It is UTF-8 and names
 /// them relative to its folder. Errors: bad_option.
-Status check_certified_names(const std::string& certificate, const std::vector<std::string>& files);
+void check_certified_names(const std::string& certificate, const std::vector<std::string>& files);
 
 /// Checks before any work is done that a certificate can state the names of surfaces, which are
 /// those of their files. Errors: bad_option, with the file as its place.
-Status check_certified_surfaces(std::span<const std::string> names,
-                                std::span<const std::string> files);
+void check_certified_surfaces(std::span<const std::string> names,
+                              std::span<const std::string> files);
 
 /// Reads all inputs; if `certificate` is not empty, their surfaces must have names that it can
 /// state. Errors: those of read_inputs; bad_option.
-Result<Inputs> read_certified_inputs(const std::string& certificate, const FileOptions& options,
-                                     Session& session);
+Inputs read_certified_inputs(const std::string& certificate, const FileOptions& options,
+                             Session& session);
 
 /// Tells whether a certificate can be about tetrahedra in this format and of this order.
 bool is_certifiable(Format format, unsigned order);
@@ -55,16 +55,16 @@ std::vector<SourceFile> certified_inputs(const std::vector<std::string>& files,
                                          const Inputs& inputs);
 /// Returns the files that were written. Output to a standard stream, which can't be read again,
 /// is made once more.
-Result<std::vector<ResultFile>> certified_outputs(const std::vector<Output>& outputs,
-                                                  const Mesh& mesh, bool ascii);
+std::vector<ResultFile> certified_outputs(const std::vector<Output>& outputs, const Mesh& mesh,
+                                          bool ascii);
 
 /// Writes the certificate of a result whose files are written, and warns if `terrane verify`
 /// refuses its deviation. Says so on `told`. Errors: those of certify(); write_failed.
-Status write_certificate(const std::string& path, const CertifiedResult& result, std::FILE* told,
-                         Session& session);
+void write_certificate(const std::string& path, const CertifiedResult& result, std::FILE* told,
+                       Session& session);
 
 /// Writes the exact coordinates, if they are wanted.
-Status write_exact(const ProofOptions& options, const Arrangement& exact, std::FILE* told,
-                   Session& session);
+void write_exact(const ProofOptions& options, const Arrangement& exact, std::FILE* told,
+                 Session& session);
 
 } // namespace terrane::cli

@@ -5,11 +5,8 @@
 #include <filesystem>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include <terrane/io/atomic/atomic_file.hpp>
-#include <terrane/io/files.hpp>
-#include <terrane/io/reading.hpp>
+#include <terrane/io/verifier_input.hpp>
 
 namespace terrane::cli {
 
@@ -30,58 +27,18 @@ std::string path_of(const CertificateRequest& request, const std::string& name) 
     return (is_there ? path : path.lexically_normal()).string();
 }
 
-std::vector<std::string> paths_of(const CertificateRequest& request,
-                                  const Certificate& certificate) {
-    if (!request.files.inputs.empty()) return request.files.inputs;
-    std::vector<std::string> paths;
-    for (const CertifiedInput& input : certificate.inputs)
-        paths.push_back(path_of(request, input.name));
-    return paths;
-}
-
-/// Reads and parses one input file. A file whose hash differs from the certificate's need not
-/// parse: the verifier rejects it by its hash.
-Result<InputFile> read_input(const std::string& path, const CertifiedInput& stated,
-                             const FileOptions& options) {
-    const auto contents = read_file(path);
-    if (!contents) return contents.error();
-    const auto format =
-        options.input_format.empty() ? format_of(stated.name) : format_named(options.input_format);
-    if (!format)
-        return Error{ErrorCode::unknown_format, "no format that can be read has this extension",
-                     stated.name};
-    auto surfaces = parse_surfaces(contents.value(), stated.name, *format, options.read);
-    InputFile file = input_file(contents.value(), {});
-    if (surfaces)
-        file.surfaces = std::move(surfaces.value());
-    else if (file.sha256 == stated.sha256)
-        return surfaces.error();
-    return file;
-}
-
-Result<std::vector<InputFile>> read_certified_files(const CertificateRequest& request,
-                                                    const Certificate& certificate) {
-    const auto paths = paths_of(request, certificate);
-    if (paths.size() != certificate.inputs.size())
-        return Error{ErrorCode::bad_option,
-                     fmt::format("the certificate is about {}, not {}",
-                                 counted(certificate.inputs.size(), "file"), paths.size()),
-                     request.certificate};
-    std::vector<std::optional<Format>> formats;
-    for (const CertifiedInput& input : certificate.inputs)
-        formats.push_back(request.files.input_format.empty()
-                              ? format_of(input.name)
-                              : format_named(request.files.input_format));
-    if (const auto sound = check_reading(formats, request.files.read, {"--depth", "--max-edge"});
-        !sound)
-        return sound.error();
-    std::vector<InputFile> files;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        auto file = read_input(paths[i], certificate.inputs[i], request.files);
-        if (!file) return file.error();
-        files.push_back(std::move(file.value()));
-    }
-    return files;
+std::vector<InputFile> read_inputs(const CertificateRequest& request,
+                                   const Certificate& certificate) {
+    const FileOptions& given = request.files;
+    std::vector<fs::path> paths(given.inputs.begin(), given.inputs.end());
+    if (paths.empty())
+        for (const CertifiedInput& input : certificate.inputs)
+            paths.emplace_back(path_of(request, input.name));
+    return must(read_certified(certificate, paths,
+                               {format_named(given.input_format),
+                                given.read,
+                                request.certificate.c_str(),
+                                {"--depth", "--max-edge"}}));
 }
 
 JudgedOutput judge_output(OutputVerifier& verifier, std::size_t number, const std::string& path) {
@@ -112,12 +69,12 @@ std::size_t output_like(const Certificate& certificate, const std::string& path)
     return alike < outputs.size() ? alike : 0;
 }
 
-Result<std::vector<JudgedOutput>> judge_outputs(const CertificateRequest& request,
-                                                const Certificate& certificate) {
+std::vector<JudgedOutput> judge_outputs(const CertificateRequest& request,
+                                        const Certificate& certificate) {
     const auto& outputs = certificate.outputs;
     std::vector<JudgedOutput> judged;
     if (!request.outputs.empty() && outputs.empty())
-        return Error{ErrorCode::bad_option, "the certificate names no output file", "--output"};
+        refuse("the certificate names no output file", "--output");
     OutputVerifier verifier(certificate);
     for (const std::string& path : request.outputs)
         judged.push_back(judge_output(verifier, output_like(certificate, path), path));
@@ -133,21 +90,15 @@ Result<std::vector<JudgedOutput>> judge_outputs(const CertificateRequest& reques
 
 } // namespace
 
-Result<Judgement> judge_certificate(const CertificateRequest& request) {
+Judgement judge_certificate(const CertificateRequest& request) {
     const std::string name = request.certificate == "-" ? "standard input" : request.certificate;
-    const auto text = read_file(request.certificate);
-    if (!text) return text.error();
-    auto certificate = parse_certificate(text.value(), name);
-    if (!certificate) return certificate.error();
-    const auto files = read_certified_files(request, *certificate);
-    if (!files) return files.error();
-    auto verdict = verify_certificate(files.value(), *certificate, request.options);
-    Judgement judged{*std::move(certificate), std::move(verdict), {}};
-    if (judged.verdict.violations.empty()) {
-        auto outputs = judge_outputs(request, judged.certificate);
-        if (!outputs) return outputs.error();
-        judged.outputs = *std::move(outputs);
-    }
+    const auto text = must(read_file(request.certificate));
+    auto certificate = must(parse_certificate(text, name));
+    const auto files = read_inputs(request, certificate);
+    auto verdict = verify_certificate(files, certificate, request.options);
+    Judgement judged{std::move(certificate), std::move(verdict), {}};
+    if (judged.verdict.violations.empty())
+        judged.outputs = judge_outputs(request, judged.certificate);
     return judged;
 }
 

@@ -24,6 +24,6 @@ struct CertificateRequest {
 /// Judges a certificate and the output files. Errors: cannot_open; those of parse_certificate;
 /// unknown_format; bad_option where there are other files than the certificate is about; those of
 /// reading an input file that has the stated hash.
-Result<Judgement> judge_certificate(const CertificateRequest& request);
+Judgement judge_certificate(const CertificateRequest& request);
 
 } // namespace terrane::cli

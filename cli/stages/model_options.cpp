@@ -77,11 +77,10 @@ void add_arranging(CLI::App& app, ModelCommand& command) {
         ->transform(CLI::Transformer(methods, CLI::ignore_case).description(""))
         ->transform(listing(words)) // else numbers would be taken
         ->type_name("METHOD");
-    app.add_option("--rounds", project.max_rounds,
-                   "Most rounds of snapping until the doubles are a conforming mesh; "
-                   "0: only to the nearest double (default: 8)")
-        ->check(CLI::Range(0U, most_rounds).description(""))
-        ->type_name("N");
+    add_value(app, "--rounds", project.max_rounds, "N",
+              "Most rounds of snapping until the doubles are a conforming mesh; "
+              "0: only to the nearest double (default: 8)")
+        ->check(CLI::Range(0U, most_rounds).description(""));
     add_max_move(app, project.max_move);
     add_check(app, project.check);
     add_seal(app, project);
@@ -101,10 +100,9 @@ void add_arranging(CLI::App& app, ModelCommand& command) {
 
 void add_naming(CLI::App& app, ModelCommand& command) {
     add_roles(app, command.roles);
-    app.add_option("--column", command.column,
-                   "Stratigraphic column: names blocks by their units, given from the top down "
-                   "with the horizons at their bases")
-        ->type_name("FILE.json");
+    add_value(app, "--column", command.column, "FILE.json",
+              "Stratigraphic column: names blocks by their units, given from the top down "
+              "with the horizons at their bases");
 }
 
 } // namespace terrane::cli

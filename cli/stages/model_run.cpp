@@ -23,12 +23,11 @@ namespace terrane::cli {
 namespace {
 
 /// Reads the stratigraphic column of a command, if it has one.
-Result<StratigraphicColumn> column_of(const std::string& file, const Inputs& inputs) {
+StratigraphicColumn column_of(const std::string& file, const Inputs& inputs) {
     if (file.empty()) return StratigraphicColumn();
-    auto column = read_column(file);
-    if (!column) return column.error();
-    if (const auto sound = check_column(*column, infos_of(inputs.surfaces)); !sound)
-        return Error{sound.error().code, sound.error().sentence, file + ": " + sound.error().place};
+    auto column = must(read_column(file));
+    if (const auto sound = check_column(column, infos_of(inputs.surfaces)); !sound)
+        refuse(sound.error().code, sound.error().sentence, file + ": " + sound.error().place);
     return column;
 }
 
@@ -44,20 +43,20 @@ std::vector<FilledRecord> records_of(const std::optional<FillWork>& work) {
 
 } // namespace
 
-Status check_command(const ModelCommand& command) {
+void check_command(const ModelCommand& command) {
     const Project& project = command.project;
-    if (auto sound = check_volume_options(command.volume); !sound) return sound;
-    if (auto named = plan_proof(command.proof, command.files); !named) return named;
-    if (command.proof.certificate.empty()) return Done{};
-    const auto refuse = [](const std::string& what, const char* option) {
-        return usage("a certificate can't show yet " + what + "; leave out " + option +
-                         ", or the certificate",
-                     "--certificate");
+    check_volume_options(command.volume);
+    plan_proof(command.proof, command.files);
+    if (command.proof.certificate.empty()) return;
+    const auto refuse_proof = [](const std::string& what, const char* option) {
+        refuse("a certificate can't show yet " + what + "; leave out " + option +
+                   ", or the certificate",
+               "--certificate");
     };
-    if (project.min_volume) return refuse("that only small blocks were merged", "--min-volume");
+    if (project.min_volume) refuse_proof("that only small blocks were merged", "--min-volume");
     if (project.improve && project.improve->resolution.length > 0)
-        return refuse("what was joined at a resolution", "--resolution");
-    return check_certified_names(command.proof.certificate, command.volume.within);
+        refuse_proof("what was joined at a resolution", "--resolution");
+    check_certified_names(command.proof.certificate, command.volume.within);
 }
 
 Error at_option(Error error, const CLI::App& app) {
@@ -76,51 +75,39 @@ Error at_option(Error error, const CLI::App& app) {
     return error;
 }
 
-Result<ModelRun> ModelRun::begin(const ModelCommand& command, Session& session) {
+ModelRun ModelRun::begin(const ModelCommand& command, Session& session) {
     const FileOptions& files = command.files;
-    if (auto sound = check_command(command); !sound) return sound.error();
+    check_command(command);
     auto page = plan_page(files, session);
-    if (!page) return page.error();
     auto inputs = read_certified_inputs(command.proof.certificate, files, session);
-    if (!inputs) return inputs.error();
     ModelRun run(
-        command.project, std::move(*page), files,
+        command.project, std::move(page), files,
         [told = summary_stream(files)](const std::string& text) { say(told, text); }, session);
     run.certificate_ = command.proof.certificate;
     run.tells_blocks_ = command.tells_blocks;
-    if (!run.certificate_.empty()) run.read_ = inputs->surfaces;
-    if (auto set = set_roles(command.roles, *inputs); !set) return set.error();
-    auto column = column_of(command.column, *inputs);
-    if (!column) return column.error();
-    run.project_.column = *std::move(column);
-    auto volume = volume_of(command.volume);
-    if (!volume) return volume.error();
-    run.project_.volume = *std::move(volume);
+    if (!run.certificate_.empty()) run.read_ = inputs.surfaces;
+    set_roles(command.roles, inputs);
+    run.project_.column = column_of(command.column, inputs);
+    run.project_.volume = volume_of(command.volume);
     if (command.volume.extend != 0) run.project_.extend = command.volume.extend;
-    run.project_.check = check_of(command.project.check, *inputs);
-    BuildInput input{.stated_blocks = inputs->stated_blocks};
-    if (command.volume.wanted()) {
-        auto boundary = boundary_of(command.volume, session);
-        if (!boundary) return boundary.error();
-        input.boundary = *std::move(boundary);
-    }
-    input.surfaces = std::exchange(inputs->surfaces, {});
-    if (auto taken = run.take(std::move(input), *std::move(inputs), command.needs_blocks); !taken)
-        return taken.error();
+    run.project_.check = check_of(command.project.check, inputs);
+    BuildInput input{.stated_blocks = inputs.stated_blocks};
+    if (command.volume.wanted()) input.boundary = boundary_of(command.volume, session);
+    input.surfaces = std::exchange(inputs.surfaces, {});
+    run.take(std::move(input), std::move(inputs), command.needs_blocks);
     return run;
 }
 
-Status ModelRun::take(BuildInput input, Inputs inputs, bool needs_blocks) {
+void ModelRun::take(BuildInput input, Inputs inputs, bool needs_blocks) {
     inputs_ = std::move(inputs);
     input_ = std::move(input);
     needs_blocks_ = needs_blocks;
-    if (auto added = add_page_inputs(page_, files_, inputs_); !added) return added;
+    add_page_inputs(page_, files_, inputs_);
     statistics_ = statistics_of(inputs_);
-    return examine(input_.surfaces, {input_.boundary, needs_blocks}, inputs_, session_,
-                   statistics_);
+    examine(input_.surfaces, {input_.boundary, needs_blocks}, inputs_, session_, statistics_);
 }
 
-Status ModelRun::make(BuildObserver observer, const StageStore& store) {
+void ModelRun::make(BuildObserver observer, const StageStore& store) {
     if (!observer.begins)
         observer.begins = [&](BuildStage stage) {
             session_.begin(name_of(stage), Phase::computing);
@@ -128,15 +115,12 @@ Status ModelRun::make(BuildObserver observer, const StageStore& store) {
     observer.ended = [&](BuildStage stage, const Built& built) { ended(stage, built); };
     auto built = terrane::build(project_, std::move(input_), session_.run(), observer, store);
     session_.end_stage();
-    if (!refused_.empty()) {
-        print(stderr, refused_);
-        return Done{};
-    }
+    if (!refused_.empty()) return print(stderr, refused_);
     if (!built)
-        return files_.app == nullptr ? built.error() : at_option(built.error(), *files_.app);
+        throw Failure{files_.app == nullptr ? built.error()
+                                            : at_option(built.error(), *files_.app)};
     built_ = std::move(*built);
-    if (doubts_) return *doubts_;
-    return Done{};
+    if (doubts_) throw Failure{*doubts_};
 }
 
 void ModelRun::ended(BuildStage stage, const Built& built) {
@@ -222,10 +206,12 @@ std::string ModelRun::told_of_improved(const Built& built) {
 }
 
 void ModelRun::judge(const Arranged& arranged, const Model& model) {
-    if (tells_blocks_)
-        if (auto judged = judge_leaks(arranged, model, session_)) leaks_ = *judged;
-    if (auto sound = examine(model, inputs_, needs_blocks_, session_, statistics_); !sound)
-        doubts_ = sound.error();
+    if (tells_blocks_) leaks_ = judge_leaks(arranged, model, session_);
+    try { // the model is shown all the same
+        examine(model, inputs_, needs_blocks_, session_, statistics_);
+    } catch (const Failure& failure) {
+        doubts_ = failure.error;
+    }
 }
 
 std::string ModelRun::told_of(const Model& model) {
@@ -239,8 +225,8 @@ void ModelRun::refuse(const std::string& why) {
     if (!why.empty()) refused_ = why + complaint("nothing written");
 }
 
-Status ModelRun::certify(std::vector<ResultFile> outputs) {
-    if (certificate_.empty()) return Done{};
+void ModelRun::certify(std::vector<ResultFile> outputs) {
+    if (certificate_.empty()) return;
     for (std::size_t s = 0; s < built_.arranged.surfaces.size() && s < read_.size(); ++s)
         built_.arranged.surfaces[s].role = read_[s].role; // as in the file
     const Preprocessed& first = built_.preprocessed;
@@ -255,18 +241,18 @@ Status ModelRun::certify(std::vector<ResultFile> outputs) {
     result.outputs = std::move(outputs);
     result.volume = project_.volume;
     result.search = project_.search;
-    return write_certificate(certificate_, result, told(), session_);
+    write_certificate(certificate_, result, told(), session_);
 }
 
 void ModelRun::add_certificate(const std::string& path) {
     add_page_certificate(page_, files_, path, true, session_);
 }
 
-Status ModelRun::write_page() {
-    return cli::write_page(page_, files_, statistics_, session_);
+void ModelRun::write_page() {
+    cli::write_page(page_, files_, statistics_, session_);
 }
 
-Result<ExitStatus> ModelRun::end(bool good) {
+ExitStatus ModelRun::end(bool good) {
     add_page_certificate(page_, files_, certificate_, good, session_);
     return write_run(page_, statistics_, files_, session_, good);
 }

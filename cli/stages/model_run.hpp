@@ -44,7 +44,7 @@ void add_arranging(CLI::App& app, ModelCommand& command);
 void add_naming(CLI::App& app, ModelCommand& command);
 
 /// Checks the options of a command, before any work is done. Errors: bad_option, cannot_open.
-Status check_command(const ModelCommand& command);
+void check_command(const ModelCommand& command);
 
 /// Names the option that stands for a key of the project, in an error about that key.
 Error at_option(Error error, const CLI::App& app);
@@ -62,27 +62,27 @@ public:
     /// Begins the run of a command: checks its options, reads the surfaces, and makes the boundary of the volume
     /// of interest. Errors: those of check_command(), read_inputs(), boundary_of() and read_column();
     /// bad_option for names that no surface has.
-    static Result<ModelRun> begin(const ModelCommand& command, Session& session);
+    static ModelRun begin(const ModelCommand& command, Session& session);
 
     /// Takes the surfaces that were read, and looks for mistakes in them. Errors: bad_option with --strict.
-    Status take(BuildInput input, Inputs inputs, bool needs_blocks);
+    void take(BuildInput input, Inputs inputs, bool needs_blocks);
 
     /// Builds the project. Errors: those of build(), but for results that are refused(), with the options that
     /// they are about; of doubts about the blocks with --strict.
-    Status make(BuildObserver observer = {}, const StageStore& store = {});
+    void make(BuildObserver observer = {}, const StageStore& store = {});
 
     /// Why no results are written, as it was told; empty: they may be.
     [[nodiscard]] const std::string& refused() const { return refused_; }
 
     /// Writes the certificate of what was built, if one is wanted: of tetrahedra, blocks, the improved
     /// mesh or the arrangement. Errors: those of certify() and of writing.
-    Status certify(std::vector<ResultFile> outputs);
+    void certify(std::vector<ResultFile> outputs);
 
     /// Adds the verdict about a certificate to the page.
     void add_certificate(const std::string& path);
-    Status write_page();
+    void write_page();
     /// Writes the page and the statistics. Returns the status of a run with this result.
-    Result<ExitStatus> end(bool good);
+    ExitStatus end(bool good);
 
     [[nodiscard]] const Built& built() const { return built_; }
     [[nodiscard]] const Inputs& inputs() const { return inputs_; }

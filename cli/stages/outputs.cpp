@@ -16,59 +16,50 @@ namespace {
 
 /// Finds a point in each block if an output is in a format of TetGen. Warns of blocks that contain
 /// no point in doubles.
-Result<std::vector<BlockPoint>>
-points_in_blocks(const Mesh& mesh, const std::vector<Output>& outputs, Session& session) {
+std::vector<BlockPoint> points_in_blocks(const Mesh& mesh, const std::vector<Output>& outputs,
+                                         Session& session) {
     const bool wanted = std::any_of(outputs.begin(), outputs.end(), [](const Output& output) {
         return output.format == Format::poly || output.format == Format::smesh;
     });
-    if (!wanted) return std::vector<BlockPoint>();
+    if (!wanted) return {};
     session.begin("volumes", Phase::computing);
-    const auto volumes = find_volumes(mesh, session.run());
-    if (!volumes) return volumes.error();
-    auto points = block_points(mesh, volumes.value(), session.run());
+    const auto volumes = must(find_volumes(mesh, session.run()));
+    auto points = must(block_points(mesh, volumes, session.run()));
     session.end_stage();
-    if (!points) return points.error();
-    if (const auto missing = volumes.value().block_count() - points.value().size(); missing > 0)
+    if (const auto missing = volumes.block_count() - points.size(); missing > 0)
         warn(fmt::format("{} too thin for a point inside", counted(missing, "block")));
     return points;
 }
 
 } // namespace
 
-Result<bool> stl_is_conforming(const Mesh& mesh, const FileOptions& files,
-                               const std::vector<Output>& outputs, Session& session) {
+bool stl_is_conforming(const Mesh& mesh, const FileOptions& files,
+                       const std::vector<Output>& outputs, Session& session) {
     for (const Output& output : outputs) {
         if (output.format != Format::stl || files.ascii) continue;
         session.begin("check float32", Phase::computing);
         const auto flaws = float32_flaws(mesh, session.run());
         session.end_stage();
-        if (!flaws) return flaws.error();
-        if (flaws.value() == 0) continue;
+        if (flaws == 0) continue;
         warn(fmt::format("{}: in float32, all that binary STL holds, the mesh has {}; --ascii or "
                          "another format keeps the doubles",
-                         output.path, counted(flaws.value(), "flaw")));
+                         output.path, counted(flaws, "flaw")));
         return false;
     }
     return true;
 }
 
-Status write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
-                     const std::vector<Output>& outputs, Session& session) {
+void write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
+                   const std::vector<Output>& outputs, Session& session) {
     WriteOptions options;
     options.ascii = files.ascii;
     std::vector<BlockPoint> inside;
-    if (clean) { // otherwise blocks are not defined
-        auto points = points_in_blocks(mesh, outputs, session);
-        if (!points) return points.error();
-        inside = std::move(points).value();
-    }
+    if (clean) inside = points_in_blocks(mesh, outputs, session); // otherwise there are no blocks
     options.block_points = inside;
     for (const Output& output : outputs) {
-        const auto written = write_output(mesh, output, options, session);
-        if (!written) return written.error();
+        write_output(mesh, output, options, session);
         tell_when_written(summary_stream(files), wrote(output));
     }
-    return Done{};
 }
 
 } // namespace terrane::cli

@@ -19,12 +19,12 @@ inline constexpr const char* not_conforming_in_stl =
 
 /// Checks the float32 coordinates that binary STL would hold, which are not the doubles that were
 /// verified. Warns and returns false if the mesh is not conforming with them.
-Result<bool> stl_is_conforming(const Mesh& mesh, const FileOptions& files,
-                               const std::vector<Output>& outputs, Session& session);
+bool stl_is_conforming(const Mesh& mesh, const FileOptions& files,
+                       const std::vector<Output>& outputs, Session& session);
 
 /// Writes the mesh to `outputs`, in their order. `clean`: the mesh is conforming; without that,
 /// files in TetGen's formats get no points inside blocks.
-Status write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
-                     const std::vector<Output>& outputs, Session& session);
+void write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
+                   const std::vector<Output>& outputs, Session& session);
 
 } // namespace terrane::cli

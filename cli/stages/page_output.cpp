@@ -71,9 +71,12 @@ page::CertificateVerdict judged_by_verifier(const FileOptions& files,
                                             const std::string& certificate) {
     CertificateRequest request{certificate, files, {}, {}};
     request.files.inputs.clear(); // those that the certificate names
-    const auto judged = judge_certificate(request);
-    if (!judged) return {certificate, std::nullopt, {"Not judged: " + judged.error().message()}};
-    return {certificate, judged->violations().empty(), lines_of(*judged, certificate)};
+    try {
+        const auto judged = judge_certificate(request);
+        return {certificate, judged.violations().empty(), lines_of(judged, certificate)};
+    } catch (const Failure& failure) {
+        return {certificate, std::nullopt, {"Not judged: " + failure.error.message()}};
+    }
 }
 
 /// Returns what differs from run to run: seconds by stage, memory, threads.
@@ -87,11 +90,10 @@ Json run_json(const FileOptions& files, const Session& session) {
 
 } // namespace
 
-Result<page::Page> plan_page(const FileOptions& files, const Session& session) {
+page::Page plan_page(const FileOptions& files, const Session& session) {
     if (files.report.empty()) return page::Page();
-    if (const auto possible = page::check_pages(); !possible)
-        return Error{possible.error().code, possible.error().sentence, "--report"};
-    if (const auto folder = check_folder(files.report); !folder) return folder.error();
+    must(page::check_pages(), "--report");
+    check_folder(files.report);
     return page::Page({.command = files.app->get_name(),
                        .title = title_of(files),
                        .unit = {},
@@ -100,12 +102,10 @@ Result<page::Page> plan_page(const FileOptions& files, const Session& session) {
                       session.run().timing);
 }
 
-Status add_page_inputs(page::Page& page, const FileOptions& files, const Inputs& inputs) {
-    if (!page.wanted()) return Done{};
+void add_page_inputs(page::Page& page, const FileOptions& files, const Inputs& inputs) {
+    if (!page.wanted()) return;
     page.set_inputs(inputs.unit, inputs.files);
-    for (const std::string& path : files.inputs)
-        if (auto added = page.add_file(path); !added) return added;
-    return Done{};
+    for (const std::string& path : files.inputs) must(page.add_file(path));
 }
 
 void add_page_certificate(page::Page& page, const FileOptions& files,
@@ -119,23 +119,19 @@ void add_page_certificate(page::Page& page, const FileOptions& files,
     session.end_stage();
 }
 
-Status write_page(page::Page& page, const FileOptions& files, const Json& statistics,
-                  Session& session) {
-    if (!page.wanted()) return Done{};
+void write_page(page::Page& page, const FileOptions& files, const Json& statistics,
+                Session& session) {
+    if (!page.wanted()) return;
     session.begin("page", Phase::writing);
-    const auto html = page.html(statistics, run_json(files, session));
-    if (!html) return html.error();
-    auto done = write_file(files.report, *html);
+    must(write_file(files.report, must(page.html(statistics, run_json(files, session)))));
     session.end_stage();
-    if (done) say_written(summary_stream(files), files.report);
-    return done;
+    say_written(summary_stream(files), files.report);
 }
 
-Result<ExitStatus> write_run(page::Page& page, const Json& statistics, const FileOptions& files,
-                             Session& session, bool good) {
-    if (const auto done = write_page(page, files, statistics, session); !done) return done.error();
-    if (const auto done = write_statistics(statistics, files.stats, session); !done)
-        return done.error();
+ExitStatus write_run(page::Page& page, const Json& statistics, const FileOptions& files,
+                     Session& session, bool good) {
+    write_page(page, files, statistics, session);
+    write_statistics(statistics, files.stats, session);
     return good ? ExitStatus::done : ExitStatus::negative;
 }
 

@@ -10,8 +10,8 @@
 
 namespace terrane::cli {
 
-Status report_doubts(const std::vector<PlausibilityWarning>& warnings,
-                     const std::vector<std::string>& labels, bool strict, Json& statistics) {
+void report_doubts(const std::vector<PlausibilityWarning>& warnings,
+                   const std::vector<std::string>& labels, bool strict, Json& statistics) {
     Json& list = statistics["warnings"];
     if (!list.is_array()) list = Json::array();
     for (const PlausibilityWarning& w : warnings) {
@@ -24,34 +24,31 @@ Status report_doubts(const std::vector<PlausibilityWarning>& warnings,
                         {"why", w.why},
                         {"answer", w.answer}});
     }
-    if (!strict || warnings.empty()) return Done{};
-    return usage(
+    if (!strict || warnings.empty()) return;
+    refuse(
         fmt::format("{} about the inputs; nothing was done", counted(warnings.size(), "warning")),
         "--strict");
 }
 
-Status examine(std::span<const Surface> surfaces, const PlausibilityContext& context,
-               const Inputs& inputs, Session& session, Json& statistics) {
+void examine(std::span<const Surface> surfaces, const PlausibilityContext& context,
+             const Inputs& inputs, Session& session, Json& statistics) {
     session.begin("plausibility", Phase::computing);
     add_constants(statistics, "plausibility", plausibility_constants());
-    auto sound =
-        report_doubts(find_doubts(surfaces, context), inputs.labels, inputs.strict, statistics);
+    report_doubts(find_doubts(surfaces, context), inputs.labels, inputs.strict, statistics);
     session.end_stage();
-    return sound;
 }
 
-Status examine(const Model& model, const Inputs& inputs, bool blocks, Session& session,
-               Json& statistics) {
+void examine(const Model& model, const Inputs& inputs, bool blocks, Session& session,
+             Json& statistics) {
     session.begin("plausibility", Phase::computing);
     const Json& said = statistics["warnings"];
     const bool open = std::ranges::any_of(said, [](const Json& warning) {
         return warning["about"] == name_of(Doubt::no_top) ||
                warning["about"] == name_of(Doubt::no_base);
     });
-    auto sound = report_doubts(find_model_doubts(model, blocks && !open), inputs.labels,
-                               inputs.strict, statistics);
+    report_doubts(find_model_doubts(model, blocks && !open), inputs.labels, inputs.strict,
+                  statistics);
     session.end_stage();
-    return sound;
 }
 
 } // namespace terrane::cli

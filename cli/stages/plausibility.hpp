@@ -15,16 +15,16 @@ namespace terrane::cli {
 
 /// Prints warnings and adds them to the statistics, under the key warnings. Errors: bad_option if
 /// there are some and --strict is given.
-Status report_doubts(const std::vector<PlausibilityWarning>& warnings,
-                     const std::vector<std::string>& labels, bool strict, Json& statistics);
+void report_doubts(const std::vector<PlausibilityWarning>& warnings,
+                   const std::vector<std::string>& labels, bool strict, Json& statistics);
 
 /// Looks for mistakes in the surfaces and reports them, before any work is done on them.
-Status examine(std::span<const Surface> surfaces, const PlausibilityContext& context,
-               const Inputs& inputs, Session& session, Json& statistics);
+void examine(std::span<const Surface> surfaces, const PlausibilityContext& context,
+             const Inputs& inputs, Session& session, Json& statistics);
 
 /// Looks for mistakes that show once blocks are found. That there is no block is said only if
 /// `blocks` are wanted and no warning about a missing top or base has said so.
-Status examine(const Model& model, const Inputs& inputs, bool blocks, Session& session,
-               Json& statistics);
+void examine(const Model& model, const Inputs& inputs, bool blocks, Session& session,
+             Json& statistics);
 
 } // namespace terrane::cli

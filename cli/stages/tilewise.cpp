@@ -13,6 +13,7 @@
 #include <terrane/algorithms/tiles/local_supersteps.hpp>
 #include <terrane/algorithms/tiles/pieces.hpp>
 #include <terrane/algorithms/tiles/tiled_arrangement.hpp>
+#include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/reports/tile_report.hpp>
 #include <terrane/cli/stages/tile_volumes.hpp>
@@ -29,7 +30,7 @@ namespace {
 constexpr auto memory_option = "--memory";
 
 /// Refuses options that arrangements in tiles do not have.
-Status check_alone(const CLI::App& command) {
+void check_alone(const CLI::App& command) {
     constexpr std::array allowed{"IN",        "--output", "--memory",       "--digest",
                                  "--volumes", "--stats",  "--threads",      "--quiet",
                                  "--color",   "--format", "--input-format", "--depth",
@@ -39,10 +40,9 @@ Status check_alone(const CLI::App& command) {
         const std::string name = option->get_lnames().empty() ? option->get_name(true, false)
                                                               : "--" + option->get_lnames()[0];
         if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
-            return usage(name + " needs the whole model in memory; leave it out, or --memory",
-                         memory_option);
+            refuse(name + " needs the whole model in memory; leave it out, or --memory",
+                   memory_option);
     }
-    return Done{};
 }
 
 bool is_in_pieces(const std::string& path) {
@@ -50,20 +50,17 @@ bool is_in_pieces(const std::string& path) {
 }
 
 /// Checks the outputs before any work is done.
-Status check_outputs(const FileOptions& files) {
+void check_outputs(const FileOptions& files) {
     FileOptions others = files;
     std::erase_if(others.outputs, is_in_pieces);
     const auto outputs = plan_outputs(others, OutputKind::surfaces);
-    if (!outputs) return outputs.error();
-    for (const Output& output : *outputs)
+    for (const Output& output : outputs)
         if (output.format != Format::vtp || output.path == "-")
-            return usage("in tiles only .pvtp and .vtp files are written; terrane convert makes "
-                         "others of them",
-                         output.path);
+            refuse("in tiles only .pvtp and .vtp files are written; terrane convert makes "
+                   "others of them",
+                   output.path);
     for (const std::string& path : files.outputs)
-        if (is_in_pieces(path))
-            if (auto sound = check_pvtp(path); !sound) return sound;
-    return Done{};
+        if (is_in_pieces(path)) must(check_pvtp(path));
 }
 
 /// Chooses the number of tiles such that one of them, with its computation, takes half of the
@@ -92,19 +89,18 @@ struct InTiles {
 };
 
 /// Repairs the doubles of the whole model, if it fits into the memory.
-Result<RepairedWhole> repair_whole(Supersteps& tiles, const TiledReport& report,
-                                   std::uint64_t memory, const Run& run) {
+RepairedWhole repair_whole(Supersteps& tiles, const TiledReport& report, std::uint64_t memory,
+                           const Run& run) {
     constexpr std::uint64_t per_triangle = 1000; // bytes; 760 measured where grids overlap
     if (report.triangles > memory / per_triangle)
-        return Error{
-            ErrorCode::unsupported,
-            fmt::format("the nearest doubles are not a conforming mesh ({} in the way), and a "
-                        "repair needs the whole model in memory: {:.1f} GiB for {} triangles",
-                        counted(report.contacts, "pair or point"),
-                        static_cast<double>(report.triangles * per_triangle) * 0x1p-30,
-                        report.triangles),
-            memory_option};
-    return repair_in_one_process(tiles, run);
+        refuse(ErrorCode::unsupported,
+               fmt::format("the nearest doubles are not a conforming mesh ({} in the way), and a "
+                           "repair needs the whole model in memory: {:.1f} GiB for {} triangles",
+                           counted(report.contacts, "pair or point"),
+                           static_cast<double>(report.triangles * per_triangle) * 0x1p-30,
+                           report.triangles),
+               memory_option);
+    return must(repair_in_one_process(tiles, run));
 }
 
 /// The mesh of all pieces, and the volumes on the sides of each triangle, if they were found.
@@ -114,7 +110,7 @@ struct Joined {
 };
 
 /// Joins all pieces in memory.
-Result<Joined> joined(Supersteps& tiles, InTiles& made) {
+Joined joined(Supersteps& tiles, InTiles& made) {
     const TiledReport& report = made.report;
     if (!report.clean) {
         Joined all{std::move(made.whole.piece.mesh), {}};
@@ -122,18 +118,14 @@ Result<Joined> joined(Supersteps& tiles, InTiles& made) {
         return all;
     }
     PieceJoiner joiner(report.vertices, report.triangles);
-    const auto added = tiles.visit([&](Tile& b) -> Status { return joiner.add(piece_of(b)); });
-    if (!added) return added.error();
+    must(tiles.visit([&](Tile& b) -> Status { return joiner.add(piece_of(b)); }));
     Joined all;
     if (report.volumes) all.volumes = volume_cells(joiner.volumes_of_sides());
-    auto mesh = std::move(joiner).finish();
-    if (!mesh) return mesh.error();
-    all.mesh = std::move(*mesh);
+    all.mesh = must(std::move(joiner).finish());
     return all;
 }
 
-Status write_in_tiles(const FileOptions& files, Supersteps& tiles, InTiles& made,
-                      Session& session) {
+void write_in_tiles(const FileOptions& files, Supersteps& tiles, InTiles& made, Session& session) {
     const bool has_volumes = made.report.volumes.has_value();
     const TilePiece* whole = made.report.clean ? nullptr : &made.whole.piece;
     bool wants_whole = false;
@@ -142,38 +134,33 @@ Status write_in_tiles(const FileOptions& files, Supersteps& tiles, InTiles& made
             wants_whole = true;
             continue;
         }
-        if (auto written = write_pvtp(tiles, path, has_volumes, whole); !written) return written;
+        must(write_pvtp(tiles, path, has_volumes, whole));
         tell_when_written(summary_stream(files), "wrote " + path + "\n");
     }
-    if (!wants_whole) return Done{};
+    if (!wants_whole) return;
     const auto all = joined(tiles, made);
-    if (!all) return all.error();
     WriteOptions options;
-    options.cells = all->volumes;
+    options.cells = all.volumes;
     options.block_names = made.report.volume_names;
     for (const std::string& path : files.outputs) {
         if (is_in_pieces(path)) continue;
         const Output output{path, Format::vtp};
-        if (auto written = write_output(all->mesh, output, options, session); !written)
-            return written;
+        write_output(all.mesh, output, options, session);
         tell_when_written(summary_stream(files), wrote(output));
     }
-    return Done{};
 }
 
 } // namespace
 
 void add_tilewise(CLI::App& command, TilewiseOptions& options) {
-    command
-        .add_option(memory_option, options.memory,
-                    "Work in tiles of space, one after the other, with files next to the output, "
-                    "in about so much memory; writes .vtp and .pvtp (default: the whole model in "
-                    "memory)")
+    add_value(command, memory_option, options.memory, "SIZE",
+              "Work in tiles of space, one after the other, with files next to the output, "
+              "in about so much memory; writes .vtp and .pvtp (default: the whole model in "
+              "memory)")
         ->check([](const std::string& text) {
             return bytes_of_size(text) ? std::string()
                                        : "'" + text + "' is no size, such as 4GiB or 512MiB";
-        })
-        ->type_name("SIZE");
+        });
     command.add_flag("--digest", options.digest,
                      "With --memory: say the digest of the exact result");
     command.add_flag("--volumes", options.volumes,
@@ -195,10 +182,10 @@ std::optional<std::uint64_t> bytes_of_size(std::string_view text) {
     return std::nullopt;
 }
 
-Result<ExitStatus> arrange_tilewise(const FileOptions& files, const TilewiseOptions& options,
-                                    Session& session) {
-    if (const auto sound = check_alone(*files.app); !sound) return sound.error();
-    if (const auto sound = check_outputs(files); !sound) return sound.error();
+ExitStatus arrange_tilewise(const FileOptions& files, const TilewiseOptions& options,
+                            Session& session) {
+    check_alone(*files.app);
+    check_outputs(files);
     const std::uint64_t memory = *bytes_of_size(options.memory);
     const std::size_t count = tiles_for(files, memory);
     const fs::path beside = fs::path(files.outputs.front()).parent_path();
@@ -207,35 +194,32 @@ Result<ExitStatus> arrange_tilewise(const FileOptions& files, const TilewiseOpti
     const auto read = [&](std::size_t file) -> Result<std::vector<Surface>> {
         FileOptions one = files;
         one.inputs = {files.inputs[file]};
-        auto inputs = read_inputs(one, session);
-        if (!inputs) return inputs.error();
-        session.begin("arrange in tiles", Phase::computing);
-        return std::move(inputs->surfaces);
+        try { // the library takes errors as values
+            auto inputs = read_inputs(one, session);
+            session.begin("arrange in tiles", Phase::computing);
+            return std::move(inputs.surfaces);
+        } catch (const Failure& failure) {
+            return failure.error;
+        }
     };
     const Run& run = session.run();
-    auto report = arrange_in_tiles(tiles, read, {files.inputs.size(), options.digest}, run);
-    if (!report) return report.error();
-    InTiles made{std::move(*report), {}};
+    auto report = must(arrange_in_tiles(tiles, read, {files.inputs.size(), options.digest}, run));
+    InTiles made{std::move(report), {}};
     if (!made.report.clean) {
         auto whole = repair_whole(tiles, made.report, memory, run);
-        if (!whole) return whole.error();
-        made.whole = std::move(*whole);
+        made.whole = std::move(whole);
         if (!made.whole.report.clean)
-            return Error{ErrorCode::unsupported,
-                         "no conforming mesh of doubles was found; without this option the pairs "
-                         "in the way are named",
-                         memory_option};
+            refuse(ErrorCode::unsupported,
+                   "no conforming mesh of doubles was found; without this option the pairs in the "
+                   "way are named",
+                   memory_option);
     }
-    if (options.volumes)
-        if (auto found = find_tile_volumes(tiles, made.report, made.whole.piece); !found)
-            return found.error();
+    if (options.volumes) must(find_tile_volumes(tiles, made.report, made.whole.piece));
     session.end_stage();
     say(summary_stream(files), tile_text(made.report, made.repaired(), counted(count, "tile")));
-    if (const auto written = write_in_tiles(files, tiles, made, session); !written)
-        return written.error();
+    write_in_tiles(files, tiles, made, session);
     Json statistics = tile_json(made.report, made.repaired(), count);
-    if (const auto done = write_statistics(std::move(statistics), files.stats, session); !done)
-        return done.error();
+    write_statistics(std::move(statistics), files.stats, session);
     return ExitStatus::done;
 }
 

@@ -30,7 +30,7 @@ std::optional<std::uint64_t> bytes_of_size(std::string_view text);
 /// Arranges the inputs in tiles and writes .vtp and .pvtp files. Errors: bad_option for options that
 /// need the whole model; those of arrange_in_tiles; unsupported where a repair of
 /// the doubles needs the whole model, and that does not fit into the memory.
-Result<ExitStatus> arrange_tilewise(const FileOptions& files, const TilewiseOptions& options,
-                                    Session& session);
+ExitStatus arrange_tilewise(const FileOptions& files, const TilewiseOptions& options,
+                            Session& session);
 
 } // namespace terrane::cli

@@ -8,8 +8,9 @@
 #include <utility>
 
 #include <terrane/algorithms/arrangement/soup.hpp>
-#include <terrane/cli/paper/paper_models.hpp>
 #include <terrane/io/files.hpp>
+
+#include "paper_models.hpp"
 
 namespace bench {
 namespace {

@@ -52,7 +52,7 @@ def shown(page):
 
 def help_of(command):
     """The descriptions of options in --help, and its examples."""
-    text = said(*(("bench", "paper") if command == "bench" else (command,)), "--help")
+    text = said(command, "--help")
     rows = re.findall(r"^  (-\S+|[A-Z]+)(?: \S+)*? {2,}(.*(?:\n {28}.*)*)", text, re.M)
     examples = text.split("Examples:\n")[1].splitlines() if "Examples:\n" in text else []
     return rows, [line.strip() for line in examples if line.strip()]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/cli/paper/paper_tables.hpp>
+#include "paper_tables.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -14,9 +14,10 @@
 #include <terrane/algorithms/regions/regions_over.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/search/methods.hpp>
-#include <terrane/cli/paper/paper_models.hpp>
 
-namespace terrane::cli {
+#include "paper_models.hpp"
+
+namespace terrane::paper {
 namespace {
 
 /// Returns the median of several runs, or the time of the first run if it takes a second or more.
@@ -226,4 +227,4 @@ Result<PaperTable> measure_table(int number, const PaperSettings& settings, cons
     return table;
 }
 
-} // namespace terrane::cli
+} // namespace terrane::paper

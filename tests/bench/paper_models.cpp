@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/cli/paper/paper_models.hpp>
+#include "paper_models.hpp"
 
 #include <array>
 #include <cmath>

@@ -12,7 +12,7 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/search/search.hpp>
 
-namespace terrane::cli {
+namespace terrane::paper {
 
 /// The columns: the paper's four methods, where Table 1 is read in two ways, then the default of
 /// this library.
@@ -72,4 +72,4 @@ struct PaperTable {
 /// Measures Table 2, 3 or 4. Errors: those of arrange and round_to_doubles.
 Result<PaperTable> measure_table(int number, const PaperSettings& settings, const Run& run);
 
-} // namespace terrane::cli
+} // namespace terrane::paper

@@ -1,37 +1,20 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Prints the tables of the paper's section 6 beside the paper's numbers.
+//   terrane_bench_paper [--large] [--skip grid|ab|ab-balanced|ab-median|mixed]... [--limit SECONDS] [--threads N]
 #include <algorithm>
 #include <array>
-#include <memory>
+#include <cstdio>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include <terrane/cli/commands/command.hpp>
-#include <terrane/cli/options/choices.hpp>
-#include <terrane/cli/paper/paper_tables.hpp>
-#include <terrane/cli/session/session.hpp>
+#include "paper_tables.hpp"
 
-namespace terrane::cli {
+namespace terrane::paper {
 namespace {
-
-struct BenchCommand {
-    PaperSettings settings;
-    unsigned threads = 1;
-};
-
-constexpr auto bench_footer =
-    R"(Surfaces as in section 6 of "Efficient geometric reconstruction of complex geological structures"
-(Dassi, Perotto, Formaggia, Ruffo), each method of section 2, and the whole arrangement. In brackets
-what the paper says, measured on a notebook of its day with 2.26 GHz.
-
-The paper's balanced tree is there in two ways: Table 1 as an order in which boxes are inserted, and as
-medians of each subtree. "Tests" are boxes that a query looks at; times of trees are parts of that of
-the unbalanced one. The hierarchy, the default of all commands, joins boxes in cells of the mean size.
-
-Examples:
-  terrane bench paper
-  terrane bench paper --large --skip ab --skip ab-balanced)";
 
 constexpr std::array column_names{"structured",    "AB unbalanced", "AB by Table 1",
                                   "AB by medians", "mixed",         "hierarchy"};
@@ -175,43 +158,31 @@ std::string tree_table(const PaperTable& table) {
     return text;
 }
 
-ExitStatus bench_paper(const BenchCommand& command) {
-    Session session(command.threads);
-    for (int number = 2; number <= 4; ++number) {
-        session.begin(fmt::format("table {}", number), Phase::idle);
-        const auto table = measure_table(number, command.settings, session.run());
-        session.end_stage();
-        if (!table) return fail(table.error());
-        const PaperTable& t = table.value();
-        print(stdout, search_table(t) + "\n" + size_table(t) + "\n" + tree_table(t) + "\n" +
-                          arrange_table(t) + "\n" + comparison(t) + "\n");
-    }
-    return ExitStatus::done;
-}
-
 } // namespace
+} // namespace terrane::paper
 
-Command bench_command(CLI::App& program) {
-    auto command = std::make_shared<BenchCommand>();
-    CLI::App& bench = *program.add_subcommand("bench", "Measure on models made in memory");
-    bench.require_subcommand(1);
-    CLI::App& paper = *bench.add_subcommand("paper", "The tables of the paper's section 6");
-    PaperSettings& settings = command->settings;
-    paper.add_flag("--large", settings.large, "6 800 000 triangles as well");
-    paper
-        .add_option("--skip", settings.skipped,
-                    "Leave out grid, ab, ab-balanced, ab-median or mixed")
-        ->check(one_of({"grid", "ab", "ab-balanced", "ab-median", "mixed"}))
-        ->type_name("METHOD");
-    paper
-        .add_option("--limit", settings.limit,
-                    "Seconds after which AB unbalanced is given up, per row (default: 60)")
-        ->check(CLI::PositiveNumber)
-        ->type_name("SECONDS");
-    paper.add_option("--threads", command->threads, "Threads; 0: all cores (default: 1)")
-        ->type_name("N");
-    paper.footer(bench_footer);
-    return {&bench, [command] { return bench_paper(*command); }};
+int main(int argc, char** argv) {
+    using namespace terrane::paper;
+    PaperSettings settings;
+    terrane::Run run;
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view word = argv[i];
+        const bool has_value = i + 1 < argc;
+        if (word == "--large")
+            settings.large = true;
+        else if (word == "--skip" && has_value)
+            settings.skipped.emplace_back(argv[++i]);
+        else if (word == "--limit" && has_value)
+            settings.limit = std::stod(argv[++i]);
+        else if (word == "--threads" && has_value)
+            run.threads = static_cast<unsigned>(std::stoul(argv[++i]));
+        else
+            return std::fprintf(stderr, "there is no option %s\n", argv[i]), 2;
+    }
+    for (int number = 2; number <= 4; ++number) {
+        const auto table = measure_table(number, settings, run);
+        if (!table) return std::fprintf(stderr, "%s\n", table.error().message().c_str()), 2;
+        fmt::print("{}\n{}\n{}\n{}\n{}\n", search_table(*table), size_table(*table),
+                   tree_table(*table), arrange_table(*table), comparison(*table));
+    }
 }
-
-} // namespace terrane::cli

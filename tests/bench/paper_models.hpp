@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // The surfaces of the paper's section 6, as far as it describes them, and random rectangles: the
-// inputs of `terrane bench paper` and of the benchmarks. Every run makes the same numbers.
+// inputs of the benchmarks. Every run makes the same numbers.
 #pragma once
 
 #include <string>
