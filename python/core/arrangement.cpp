@@ -20,10 +20,10 @@ namespace {
 
 Search to_search(const std::string& name) {
     if (const auto search = search_named(name)) return *search;
-    throw Failure{
-        {ErrorCode::bad_option,
-         "is no method of search: auto, grid, ab, ab-balanced, ab-median, mixed, hierarchy, brute",
-         "search=" + name}};
+    refuse(
+        ErrorCode::bad_option,
+        "is no method of search: auto, grid, ab, ab-balanced, ab-median, mixed, hierarchy, brute",
+        "search=" + name);
 }
 
 ArrangementPointer arrange_all(const py::sequence& surfaces, const std::string& search,
@@ -73,18 +73,17 @@ py::tuple construction(const Arrangement& a, std::uint32_t vertex) {
 std::string digest(const py::sequence& surfaces, const ArrangementPointer& arrangement,
                    const HowToRun& how) {
     auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(surfaces));
-    return run_plainly(how, [given, arrangement](const Run& run) {
+    return run_stage(how, [given, arrangement](const Run& run) {
         return canonical_digest(*given, *arrangement, run);
     });
 }
 
 py::dict dict_of_cut(const VolumeReport& report) {
-    py::list cuts, borders;
-    for (const SurfaceCut& c : report.surfaces)
-        cuts.append(py::make_tuple(c.area_inside, c.area_outside, c.area_on_boundary, c.pieces,
-                                   c.open_length, c.open_borders));
-    for (const OpenBorder& b : report.borders)
-        borders.append(py::make_tuple(std::uint32_t(b.surface), b.length, to_tuple(b.place)));
+    const auto cuts = rows(report.surfaces, &SurfaceCut::area_inside, &SurfaceCut::area_outside,
+                           &SurfaceCut::area_on_boundary, &SurfaceCut::pieces,
+                           &SurfaceCut::open_length, &SurfaceCut::open_borders);
+    const auto borders =
+        rows(report.borders, &OpenBorder::surface, &OpenBorder::length, &OpenBorder::place);
     return py::dict("surfaces"_a = cuts, "borders"_a = borders);
 }
 
@@ -106,10 +105,9 @@ py::tuple extend(const py::sequence& surfaces, const std::vector<std::uint32_t>&
     auto made = run_stage(how, [given, boundary, limit](const Run& run) {
         return extend_to_boundary(std::move(*given), boundary, {.limit = limit}, run);
     });
-    py::list borders;
-    for (const ExtendedBorder& b : made.borders)
-        borders.append(py::make_tuple(std::uint32_t(b.surface), b.reached, b.length,
-                                      to_tuple(b.place), b.edges));
+    const auto borders =
+        rows(made.borders, &ExtendedBorder::surface, &ExtendedBorder::reached,
+             &ExtendedBorder::length, &ExtendedBorder::place, &ExtendedBorder::edges);
     return py::make_tuple(from_surfaces(std::move(made.surfaces)), borders);
 }
 
@@ -117,21 +115,21 @@ void bind_boundaries(py::module_& module) {
     module.def(
         "box_boundary",
         [](const py::object& low, const py::object& high) {
-            return from_surfaces(value_of(box_boundary(to_point(low), to_point(high))));
+            return from_surfaces(must(box_boundary(to_point(low), to_point(high))));
         },
         "low"_a, "high"_a);
     module.def(
         "rotated_box_boundary",
         [](const py::object& place, bool is_corner, const std::array<double, 3>& lengths,
            double azimuth, double plunge, double roll) {
-            return from_surfaces(value_of(rotated_box_boundary(
+            return from_surfaces(must(rotated_box_boundary(
                 {to_point(place), is_corner, lengths, azimuth, plunge, roll})));
         },
         "place"_a, "is_corner"_a, "lengths"_a, "azimuth"_a, "plunge"_a, "roll"_a);
     module.def(
         "polygon_boundary",
         [](const py::array& corners, double low, double high) {
-            return from_surfaces(value_of(polygon_boundary(copied<Point2>(corners), low, high)));
+            return from_surfaces(must(polygon_boundary(copied<Point2>(corners), low, high)));
         },
         "corners"_a, "low"_a, "high"_a);
     module.def(
@@ -147,9 +145,8 @@ void bind_boundaries(py::module_& module) {
 } // namespace
 
 py::dict to_dict(const RoundingReport& r) {
-    py::list lost;
-    for (const VanishedRegions& l : r.vanished_regions)
-        lost.append(py::make_tuple(std::uint32_t(l.surface), l.exact, l.rounded));
+    const auto lost = rows(r.vanished_regions, &VanishedRegions::surface, &VanishedRegions::exact,
+                           &VanishedRegions::rounded);
     return py::dict(
         "clean"_a = r.clean, "rounds"_a = r.rounds, "naive_contacts"_a = r.naive_contacts,
         "contacts"_a = to_list(r.contacts), "surface_deviation"_a = r.surface_deviation,
@@ -174,34 +171,29 @@ void bind_arrangement(py::module_& module) {
              })
         .def("construction", &construction);
     using A = Arrangement;
-    add_array<A>(
-        bound, "points", [](const A& a) -> auto& { return a.vertices; });
-    add_array<A>(
-        bound, "triangles", [](const A& a) -> auto& { return a.triangles; });
-    add_array<A>(
-        bound, "intersection_edges", [](const A& a) -> auto& { return a.intersection_edges; });
-    add_array<A>(
-        bound, "degenerate", [](const A& a) -> auto& { return a.degenerate; });
-    add_array<A>(
-        bound, "duplicates", [](const A& a) -> auto& { return a.inputs.duplicates; });
-    add_array<A>(
-        bound, "first_triangle", [](const A& a) -> auto& { return a.inputs.first; });
-    add_array<A>(
-        bound, "first_vertex", [](const A& a) -> auto& { return a.inputs.first_vertex; });
-    add_lists<A>(
-        bound, "parents_of", [](const A& a) -> auto& { return a.parents_of; });
-    add_lists<A>(
-        bound, "surfaces_of", [](const A& a) -> auto& { return a.surfaces_of; });
-    module.def("arrange", &arrange_all, "surfaces"_a, "search"_a, "how"_a);
-    module.def("round", &rounded, "arrangement"_a, "max_rounds"_a, "max_move"_a, "how"_a);
-    module.def("digest", &digest, "surfaces"_a, "arrangement"_a, "how"_a);
-    module.def("cut", &cut, "arrangement"_a, "boundary"_a, "how"_a);
-    module.def("extend", &extend, "surfaces"_a, "boundary"_a, "limit"_a, "how"_a);
-    module.def(
-        "unique_labels",
-        [](const py::sequence& surfaces) { return to_texts(unique_labels(to_infos(surfaces))); },
-        "surfaces"_a);
-    bind_boundaries(module);
+    ArraysOf{bound, std::identity{}}
+        .add("points", &A::vertices)
+        .add("triangles", &A::triangles)
+        .add("intersection_edges", &A::intersection_edges)
+        .add("degenerate", &A::degenerate)
+        .add("parents_of", &A::parents_of)
+        .add("surfaces_of", &A::surfaces_of);
+    ArraysOf{bound, [](const A& a) -> auto& {return a.inputs;
+}
+} // namespace terrane::python
+.add("duplicates", &InputTriangles::duplicates)
+    .add("first_triangle", &InputTriangles::first)
+    .add("first_vertex", &InputTriangles::first_vertex);
+module.def("arrange", &arrange_all, "surfaces"_a, "search"_a, "how"_a);
+module.def("round", &rounded, "arrangement"_a, "max_rounds"_a, "max_move"_a, "how"_a);
+module.def("digest", &digest, "surfaces"_a, "arrangement"_a, "how"_a);
+module.def("cut", &cut, "arrangement"_a, "boundary"_a, "how"_a);
+module.def("extend", &extend, "surfaces"_a, "boundary"_a, "limit"_a, "how"_a);
+module.def(
+    "unique_labels",
+    [](const py::sequence& surfaces) { return to_texts(unique_labels(to_infos(surfaces))); },
+    "surfaces"_a);
+bind_boundaries(module);
 }
 
 } // namespace terrane::python

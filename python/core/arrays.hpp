@@ -10,9 +10,11 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <new>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -96,7 +98,7 @@ std::vector<T> copied(const py::array& array) {
 
 /// Lists as (offsets, values).
 template <class T>
-py::tuple lists(const IndexLists<T>& all, py::handle owner) {
+py::tuple view(const IndexLists<T>& all, py::handle owner) {
     return py::make_tuple(view(all.offsets, owner), view(all.values, owner));
 }
 inline IndexLists<std::uint32_t> copied_lists(const py::tuple& pair) {
@@ -114,5 +116,48 @@ inline Point3 to_point(const py::handle& three) {
     const auto xyz = three.cast<std::array<double, 3>>();
     return {xyz[0], xyz[1], xyz[2]};
 }
+
+/// A member of a report as Python gets it: points and lists as tuples, kinds as their names.
+template <class T>
+py::object shown(const T& value) {
+    if constexpr (std::is_base_of_v<py::object, T>)
+        return value;
+    else if constexpr (std::is_same_v<T, Point3>)
+        return to_tuple(value);
+    else if constexpr (std::is_same_v<T, std::string>)
+        return to_text(value);
+    else if constexpr (std::is_enum_v<T>)
+        return to_text(name_of(value));
+    else if constexpr (std::is_convertible_v<T, std::uint32_t> && !std::is_arithmetic_v<T>)
+        return py::int_(std::uint32_t(value)); // a number of something
+    else if constexpr (requires { value.size(); })
+        return py::tuple(py::cast(value));
+    else
+        return py::cast(value);
+}
+
+/// A tuple of these members, or of what these functions return, for each item.
+template <class Items, class... Members>
+py::list rows(const Items& items, Members... members) {
+    py::list all;
+    for (const auto& item : items) all.append(py::make_tuple(shown(std::invoke(members, item))...));
+    return all;
+}
+
+/// Adds properties that are views of vectors, or pairs of views of lists: members of a part of a handle.
+template <class Bound, class Part>
+struct ArraysOf {
+    Bound& bound;
+    Part part; ///< part(handle) returns a reference to it
+
+    template <class Member>
+    const ArraysOf& add(const char* name, Member member) const {
+        bound.def_property_readonly(name, [part = part, member](const py::object& self) {
+            const auto& handle = self.cast<const typename Bound::type&>();
+            return view(std::invoke(member, part(handle)), self);
+        });
+        return *this;
+    }
+};
 
 } // namespace terrane::python

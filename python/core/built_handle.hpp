@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/pipeline/build.hpp>
@@ -28,7 +27,6 @@ struct BuiltHandle {
 };
 
 /// Keeps what was made of a project. `judges_leaks`: whether it is found which gaps separate blocks.
-Result<BuiltHandle> built_of(const Project& project, Result<Built> made, bool judges_leaks,
-                             const Run& run);
+BuiltHandle built_of(const Project& project, Built made, bool judges_leaks, const Run& run);
 
 } // namespace terrane::python

@@ -29,24 +29,20 @@ struct EnsembleHandle {
 };
 using EnsemblePointer = std::shared_ptr<EnsembleHandle>;
 
-Result<EnsembleHandle> prepared(Project project, const Run& run) {
-    auto maps = read_uncertainty_maps(project);
-    if (!maps) return maps.error();
-    auto inputs = read_inputs(project, run);
-    if (!inputs) return inputs.error();
+EnsembleHandle prepared(Project project, const Run& run) {
+    auto maps = must(read_uncertainty_maps(project));
+    auto inputs = must(read_inputs(project, run));
     project.outputs.tetrahedra.clear(); // of a thousand models nobody looks at them
     project.outputs.certificate = false;
     project.check.count_up_to = 0; // what decided each pair of triangles is kept by nobody
     const std::size_t moved = project.uncertainty.size();
-    auto made = Realisations::prepare(std::move(project), std::move(inputs->build), *maps, run);
-    if (!made) return made.error();
-    return EnsembleHandle{std::move(*made), moved};
+    auto made = must(Realisations::prepare(std::move(project), std::move(inputs.build), maps, run));
+    return EnsembleHandle{std::move(made), moved};
 }
 
 EnsemblePointer prepare(const py::bytes& text, const py::object& base, const py::object& source,
                         const HowToRun& how) {
-    const auto project =
-        value_of(parse_project(std::string(text), to_path(base), from_text(source)));
+    const auto project = must(parse_project(std::string(text), to_path(base), from_text(source)));
     return std::make_shared<EnsembleHandle>(
         run_stage(how, [project](const Run& run) { return prepared(project, run); }));
 }
@@ -55,17 +51,16 @@ std::shared_ptr<BuiltHandle> realised(const EnsemblePointer& ensemble, std::uint
                                       std::uint64_t number, const HowToRun& how) {
     return std::make_shared<BuiltHandle>(run_stage(how, [ensemble, seed, number](const Run& run) {
         const Realisations& all = ensemble->realisations;
-        return built_of(all.project(), all.build(seed, number, run), false, run);
+        return built_of(all.project(), must(all.build(seed, number, run)), false, run);
     }));
 }
 
 /// (heights, thicknesses), each (surfaces or volumes, rows, columns)
 py::tuple maps_of(const ModelPointer& m, std::array<double, 4> frame,
                   std::array<std::size_t, 2> cells, const HowToRun& how) {
-    if (cells[0] == 0 || cells[1] == 0)
-        throw Failure{{ErrorCode::bad_option, "there must be cells", "cells"}};
+    if (cells[0] == 0 || cells[1] == 0) refuse("there must be cells", "cells");
     const MapGrid grid{frame[0], frame[1], frame[2], frame[3], cells[0], cells[1]};
-    auto maps = run_plainly(
+    auto maps = run_stage(
         how, [m, grid](const Run&) { return column_maps(m->model.mesh, m->model.volumes, grid); });
     const auto shaped = [&](std::vector<double> values) {
         const auto count = static_cast<py::ssize_t>(values.size() / (cells[0] * cells[1]));
@@ -78,10 +73,9 @@ py::tuple maps_of(const ModelPointer& m, std::array<double, 4> frame,
 
 /// (low, high, middle, above) of each volume
 py::list measures_of(const ModelPointer& m, const std::vector<double>& contacts) {
-    py::list all;
-    for (const BlockMeasure& b : measure_blocks(m->model.mesh, m->model.volumes, contacts))
-        all.append(py::make_tuple(b.low, b.high, to_tuple(b.middle), b.above));
-    return all;
+    return rows(measure_blocks(m->model.mesh, m->model.volumes, contacts), &BlockMeasure::low,
+                &BlockMeasure::high, &BlockMeasure::middle,
+                [](const BlockMeasure& b) { return py::cast(b.above); });
 }
 
 } // namespace

@@ -20,8 +20,7 @@ namespace {
 std::optional<Format> to_format(const std::optional<std::string>& name) {
     if (!name) return std::nullopt;
     const auto format = format_named(*name);
-    if (!format)
-        throw Failure{{ErrorCode::unknown_format, "no format is called so", "format=" + *name}};
+    if (!format) refuse(ErrorCode::unknown_format, "no format is called so", "format=" + *name);
     return format;
 }
 
@@ -40,9 +39,7 @@ void check_all(const std::vector<std::string>& paths, const std::optional<std::s
     std::vector<std::optional<Format>> formats;
     for (const std::string& path : paths)
         formats.push_back(format ? to_format(format) : format_of(path));
-    const auto sound =
-        check_reading(formats, {.depth = depth, .max_edge = max_edge}, {"depth", "max_edge"});
-    if (!sound) throw Failure{sound.error()};
+    must(check_reading(formats, {.depth = depth, .max_edge = max_edge}, {"depth", "max_edge"}));
 }
 
 void write(const MeshPointer& mesh, const py::object& path,
@@ -52,7 +49,7 @@ void write(const MeshPointer& mesh, const py::object& path,
     WriteOptions options;
     options.format = to_format(format);
     if (ascii && (options.format ? options.format : format_of(to)) != Format::stl)
-        throw Failure{{ErrorCode::bad_option, "is for STL files", "ascii"}};
+        refuse("is for STL files", "ascii");
     options.ascii = ascii;
     options.compress = compress;
     run_stage(how, [mesh, to, options](const Run&) { return write_mesh(mesh->mesh, to, options); });

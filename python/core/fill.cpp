@@ -43,9 +43,8 @@ FillOptions fill_options(const py::dict& given) {
     const auto model = given["model"].cast<std::string>();
     o.model = variogram_model_named(model);
     if (!o.model && model != "auto")
-        throw Failure{{ErrorCode::bad_option,
-                       "is no model: auto, spherical, exponential, gaussian, power, matern",
-                       "model=" + model}};
+        refuse("is no model: auto, spherical, exponential, gaussian, power, matern",
+               "model=" + model);
     if (!given["smoothing"].is_none()) o.smoothing = given["smoothing"].cast<double>();
     return o;
 }
@@ -57,30 +56,27 @@ py::object to_object(const std::optional<FillReport>& r) {
 }
 
 /// Fills the holes of one surface; `numbers` are those of the holes, or none for those that are wanted.
-Result<FillWork> filled(const std::vector<Surface>& surfaces, const FillOptions& options,
-                        const std::optional<std::vector<std::size_t>>& numbers, const Run& run) {
+FillWork filled(const std::vector<Surface>& surfaces, const FillOptions& options,
+                const std::optional<std::vector<std::size_t>>& numbers, const Run& run) {
     const std::vector<FillTask> tasks{{SurfaceId(0), options}};
-    auto work = find_holes(surfaces, tasks, run);
-    if (!work) return work;
-    auto chosen = wanted_holes(*work);
+    auto work = must(find_holes(surfaces, tasks, run));
+    auto chosen = wanted_holes(work);
     if (numbers) {
-        chosen.assign(work->holes.size(), false);
+        chosen.assign(work.holes.size(), false);
         for (const std::size_t n : *numbers) {
             if (n == 0 || n > chosen.size())
-                return Error{ErrorCode::bad_option,
-                             "there are " + std::to_string(chosen.size()) + " holes, from 1",
-                             "holes=" + std::to_string(n)};
+                refuse("there are " + std::to_string(chosen.size()) + " holes, from 1",
+                       "holes=" + std::to_string(n));
             chosen[n - 1] = true;
         }
     }
-    if (auto done = fill_holes(surfaces, chosen, *work, run); !done) return done.error();
-    const auto contacts = contacts_of_new(*work, run);
-    if (!contacts) return contacts.error();
-    if (contacts->empty()) return work;
-    const NewContact& c = contacts->front();
-    return Error{ErrorCode::improper_contact,
-                 "new triangles meet other triangles: " + std::string(name_of(c.kind)),
-                 "hole " + std::to_string(c.hole)};
+    must(fill_holes(surfaces, chosen, work, run));
+    const auto contacts = must(contacts_of_new(work, run));
+    if (contacts.empty()) return work;
+    const NewContact& c = contacts.front();
+    refuse(ErrorCode::improper_contact,
+           "new triangles meet other triangles: " + std::string(name_of(c.kind)),
+           "hole " + std::to_string(c.hole));
 }
 
 py::tuple fill(const py::sequence& surfaces, const py::dict& options,

@@ -39,26 +39,11 @@ inline MeshPointer handle_of(const ConformingMesh& mesh) {
     return handle_of(mesh.mesh(), mesh);
 }
 
-/// Adds a property that is a view of a vector: `get(const Class&)` returns a reference to it.
-template <class Class, class Bound, class Get>
-void add_array(Bound& bound, const char* name, Get get) {
-    bound.def_property_readonly(
-        name, [get](const py::object& self) { return view(get(self.cast<const Class&>()), self); });
-}
-
-/// Adds a property that is a pair of views of lists.
-template <class Class, class Bound, class Get>
-void add_lists(Bound& bound, const char* name, Get get) {
-    bound.def_property_readonly(name, [get](const py::object& self) {
-        return lists(get(self.cast<const Class&>()), self);
-    });
-}
-
 /// Refuses a number that names none of `count` surfaces, blocks and so on.
 inline void require_below(std::uint32_t number, std::size_t count, const char* what) {
     if (number >= count)
-        throw Failure{{ErrorCode::bad_index,
-                       "there is no " + std::string(what) + " " + std::to_string(number), ""}};
+        refuse(ErrorCode::bad_index,
+               "there is no " + std::string(what) + " " + std::to_string(number), "");
 }
 
 /// The numbers of a report on rounding.

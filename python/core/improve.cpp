@@ -31,25 +31,23 @@ py::dict dict_of_improvement(const ImproveReport& r) {
 }
 
 py::dict dict_of_joined(const SimplifyReport& r) {
-    py::list blocks, block_contacts, surface_contacts, left, deviations;
+    py::list blocks;
     for (const ChangedBlock& b : r.blocks)
         blocks.append(py::dict("block"_a = b.block, "volume"_a = b.volume, "parts"_a = b.parts,
                                "into"_a = b.into));
-    const auto add = [](py::list& list, const ChangedContact& c) {
-        list.append(py::make_tuple(c.between[0], c.between[1], c.is_new));
+    const auto contacts = [](const std::vector<ChangedContact>& list) {
+        return rows(
+            list, [](const ChangedContact& c) { return c.between[0]; },
+            [](const ChangedContact& c) { return c.between[1]; }, &ChangedContact::is_new);
     };
-    for (const ChangedContact& c : r.block_contacts) add(block_contacts, c);
-    for (const ChangedContact& c : r.surface_contacts) add(surface_contacts, c);
-    for (const LeftAlone& l : r.left)
-        left.append(py::make_tuple(l.distance, py::make_tuple(l.place.x, l.place.y, l.place.z),
-                                   to_text(std::string(name_of(l.reason)))));
-    for (const Deviation& d : r.deviations) deviations.append(py::make_tuple(d.out, d.back));
+    const auto left = rows(r.left, &LeftAlone::distance, &LeftAlone::place, &LeftAlone::reason);
+    const auto deviations = rows(r.deviations, &Deviation::out, &Deviation::back);
     return py::dict("length"_a = r.resolution, "max_move"_a = r.max_move, "corners"_a = r.corners,
                     "curves"_a = r.curves, "surfaces"_a = r.sheets, "divided"_a = r.divided,
                     "rounds"_a = r.rounds, "attempts"_a = r.attempts, "blocks"_a = blocks,
-                    "block_contacts"_a = block_contacts, "surface_contacts"_a = surface_contacts,
-                    "vanished"_a = r.vanished, "kept_blocks"_a = r.kept,
-                    "deviations"_a = deviations, "left_alone"_a = left);
+                    "block_contacts"_a = contacts(r.block_contacts),
+                    "surface_contacts"_a = contacts(r.surface_contacts), "vanished"_a = r.vanished,
+                    "kept_blocks"_a = r.kept, "deviations"_a = deviations, "left_alone"_a = left);
 }
 
 /// An improved mesh, and what was joined at a resolution before.
@@ -58,16 +56,14 @@ struct ImprovedMesh {
     std::optional<SimplifyReport> joined;
 };
 
-Result<ImprovedMesh> improved_mesh(const MeshPointer& mesh, const Resolution& resolution,
-                                   ImproveOptions options, const Run& run) {
+ImprovedMesh improved_mesh(const MeshPointer& mesh, const Resolution& resolution,
+                           ImproveOptions options, const Run& run) {
     if (resolution.length == 0) {
-        auto made = improve_and_measure(*mesh->conforming, options, run);
-        if (!made) return made.error();
-        return ImprovedMesh{std::move(*made), {}};
+        auto made = must(improve_and_measure(*mesh->conforming, options, run));
+        return ImprovedMesh{std::move(made), {}};
     }
-    auto made = improve_at_resolution(*mesh->conforming, resolution, options, {}, run);
-    if (!made) return made.error();
-    return ImprovedMesh{std::move(made->improved), std::move(made->simplified.report)};
+    auto made = must(improve_at_resolution(*mesh->conforming, resolution, options, {}, run));
+    return ImprovedMesh{std::move(made.improved), std::move(made.simplified.report)};
 }
 
 py::tuple improve_mesh(const MeshPointer& mesh, const py::dict& options, const HowToRun& how) {
@@ -97,7 +93,7 @@ void bind_improve(py::module_& module) {
         [](const py::sequence& from, const py::sequence& to, const HowToRun& how) {
             auto first = std::make_shared<const std::vector<Surface>>(to_surfaces(from));
             auto second = std::make_shared<const std::vector<Surface>>(to_surfaces(to));
-            return run_plainly(how, [first, second](const Run& run) {
+            return run_stage(how, [first, second](const Run& run) {
                 return measured_distance(first->at(0), second->at(0), run);
             });
         },

@@ -14,14 +14,6 @@ using namespace py::literals;
 
 namespace {
 
-py::list layer_reports(const std::vector<LayerReport>& reports) {
-    py::list all;
-    for (const LayerReport& r : reports)
-        all.append(py::make_tuple(std::uint32_t(r.surface), r.dropped, r.taken, r.parts,
-                                  r.dropped_area, r.taken_area, r.largest_move, r.step_length));
-    return all;
-}
-
 py::tuple stack(const py::sequence& surfaces,
                 const std::vector<std::pair<std::uint32_t, double>>& order, double min_thickness,
                 std::optional<double> max_move, const HowToRun& how) {
@@ -33,14 +25,15 @@ py::tuple stack(const py::sequence& surfaces,
     const auto made = run_stage(how, [given, layers, options](const Run& run) {
         return stack_layers(*given, layers, options, run);
     });
-    py::list wrong;
-    for (const OutOfOrder& o : made.out_of_order)
-        wrong.append(py::make_tuple(o.upper, o.lower,
-                                    py::make_tuple(o.triangles[0], o.triangles[1]),
-                                    to_tuple(o.place), o.depth));
-    const py::dict report("layers"_a = layer_reports(made.reports),
-                          "step_width"_a = made.step_width, "min_thickness"_a = made.min_thickness,
-                          "out_of_order"_a = wrong, "is_stack"_a = made.is_stack(),
+    const auto layers_made =
+        rows(made.reports, &LayerReport::surface, &LayerReport::dropped, &LayerReport::taken,
+             &LayerReport::parts, &LayerReport::dropped_area, &LayerReport::taken_area,
+             &LayerReport::largest_move, &LayerReport::step_length);
+    const auto wrong = rows(made.out_of_order, &OutOfOrder::upper, &OutOfOrder::lower,
+                            &OutOfOrder::triangles, &OutOfOrder::place, &OutOfOrder::depth);
+    const py::dict report("layers"_a = layers_made, "step_width"_a = made.step_width,
+                          "min_thickness"_a = made.min_thickness, "out_of_order"_a = wrong,
+                          "is_stack"_a = made.is_stack(),
                           "rounding"_a = to_dict(made.rounded.report));
     return py::make_tuple(handle_of(made.rounded.mesh, made.rounded.conforming), report);
 }

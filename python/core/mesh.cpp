@@ -27,7 +27,7 @@ MeshPointer mesh_of(const py::tuple& state) {
     mesh.regions_of = copied_lists(state[4].cast<py::tuple>());
     mesh.parents_of = copied_lists(state[5].cast<py::tuple>());
     mesh.intersection_edges = copied<Edge>(state[6].cast<py::array>());
-    if (auto valid = validate_indices(mesh); !valid) throw Failure{valid.error()};
+    must(validate_indices(mesh));
     return handle_of(SharedMesh(std::move(mesh)));
 }
 
@@ -50,7 +50,7 @@ py::dict dict_of_spread(const Spread& s) {
 }
 
 py::dict quality(const MeshPointer& handle, const HowToRun& how) {
-    const auto q = run_plainly(how, [mesh = handle->mesh](const Run& run) {
+    const auto q = run_stage(how, [mesh = handle->mesh](const Run& run) {
         return measure_quality(mesh->vertices, mesh->triangles, run);
     });
     const std::vector<std::size_t> histogram(q.histogram.begin(), q.histogram.end());
@@ -77,7 +77,7 @@ py::dict check_all(const std::vector<Surface>& surfaces, const HowToRun& how) {
 
 py::tuple regions(const MeshPointer& handle, const HowToRun& how) {
     auto found =
-        run_plainly(how, [mesh = handle->mesh](const Run& run) { return find_regions(mesh, run); });
+        run_stage(how, [mesh = handle->mesh](const Run& run) { return find_regions(mesh, run); });
     return py::make_tuple(owned(std::move(found.regions_of.offsets)),
                           owned(std::move(found.regions_of.values)), to_list(found.regions));
 }
@@ -85,19 +85,13 @@ py::tuple regions(const MeshPointer& handle, const HowToRun& how) {
 } // namespace
 
 py::list to_list(const std::vector<ImproperContact>& contacts) {
-    py::list all;
-    for (const ImproperContact& c : contacts)
-        all.append(py::make_tuple(py::make_tuple(c.triangles[0], c.triangles[1]),
-                                  to_text(name_of(c.kind)), to_tuple(c.place)));
-    return all;
+    return rows(contacts, &ImproperContact::triangles, &ImproperContact::kind,
+                &ImproperContact::place);
 }
 
 py::list to_list(const std::vector<Region>& regions) {
-    py::list all;
-    for (const Region& r : regions)
-        all.append(py::make_tuple(std::uint32_t(r.surface), r.first_triangle, r.triangles, r.area,
-                                  py::tuple(py::cast(r.neighbours))));
-    return all;
+    return rows(regions, &Region::surface, &Region::first_triangle, &Region::triangles,
+                &Region::area, &Region::neighbours);
 }
 
 void bind_mesh(py::module_& module) {
@@ -108,37 +102,33 @@ void bind_mesh(py::module_& module) {
         .def_property_readonly("is_proven",
                                [](const MeshHandle& m) { return m.conforming.has_value(); });
     using Handle = MeshHandle;
-    add_array<Handle>(
-        mesh, "vertices", [](const Handle& m) -> auto& { return m.mesh->vertices; });
-    add_array<Handle>(
-        mesh, "triangles", [](const Handle& m) -> auto& { return m.mesh->triangles; });
-    add_array<Handle>(
-        mesh, "intersection_edges",
-        [](const Handle& m) -> auto& { return m.mesh->intersection_edges; });
-    add_lists<Handle>(
-        mesh, "surfaces_of", [](const Handle& m) -> auto& { return m.mesh->surfaces_of; });
-    add_lists<Handle>(
-        mesh, "regions_of", [](const Handle& m) -> auto& { return m.mesh->regions_of; });
-    add_lists<Handle>(
-        mesh, "parents_of", [](const Handle& m) -> auto& { return m.mesh->parents_of; });
-    module.def("proven", &proven, "mesh"_a, "how"_a);
-    module.def("quality", &quality, "mesh"_a, "how"_a);
-    module.def("regions", &regions, "mesh"_a, "how"_a);
-    module.def(
-        "check",
-        [](const py::sequence& surfaces, const HowToRun& how) {
-            return check_all(to_surfaces(surfaces), how);
-        },
-        "surfaces"_a, "how"_a);
-    module.def(
-        "surfaces_of_mesh",
-        [](const MeshPointer& m) { return from_surfaces(surfaces_of_mesh(m->mesh)); }, "mesh"_a);
-    module.def(
-        "concatenate",
-        [](const py::sequence& surfaces) {
-            return handle_of(SharedMesh(concatenate(to_surfaces(surfaces))));
-        },
-        "surfaces"_a);
+    ArraysOf{mesh, [](const MeshHandle& m) -> auto& {return *m.mesh;
+}
+} // namespace terrane::python
+.add("vertices", &terrane::Mesh::vertices)
+    .add("triangles", &terrane::Mesh::triangles)
+    .add("intersection_edges", &terrane::Mesh::intersection_edges)
+    .add("surfaces_of", &terrane::Mesh::surfaces_of)
+    .add("regions_of", &terrane::Mesh::regions_of)
+    .add("parents_of", &terrane::Mesh::parents_of);
+module.def("proven", &proven, "mesh"_a, "how"_a);
+module.def("quality", &quality, "mesh"_a, "how"_a);
+module.def("regions", &regions, "mesh"_a, "how"_a);
+module.def(
+    "check",
+    [](const py::sequence& surfaces, const HowToRun& how) {
+        return check_all(to_surfaces(surfaces), how);
+    },
+    "surfaces"_a, "how"_a);
+module.def(
+    "surfaces_of_mesh",
+    [](const MeshPointer& m) { return from_surfaces(surfaces_of_mesh(m->mesh)); }, "mesh"_a);
+module.def(
+    "concatenate",
+    [](const py::sequence& surfaces) {
+        return handle_of(SharedMesh(concatenate(to_surfaces(surfaces))));
+    },
+    "surfaces"_a);
 }
 
 } // namespace terrane::python

@@ -21,13 +21,12 @@ namespace terrane::python {
 
 using namespace py::literals;
 
-Result<ModelPointer> model_of(Built& built, bool judges_leaks, const Run& run) {
+ModelPointer model_of(Built& built, bool judges_leaks, const Run& run) {
     Arranged& arranged = built.arranged;
     auto model = std::make_shared<ModelHandle>(ModelHandle{std::move(*built.model)});
     if (judges_leaks && !arranged.sealed && !model->model.borders.empty()) {
-        auto judged = judge_leaks(arranged, model->model.borders, {}, run);
-        if (!judged) return judged.error();
-        model->leaks = std::move(*judged);
+        auto judged = must(judge_leaks(arranged, model->model.borders, {}, run));
+        model->leaks = std::move(judged);
     }
     model->sealed = std::move(arranged.sealed);
     model->cut = std::move(arranged.cut);
@@ -39,52 +38,45 @@ Result<ModelPointer> model_of(Built& built, bool judges_leaks, const Run& run) {
 
 namespace {
 
-Result<ModelPointer> made(std::vector<Surface> surfaces, std::vector<Surface> boundary,
-                          const Project& project, const Run& run) {
+ModelPointer made(std::vector<Surface> surfaces, std::vector<Surface> boundary,
+                  const Project& project, const Run& run) {
     auto built = build(project, {std::move(surfaces), std::move(boundary)}, run);
     if (!built && built.error().place.starts_with("seal_of."))
-        return Error{built.error().code, built.error().sentence, "seal"};
-    if (!built) return built.error();
+        refuse(built.error().code, built.error().sentence, "seal");
+    if (!built) throw Failure{built.error()};
     auto model = model_of(*built, true, run);
-    if (!model) return model;
-    (*model)->exact = std::make_shared<const Arrangement>(std::move(built->arranged.exact));
-    (*model)->rounded = built->arranged.rounded.conforming;
-    (*model)->column = project.column;
+    model->exact = std::make_shared<const Arrangement>(std::move(built->arranged.exact));
+    model->rounded = built->arranged.rounded.conforming;
+    model->column = project.column;
     return model;
 }
 
 /// Joins what is nearer than the resolution, which a model is then about, and improves the rest.
-Result<ImprovedAndMeasured> joined_and_improved(ModelHandle& handle, const Resolution& resolution,
-                                                const ImproveOptions& options, const Run& run) {
-    auto made = improve_at_resolution(*handle.rounded, resolution, options, {}, run);
-    if (!made) return made.error();
-    handle.exact = std::make_shared<const Arrangement>(std::move(made->simplified.exact));
-    handle.rounding = made->simplified.rounded.report;
-    handle.rounded = made->simplified.rounded.conforming;
-    return std::move(made->improved);
+ImprovedAndMeasured joined_and_improved(ModelHandle& handle, const Resolution& resolution,
+                                        const ImproveOptions& options, const Run& run) {
+    auto made = must(improve_at_resolution(*handle.rounded, resolution, options, {}, run));
+    handle.exact = std::make_shared<const Arrangement>(std::move(made.simplified.exact));
+    handle.rounding = made.simplified.rounded.report;
+    handle.rounded = made.simplified.rounded.conforming;
+    return std::move(made.improved);
 }
 
 /// Makes the same model with better triangles. Blocks keep their numbers, and what is known about gaps stays.
 ModelPointer improved(const ModelPointer& old, const py::dict& options, const HowToRun& how) {
     if (!old->exact)
-        throw Failure{{ErrorCode::unsupported,
-                       "a project improves its model itself, by its key improve", ""}};
-    auto made =
-        run_stage(how,
-                  [old, resolution = options_in<Resolution>(options),
-                   o = options_in<ImproveOptions>(options)](const Run& run) -> Result<ModelHandle> {
-                      ModelHandle handle = *old;
-                      auto better = resolution.length > 0
-                                        ? joined_and_improved(handle, resolution, o, run)
-                                        : improve_and_measure(*old->rounded, o, run);
-                      if (!better) return better.error();
-                      auto model = make_model(*handle.exact, *handle.rounded, better->improved, run,
-                                              {.column = old->column});
-                      if (!model) return model.error();
-                      handle.model = std::move(*model);
-                      return handle;
-                  });
-    return std::make_shared<ModelHandle>(std::move(made));
+        refuse(ErrorCode::unsupported, "a project improves its model itself, by its key improve",
+               "");
+    const auto improved_as = [old, resolution = options_in<Resolution>(options),
+                              o = options_in<ImproveOptions>(options)](const Run& run) {
+        ModelHandle handle = *old;
+        const auto better = resolution.length > 0
+                                ? joined_and_improved(handle, resolution, o, run)
+                                : must(improve_and_measure(*old->rounded, o, run));
+        handle.model = must(make_model(*handle.exact, *handle.rounded, better.improved, run,
+                                       {.column = old->column}));
+        return std::make_shared<ModelHandle>(std::move(handle));
+    };
+    return run_stage(how, improved_as);
 }
 
 /// seal: None, a number, "auto", or a dict of these by None, name or pair.
@@ -116,11 +108,8 @@ ModelPointer make(const py::sequence& surfaces, const py::sequence& boundary,
 }
 
 py::list to_list(const std::vector<Leak>& leaks) {
-    py::list all;
-    for (const Leak& l : leaks)
-        all.append(py::make_tuple(std::uint32_t(l.from), std::uint32_t(l.to), l.borders, l.length,
-                                  l.least, l.largest, to_tuple(l.place)));
-    return all;
+    return rows(leaks, &Leak::from, &Leak::to, &Leak::borders, &Leak::length, &Leak::least,
+                &Leak::largest, &Leak::place);
 }
 
 /// (separating, all, verdicts, distance)
@@ -135,28 +124,20 @@ py::tuple leaks(const ModelHandle& m) {
 }
 
 py::list borders(const ModelHandle& m) {
-    py::list all;
-    for (const FreeBorder& b : m.model.borders)
-        all.append(py::make_tuple(b.line, py::tuple(py::cast(b.surfaces)), b.length, b.closed));
-    return all;
+    return rows(m.model.borders, &FreeBorder::line, &FreeBorder::surfaces, &FreeBorder::length,
+                &FreeBorder::closed);
 }
 
 py::list relations(const ModelHandle& m) {
-    py::list all;
-    for (const SurfaceRelation& r :
-         find_relations(m.model.mesh, m.model.structure, m.model.borders))
-        all.append(py::make_tuple(std::uint32_t(r.from), std::uint32_t(r.to),
-                                  to_text(name_of(r.kind)), r.length, r.least, r.largest,
-                                  to_tuple(r.place)));
-    return all;
+    return rows(find_relations(m.model.mesh, m.model.structure, m.model.borders),
+                &SurfaceRelation::from, &SurfaceRelation::to, &SurfaceRelation::kind,
+                &SurfaceRelation::length, &SurfaceRelation::least, &SurfaceRelation::largest,
+                &SurfaceRelation::place);
 }
 
 py::list juxtapositions(const ModelHandle& m) {
-    py::list all;
-    for (const Juxtaposition& j : find_juxtapositions(m.model.structure))
-        all.append(py::make_tuple(std::uint32_t(j.surface),
-                                  py::make_tuple(j.blocks[0], j.blocks[1]), j.area));
-    return all;
+    return rows(find_juxtapositions(m.model.structure), &Juxtaposition::surface,
+                &Juxtaposition::blocks, &Juxtaposition::area);
 }
 
 py::tuple part(const ModelHandle& m, bool of_block, std::uint32_t number) {
@@ -220,10 +201,12 @@ void bind_model(py::module_& module) {
         .def("part", &part, "of_block"_a, "number"_a)
         .def("save", &save, "folder"_a, "format"_a, "how"_a);
     bound.def_property_readonly("total_volume", [](const M& m) { return m.model.total_volume; });
-    add_array<M>(
-        bound, "exact_volumes", [](const M& m) -> auto& { return m.model.exact_volumes; });
-    module.def("improve_model", &improved, "model"_a, "options"_a, "how"_a);
-    module.def("model", &make, "surfaces"_a, "boundary"_a, "options"_a, "how"_a);
+    ArraysOf{bound, [](const M& m) -> auto& {return m.model;
+}
+} // namespace terrane::python
+.add("exact_volumes", &terrane::Model::exact_volumes);
+module.def("improve_model", &improved, "model"_a, "options"_a, "how"_a);
+module.def("model", &make, "surfaces"_a, "boundary"_a, "options"_a, "how"_a);
 }
 
 } // namespace terrane::python

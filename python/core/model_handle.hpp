@@ -32,7 +32,7 @@ struct ModelHandle {
 using ModelPointer = std::shared_ptr<ModelHandle>;
 
 /// Takes the model out of what was built.
-Result<ModelPointer> model_of(Built& built, bool judges_leaks, const Run& run);
+ModelPointer model_of(Built& built, bool judges_leaks, const Run& run);
 
 /// A list of (unit, surface, age, erosive).
 StratigraphicColumn to_column(const py::sequence& units);

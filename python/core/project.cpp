@@ -24,50 +24,40 @@ using namespace py::literals;
 namespace {
 
 /// Writes what the project asks for, as the program does.
-Status write_folder(BuiltHandle& built, const std::filesystem::path& folder, const Run& run) {
-    auto made = NewFolder::create(folder);
-    if (!made) return made.error();
+void write_folder(BuiltHandle& built, const std::filesystem::path& folder, const Run& run) {
+    auto made = must(NewFolder::create(folder));
     const ModelHandle& m = *built.model;
     const Results results{built.project, m.model, built.tetrahedra.get(),
                           m.sealed,      m.leaks, built.read.unit};
-    if (auto done = write_results(results, made->temporary(), run); !done) return done.error();
+    must(write_results(results, made.temporary(), run));
     if (built.certified)
-        if (auto done =
-                write_certificates(results, built.read, *built.certified, made->temporary(), run);
-            !done)
-            return done.error();
-    return made->publish();
+        must(write_certificates(results, built.read, *built.certified, made.temporary(), run));
+    must(made.publish());
 }
 
 std::shared_ptr<BuiltHandle> build_text(const py::bytes& text, const py::object& base,
                                         const py::object& source, const HowToRun& how) {
-    auto project = value_of(parse_project(std::string(text), to_path(base), from_text(source)));
-    if (const auto possible = check_certifiable(project); !possible)
-        throw Failure{possible.error()};
-    return std::make_shared<BuiltHandle>(
-        run_stage(how, [project](const Run& run) -> Result<BuiltHandle> {
-            auto inputs = read_inputs(project, run);
-            if (!inputs) return inputs.error();
-            auto built =
-                built_of(project, build(project, std::move(inputs->build), run), true, run);
-            if (built) built->read = *std::move(inputs);
-            return built;
-        }));
+    auto project = must(parse_project(std::string(text), to_path(base), from_text(source)));
+    must(check_certifiable(project));
+    return std::make_shared<BuiltHandle>(run_stage(how, [project](const Run& run) {
+        auto inputs = must(read_inputs(project, run));
+        auto made = must(build(project, std::move(inputs.build), run));
+        BuiltHandle built = built_of(project, std::move(made), true, run);
+        built.read = std::move(inputs);
+        return built;
+    }));
 }
 
 } // namespace
 
-Result<BuiltHandle> built_of(const Project& project, Result<Built> made, bool judges_leaks,
-                             const Run& run) {
-    if (!made) return made.error();
-    auto model = model_of(*made, judges_leaks, run);
-    if (!model) return model.error();
-    BuiltHandle handle{project, *std::move(model), nullptr, std::move(made->arranged.surfaces)};
+BuiltHandle built_of(const Project& project, Built made, bool judges_leaks, const Run& run) {
+    auto model = model_of(made, judges_leaks, run);
+    BuiltHandle handle{project, std::move(model), nullptr, std::move(made.arranged.surfaces)};
     if (project.outputs.certificate) {
-        made->arranged.surfaces = handle.surfaces;
-        handle.certified = std::make_shared<Arranged>(std::move(made->arranged));
+        made.arranged.surfaces = handle.surfaces;
+        handle.certified = std::make_shared<Arranged>(std::move(made.arranged));
     }
-    if (made->filled) handle.tetrahedra = std::make_shared<FilledBlocks>(std::move(*made->filled));
+    if (made.filled) handle.tetrahedra = std::make_shared<FilledBlocks>(std::move(*made.filled));
     return handle;
 }
 

@@ -39,8 +39,7 @@ Request to_request(const py::tuple& facts, const py::object& path, const py::seq
                    const HowToRun& how) {
     Request request;
     request.path = to_path(path);
-    if (const auto possible = page::check_pages(); !possible)
-        throw Failure{{possible.error().code, possible.error().sentence, request.path.string()}};
+    must(page::check_pages(), request.path.string());
     request.facts.command = from_text(facts[0]);
     request.facts.title = from_text(facts[1]);
     for (const py::handle item : facts[2].cast<py::sequence>()) {
@@ -53,54 +52,47 @@ Request to_request(const py::tuple& facts, const py::object& path, const py::seq
     return request;
 }
 
-Status write_page(page::Page& page, const Request& request) {
+void write_page(page::Page& page, const Request& request) {
     const page::Json run{
         {"seconds", page::Json::object()}, {"peak_rss_mb", nullptr}, {"threads", request.threads}};
-    const auto html = page.html(page::Json::object(), run);
-    if (!html) return html.error();
-    return write_file(request.path, *html);
+    must(write_file(request.path, must(page.html(page::Json::object(), run))));
 }
 
-Status add_model(page::Page& page, const ModelHandle& m, const Request& request, const Run& run) {
-    if (auto found = page.add_holes(*request.surfaces, run); !found) return found;
+void add_model(page::Page& page, const ModelHandle& m, const Request& request, const Run& run) {
+    must(page.add_holes(*request.surfaces, run));
     const SharedMesh mesh = m.model.mesh.mesh();
     const SharedMesh before = m.rounded ? m.rounded->mesh() : mesh;
     if (m.rounding) page.add_rounded(before, *m.rounding);
     page.add_mended(m.sealed, m.merged);
     if (&*mesh != &*before) page.add_improved(mesh, before);
     page.add_model(m.model, m.leaks);
-    return Done{};
 }
 
 void report_model(const ModelPointer& model, const std::optional<TetrahedraPointer>& tetrahedra,
                   const py::sequence& surfaces, const py::object& path, const py::tuple& facts,
                   const HowToRun& how) {
-    run_stage(how,
-              [model, tetrahedra,
-               request = to_request(facts, path, surfaces, how)](const Run& run) -> Status {
-                  page::Page page(request.facts);
-                  if (auto added = add_model(page, *model, request, run); !added) return added;
-                  if (tetrahedra) page.add_tetrahedra(**tetrahedra);
-                  return write_page(page, request);
-              });
-}
-
-void report_arrangement(const ArrangementPointer& arrangement, const py::sequence& surfaces,
-                        const py::object& path, const py::tuple& facts, const HowToRun& how) {
     run_stage(
-        how,
-        [arrangement, request = to_request(facts, path, surfaces, how)](const Run& run) -> Status {
-            const auto rounded = round_to_doubles(*arrangement, {}, run);
-            if (!rounded) return rounded.error();
+        how, [model, tetrahedra, request = to_request(facts, path, surfaces, how)](const Run& run) {
             page::Page page(request.facts);
-            page.add_rounded(rounded->mesh, rounded->report);
+            add_model(page, *model, request, run);
+            if (tetrahedra) page.add_tetrahedra(**tetrahedra);
             return write_page(page, request);
         });
 }
 
+void report_arrangement(const ArrangementPointer& arrangement, const py::sequence& surfaces,
+                        const py::object& path, const py::tuple& facts, const HowToRun& how) {
+    run_stage(how, [arrangement, request = to_request(facts, path, surfaces, how)](const Run& run) {
+        const auto rounded = must(round_to_doubles(*arrangement, {}, run));
+        page::Page page(request.facts);
+        page.add_rounded(rounded.mesh, rounded.report);
+        return write_page(page, request);
+    });
+}
+
 void report_filled(const WorkPointer& work, const py::sequence& surfaces, const py::object& path,
                    const py::tuple& facts, const HowToRun& how) {
-    run_stage(how, [work, request = to_request(facts, path, surfaces, how)](const Run&) -> Status {
+    run_stage(how, [work, request = to_request(facts, path, surfaces, how)](const Run&) {
         bool whole = true;
         for (const NumberedHole& hole : work->holes)
             whole = whole && (hole.report || hole.refused.empty());

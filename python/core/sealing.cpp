@@ -23,29 +23,23 @@ namespace {
 using NamedDistances = std::vector<std::pair<std::string, double>>;
 
 py::list to_list(const std::vector<SealChange>& changes) {
-    py::list all;
-    for (const SealChange& c : changes)
-        all.append(py::make_tuple(c.kind == SealKind::extended ? "extended" : "trimmed",
-                                  std::uint32_t(c.surface), c.length, c.largest, to_tuple(c.place),
-                                  c.triangles));
-    return all;
+    return rows(
+        changes,
+        [](const SealChange& c) {
+            return std::string(c.kind == SealKind::extended ? "extended" : "trimmed");
+        },
+        &SealChange::surface, &SealChange::length, &SealChange::largest, &SealChange::place,
+        &SealChange::triangles);
 }
 
 py::list to_list(const std::vector<OpenGap>& gaps) {
-    py::list all;
-    for (const OpenGap& g : gaps)
-        all.append(py::make_tuple(std::uint32_t(g.from), std::uint32_t(g.to),
-                                  to_text(name_of(g.reason)), g.edges, g.length, g.width,
-                                  to_tuple(g.place)));
-    return all;
+    return rows(gaps, &OpenGap::from, &OpenGap::to, &OpenGap::reason, &OpenGap::edges,
+                &OpenGap::length, &OpenGap::width, &OpenGap::place);
 }
 
 py::list to_list(const std::vector<ClosedGap>& gaps) {
-    py::list all;
-    for (const ClosedGap& g : gaps)
-        all.append(py::make_tuple(std::uint32_t(g.from), std::uint32_t(g.to), g.length, g.width,
-                                  to_tuple(g.place)));
-    return all;
+    return rows(gaps, &ClosedGap::from, &ClosedGap::to, &ClosedGap::length, &ClosedGap::width,
+                &ClosedGap::place);
 }
 
 NamedDistances to_distances(const py::dict& given) {
@@ -55,17 +49,17 @@ NamedDistances to_distances(const py::dict& given) {
     return all;
 }
 
-Result<Sealed> sealed(std::vector<Surface> surfaces, double distance, const NamedDistances& of,
-                      const Run& run) {
+Sealed sealed(std::vector<Surface> surfaces, double distance, const NamedDistances& of,
+              const Run& run) {
     SealOptions options{.distance = distance};
     const auto infos = infos_of(surfaces);
     const auto labels = unique_labels(infos);
     for (const auto& [name, width] : of) {
         const auto rules = seal_rules_for(name, width, infos, labels);
-        if (!rules) return Error{ErrorCode::bad_option, rules.error().sentence, "distance_of"};
+        if (!rules) refuse(rules.error().sentence, "distance_of");
         options.rules.insert(options.rules.end(), rules->begin(), rules->end());
     }
-    return seal(std::move(surfaces), options, run);
+    return must(seal(std::move(surfaces), options, run));
 }
 
 py::tuple seal_all(const py::sequence& surfaces, double distance, const py::dict& distance_of,
@@ -86,12 +80,11 @@ py::dict suggest(const py::sequence& surfaces, const py::sequence& boundary, con
     auto around = std::make_shared<const std::vector<Surface>>(to_surfaces(boundary));
     const auto advice = run_stage(
         how, [given, around](const Run& run) { return advise_seal(*given, *around, {}, run); });
-    py::list breaks, trials;
-    for (const GapBreak& b : advice.choice.breaks)
-        breaks.append(py::make_tuple(b.low, b.high, b.distance, b.gaps, b.length));
-    for (const SealTrial& t : advice.trials)
-        trials.append(py::make_tuple(t.distance, t.blocks, t.small, t.changes, t.triangles,
-                                     t.length, t.left));
+    const auto breaks = rows(advice.choice.breaks, &GapBreak::low, &GapBreak::high,
+                             &GapBreak::distance, &GapBreak::gaps, &GapBreak::length);
+    const auto trials =
+        rows(advice.trials, &SealTrial::distance, &SealTrial::blocks, &SealTrial::small,
+             &SealTrial::changes, &SealTrial::triangles, &SealTrial::length, &SealTrial::left);
     return py::dict("distance"_a = advice.choice.distance, "breaks"_a = breaks, "trials"_a = trials,
                     "small_volume"_a = advice.small_volume);
 }

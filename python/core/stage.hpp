@@ -18,7 +18,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/must.hpp>
 #include <terrane/algorithms/core/run.hpp>
 
 namespace terrane::python {
@@ -31,40 +31,27 @@ struct HowToRun {
     py::object progress = py::none(); ///< callable (stage: str, share: float), or None
 };
 
-/// The error that becomes an exception of Python.
-struct Failure {
-    Error error;
-};
-
 /// Calls the work in a thread as (1) to (3) say. The GIL is held.
 void run_watched(const HowToRun& how, std::function<void(const Run&)> work);
 
 /// Stops all stages and waits for them, those that were left by (2) among them; at the end of the interpreter.
 void end_stages();
 
-/// Returns the value, or throws the error.
-template <class T>
-T value_of(Result<T> result) {
-    if (!result) throw Failure{std::move(result).error()};
-    return std::move(result).value();
-}
-
-/// Runs a stage, `work(const Run&) -> Result<T>`, and returns its value.
+/// Runs a stage, `work(const Run&)`, and returns what it returns; the value, if that is a Result.
 template <class Work>
 auto run_stage(const HowToRun& how, Work work) {
     using Made = decltype(work(std::declval<const Run&>()));
-    const auto made = std::make_shared<std::optional<Made>>();
     const auto shared = std::make_shared<Work>(std::move(work));
-    run_watched(how, [made, shared](const Run& run) { made->emplace((*shared)(run)); });
-    return value_of(std::move(made->value()));
-}
-
-/// Runs what takes no Run and cannot fail for reasons of data, and returns its value.
-template <class Work>
-auto run_plainly(const HowToRun& how, Work work) {
-    using Made = decltype(work(std::declval<const Run&>()));
-    return run_stage(
-        how, [work = std::move(work)](const Run& run) -> Result<Made> { return work(run); });
+    if constexpr (std::is_void_v<Made>) {
+        run_watched(how, [shared](const Run& run) { (*shared)(run); });
+    } else {
+        const auto made = std::make_shared<std::optional<Made>>();
+        run_watched(how, [made, shared](const Run& run) { made->emplace((*shared)(run)); });
+        if constexpr (core::detail::is_result<Made>)
+            return must(std::move(made->value()));
+        else
+            return std::move(made->value());
+    }
 }
 
 /// Registers the translation of (4).

@@ -42,11 +42,11 @@ std::vector<Triangle> to_triangles(const py::array& array, std::size_t vertices,
         for (std::size_t i = 0; i < 3; ++i) {
             corners[i] = static_cast<std::uint32_t>(row[i]);
             if (row[i] >= 0 && static_cast<std::uint64_t>(row[i]) < vertices) continue;
-            throw Failure{{ErrorCode::bad_index,
-                           "names a vertex that does not exist: [" + std::to_string(row[0]) + ", " +
-                               std::to_string(row[1]) + ", " + std::to_string(row[2]) + "], of " +
-                               std::to_string(vertices) + " vertices",
-                           owner + "triangles[" + std::to_string(triangles.size() - 1) + "]"}};
+            refuse(ErrorCode::bad_index,
+                   "names a vertex that does not exist: [" + std::to_string(row[0]) + ", " +
+                       std::to_string(row[1]) + ", " + std::to_string(row[2]) + "], of " +
+                       std::to_string(vertices) + " vertices",
+                   owner + "triangles[" + std::to_string(triangles.size() - 1) + "]");
         }
     }
     return triangles;
@@ -74,8 +74,8 @@ std::shared_ptr<Surface> judged_surface(const py::array& vertices, const py::arr
     made->vertices = copied<Point3>(vertices);
     for (std::size_t v = 0; v < made->vertices.size(); ++v)
         if (!is_finite(made->vertices[v]))
-            throw Failure{{ErrorCode::bad_number, "a coordinate is not finite",
-                           owner + "vertices[" + std::to_string(v) + "]"}};
+            refuse(ErrorCode::bad_number, "a coordinate is not finite",
+                   owner + "vertices[" + std::to_string(v) + "]");
     made->triangles = to_triangles(triangles, made->vertices.size(), owner);
     return made;
 }
@@ -111,10 +111,8 @@ py::list from_surfaces(std::vector<Surface> surfaces) {
 }
 
 py::list to_list(const std::vector<SurfaceInfo>& surfaces) {
-    py::list all;
-    for (const SurfaceInfo& s : surfaces)
-        all.append(py::make_tuple(to_text(s.name), to_text(name_of(s.role))));
-    return all;
+    return rows(surfaces, &SurfaceInfo::name,
+                [](const SurfaceInfo& s) { return std::string(name_of(s.role)); });
 }
 
 std::vector<SurfaceInfo> to_infos(const py::sequence& list) {
@@ -132,10 +130,9 @@ void bind_surface(py::module_& module) {
         .def_property_readonly("name", [](const Surface& s) { return to_text(s.name); })
         .def_property_readonly("role", [](const Surface& s) { return to_text(name_of(s.role)); })
         .def_property_readonly("frame", [](const Surface& s) { return from_frame(s.frame); });
-    add_array<Surface>(
-        bound, "vertices", [](const Surface& s) -> auto& { return s.vertices; });
-    add_array<Surface>(
-        bound, "triangles", [](const Surface& s) -> auto& { return s.triangles; });
+    ArraysOf{bound, std::identity{}}
+        .add("vertices", &Surface::vertices)
+        .add("triangles", &Surface::triangles);
 }
 
 } // namespace terrane::python

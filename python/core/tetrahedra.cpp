@@ -35,7 +35,7 @@ Mesher to_mesher(const std::string& name) {
     if (name == "auto") return Mesher::automatic;
     if (name == "tetgen") return Mesher::tetgen;
     if (name == "gmsh") return Mesher::gmsh;
-    throw Failure{{ErrorCode::bad_option, "is no mesher: auto, tetgen, gmsh", "mesher=" + name}};
+    refuse("is no mesher: auto, tetgen, gmsh", "mesher=" + name);
 }
 
 TetrahedraRequest to_request(const py::dict& given) {
@@ -74,8 +74,7 @@ std::vector<std::string> write(const TetrahedraPointer& t, const py::object& pat
     if (format) {
         options.format = format_named(*format);
         if (!options.format)
-            throw Failure{
-                {ErrorCode::unknown_format, "no format is called so", "format=" + *format}};
+            refuse(ErrorCode::unknown_format, "no format is called so", "format=" + *format);
     }
     const auto files = run_stage(how, [t, to, options](const Run&) {
         WriteOptions all = options;
@@ -104,24 +103,20 @@ TetrahedraPointer made_of(const py::tuple& state) {
     for (const py::handle name : state[10].cast<py::sequence>())
         made->block_names.push_back(from_text(name));
     made->added_nodes = state[11].cast<std::size_t>();
-    if (auto valid = validate_indices(t); !valid) throw Failure{valid.error()};
+    must(validate_indices(t));
     if (t.block_count > made->block_names.size())
-        throw Failure{{ErrorCode::bad_index, "there must be a name for each block", ""}};
+        refuse(ErrorCode::bad_index, "there must be a name for each block", "");
     return made;
 }
 
 py::list violations(const FilledBlocks& f) {
-    py::list all;
-    for (const TetrahedraViolation& v : f.report.violations)
-        all.append(py::make_tuple(to_text(name_of(v.defect)), v.count, to_text(v.first)));
-    return all;
+    return rows(f.report.violations, &TetrahedraViolation::defect, &TetrahedraViolation::count,
+                &TetrahedraViolation::first);
 }
 
 py::list block_volumes(const FilledBlocks& f) {
-    py::list all;
-    for (const BlockVolume& v : f.report.volumes)
-        all.append(py::make_tuple(v.block, v.tetrahedra, v.difference, v.bound, v.equal));
-    return all;
+    return rows(f.report.volumes, &BlockVolume::block, &BlockVolume::tetrahedra,
+                &BlockVolume::difference, &BlockVolume::bound, &BlockVolume::equal);
 }
 
 py::dict dict_of_shapes(const WorstShapes& s) {
@@ -167,24 +162,20 @@ void bind_tetrahedra(py::module_& module) {
         .def_property_readonly("is_checked", [](const F& f) { return !f.report.volumes.empty(); })
         .def_property_readonly("optimised", &optimised)
         .def("shape", &shape);
-    add_array<F>(
-        bound, "vertices", [](const F& f) -> auto& { return f.tetrahedra.vertices; });
-    add_array<F>(
-        bound, "tetrahedra", [](const F& f) -> auto& { return f.tetrahedra.tetrahedra; });
-    add_array<F>(
-        bound, "block_of", [](const F& f) -> auto& { return f.tetrahedra.block_of; });
-    add_array<F>(
-        bound, "faces", [](const F& f) -> auto& { return f.tetrahedra.faces; });
-    add_array<F>(
-        bound, "face_triangle", [](const F& f) -> auto& { return f.tetrahedra.face_triangle; });
-    add_array<F>(
-        bound, "twins", [](const F& f) -> auto& { return f.tetrahedra.twins; });
-    add_lists<F>(
-        bound, "surfaces_of", [](const F& f) -> auto& { return f.tetrahedra.surfaces_of; });
-    module.attr("tetrahedra_fields") = described<TetrahedraOptions>();
-    module.def("fill_blocks", &fill, "model"_a, "options"_a, "how"_a);
-    module.def("write_tetrahedra", &write, "tetrahedra"_a, "path"_a, "format"_a, "compress"_a,
-               "order"_a, "how"_a);
+    ArraysOf{bound, [](const F& f) -> auto& {return f.tetrahedra;
+}
+} // namespace terrane::python
+.add("vertices", &TetrahedralMesh::vertices)
+    .add("tetrahedra", &TetrahedralMesh::tetrahedra)
+    .add("block_of", &TetrahedralMesh::block_of)
+    .add("faces", &TetrahedralMesh::faces)
+    .add("face_triangle", &TetrahedralMesh::face_triangle)
+    .add("twins", &TetrahedralMesh::twins)
+    .add("surfaces_of", &TetrahedralMesh::surfaces_of);
+module.attr("tetrahedra_fields") = described<TetrahedraOptions>();
+module.def("fill_blocks", &fill, "model"_a, "options"_a, "how"_a);
+module.def("write_tetrahedra", &write, "tetrahedra"_a, "path"_a, "format"_a, "compress"_a,
+           "order"_a, "how"_a);
 }
 
 } // namespace terrane::python

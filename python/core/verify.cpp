@@ -8,7 +8,7 @@
 #include <terrane/algorithms/verify/stoppable.hpp>
 #include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
-#include <terrane/io/files.hpp>
+#include <terrane/io/verifier_input.hpp>
 
 #include "handles.hpp"
 #include "surfaces.hpp"
@@ -23,11 +23,7 @@ namespace fs = std::filesystem;
 
 /// (rule, elements, sentence)
 py::list to_list(const std::vector<Violation>& violations) {
-    py::list all;
-    for (const Violation& v : violations)
-        all.append(
-            py::make_tuple(name_of(v.rule), py::tuple(py::cast(v.elements)), to_text(v.sentence)));
-    return all;
+    return rows(violations, &Violation::rule, &Violation::elements, &Violation::sentence);
 }
 
 /// Runs work() -> Result<T> of the verifier, which hears a stop.
@@ -41,15 +37,7 @@ py::list verify_made(const py::sequence& surfaces, const ArrangementPointer& a,
                      const HowToRun& how) {
     auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(surfaces));
     return to_list(run_verifier(how, [given, a]() -> Result<std::vector<Violation>> {
-        ArrangementClaim claim;
-        for (std::uint32_t v = 0; v < a->vertices.size(); ++v)
-            claim.vertices.push_back(a->construction(VertexId(v)));
-        claim.triangles = a->triangles;
-        claim.parents_of = a->parents_of;
-        claim.intersection_edges = a->intersection_edges;
-        claim.degenerate = a->degenerate;
-        claim.duplicates = a->inputs.duplicates;
-        return verify_arrangement(*given, claim);
+        return verify_arrangement(*given, claim_of(*a));
     }));
 }
 
@@ -74,33 +62,6 @@ struct Judgement {
     std::string digest;
 };
 
-Result<std::vector<InputFile>> read_files(const Certificate& certificate, const fs::path& folder,
-                                          const std::vector<std::string>& given) {
-    if (!given.empty() && given.size() != certificate.inputs.size())
-        return Error{ErrorCode::bad_option,
-                     "the certificate is about " + std::to_string(certificate.inputs.size()) +
-                         " files, not " + std::to_string(given.size()),
-                     "inputs"};
-    std::vector<InputFile> files;
-    for (std::size_t i = 0; i < certificate.inputs.size(); ++i) {
-        const std::string& name = certificate.inputs[i].name;
-        const auto contents = read_file(given.empty() ? folder / name : fs::path(given[i]));
-        if (!contents) return contents.error();
-        const auto format = format_of(name);
-        if (!format)
-            return Error{ErrorCode::unknown_format, "no format that can be read has this extension",
-                         name};
-        auto surfaces = parse_surfaces(*contents, name, *format);
-        InputFile file = input_file(*contents, {});
-        if (surfaces)
-            file.surfaces = std::move(*surfaces);
-        else if (file.sha256 == certificate.inputs[i].sha256)
-            return surfaces.error();
-        files.push_back(std::move(file));
-    }
-    return files;
-}
-
 std::vector<JudgedFile> judge_outputs(const Certificate& certificate, const fs::path& folder) {
     constexpr std::array<const char*, 4> checks{"doubles", "numbers", "float32", "hash only"};
     OutputVerifier verifier(certificate);
@@ -119,17 +80,18 @@ std::vector<JudgedFile> judge_outputs(const Certificate& certificate, const fs::
     return judged;
 }
 
-Result<Judgement> judge(const fs::path& path, const std::vector<std::string>& inputs,
-                        const VerifyOptions& options) {
-    const auto text = read_file(path);
-    if (!text) return text.error();
-    const auto certificate = parse_certificate(*text, path.string());
-    if (!certificate) return certificate.error();
-    const auto files = read_files(*certificate, path.parent_path(), inputs);
-    if (!files) return files.error();
-    auto verdict = verify_certificate(*files, *certificate, options);
-    Judgement found{std::move(verdict.violations), {}, verdict.measured, certificate->digest};
-    if (found.violations.empty()) found.outputs = judge_outputs(*certificate, path.parent_path());
+Judgement judge(const fs::path& path, const std::vector<std::string>& inputs,
+                const VerifyOptions& options) {
+    const auto text = must(read_file(path));
+    const auto certificate = must(parse_certificate(text, path.string()));
+    std::vector<fs::path> paths(inputs.begin(), inputs.end());
+    if (paths.empty())
+        for (const CertifiedInput& input : certificate.inputs)
+            paths.push_back(path.parent_path() / input.name);
+    const auto files = must(read_certified(certificate, paths, {.paths_name = "inputs"}));
+    auto verdict = verify_certificate(files, certificate, options);
+    Judgement found{std::move(verdict.violations), {}, verdict.measured, certificate.digest};
+    if (found.violations.empty()) found.outputs = judge_outputs(certificate, path.parent_path());
     return found;
 }
 
@@ -141,7 +103,7 @@ py::dict verify_file(const py::object& path, const py::sequence& inputs,
     std::vector<std::string> given;
     for (const py::handle input : inputs) given.push_back(to_path(input).string());
     const auto found =
-        run_verifier(how, [from, given, options] { return judge(from, given, options); });
+        run_verifier(how, [=]() -> Result<Judgement> { return judge(from, given, options); });
     py::list outputs;
     for (const JudgedFile& file : found.outputs)
         outputs.append(

@@ -19,35 +19,25 @@ using namespace py::literals;
 namespace {
 
 py::list to_list(const std::vector<ModelLine>& lines) {
-    py::list all;
-    for (const ModelLine& l : lines)
-        all.append(py::make_tuple(to_text(name_of(l.kind)), owned(l.vertices), owned(l.patches),
-                                  py::tuple(py::cast(l.surfaces)),
-                                  py::make_tuple(l.corners[0], l.corners[1]), l.length));
-    return all;
+    return rows(
+        lines, &ModelLine::kind, [](const ModelLine& l) { return owned(l.vertices); },
+        [](const ModelLine& l) { return owned(l.patches); }, &ModelLine::surfaces,
+        &ModelLine::corners, &ModelLine::length);
 }
 
 py::list to_list(const std::vector<ModelBlock>& blocks) {
-    py::list all;
-    for (const ModelBlock& b : blocks) {
-        const auto tuple = [](const std::vector<std::uint32_t>& v) {
-            return py::tuple(py::cast(v));
-        };
-        all.append(py::make_tuple(to_text(b.name), to_text(b.unit), py::cast(b.age), tuple(b.above),
-                                  tuple(b.below), tuple(b.beside), tuple(b.interfaces),
-                                  tuple(b.inner_interfaces), tuple(b.neighbours), b.volume,
-                                  b.area));
-    }
-    return all;
+    return rows(blocks, &ModelBlock::name, &ModelBlock::unit, &ModelBlock::age, &ModelBlock::above,
+                &ModelBlock::below, &ModelBlock::beside, &ModelBlock::interfaces,
+                &ModelBlock::inner_interfaces, &ModelBlock::neighbours, &ModelBlock::volume,
+                &ModelBlock::area);
 }
 
 /// Refuses the volumes of something else, whose numbers name no triangles of this.
 void require_fitting(const Volumes& volumes, std::size_t triangles) {
     if (volumes.of_sides.size() != triangles)
-        throw Failure{{ErrorCode::bad_option,
-                       "the volumes are those of " + std::to_string(volumes.of_sides.size()) +
-                           " triangles, not of " + std::to_string(triangles),
-                       "volumes"}};
+        refuse("the volumes are those of " + std::to_string(volumes.of_sides.size()) +
+                   " triangles, not of " + std::to_string(triangles),
+               "volumes");
 }
 
 py::array locate(const MeshPointer& mesh, const VolumesPointer& volumes, const py::array& points,
@@ -56,8 +46,7 @@ py::array locate(const MeshPointer& mesh, const VolumesPointer& volumes, const p
     const auto places = std::make_shared<const std::vector<Point3>>(copied<Point3>(points));
     for (std::size_t i = 0; i < places->size(); ++i)
         if (!is_finite((*places)[i]))
-            throw Failure{
-                {ErrorCode::bad_number, "is not finite", "points[" + std::to_string(i) + "]"}};
+            refuse(ErrorCode::bad_number, "is not finite", "points[" + std::to_string(i) + "]");
     return owned(run_stage(how, [mesh, volumes, places](const Run& run) {
         return locate_points(*places, mesh->mesh, *volumes, run);
     }));
@@ -70,7 +59,7 @@ std::vector<std::string> exact_measures(const std::shared_ptr<Whole>& whole,
         require_fitting(*volumes, whole->triangles.size());
     else
         require_fitting(*volumes, whole->mesh->triangles.size());
-    return run_plainly(how, [whole, volumes](const Run&) {
+    return run_stage(how, [whole, volumes](const Run&) {
         if constexpr (std::is_same_v<Whole, Arrangement>)
             return exact_volumes(*whole, *volumes).measures;
         else
@@ -84,12 +73,12 @@ VolumesPointer volumes_of(const py::array& of_sides, const py::array& measures, 
     made->measures = copied<double>(measures);
     made->total = total;
     if (made->measures.empty())
-        throw Failure{{ErrorCode::bad_index, "there must be a measure of the outside", ""}};
+        refuse(ErrorCode::bad_index, "there must be a measure of the outside", "");
     for (const auto& sides : made->of_sides)
         for (const std::uint32_t side : sides)
             if (side >= made->measures.size())
-                throw Failure{{ErrorCode::bad_index, "there is no volume " + std::to_string(side),
-                               "of_sides"}};
+                refuse(ErrorCode::bad_index, "there is no volume " + std::to_string(side),
+                       "of_sides");
     return made;
 }
 
@@ -97,25 +86,18 @@ py::list points_in(const MeshPointer& mesh, const VolumesPointer& volumes, const
     require_fitting(*volumes, mesh->mesh->triangles.size());
     const auto points = run_stage(
         how, [mesh, volumes](const Run& run) { return block_points(mesh->mesh, *volumes, run); });
-    py::list all;
-    for (const BlockPoint& p : points)
-        all.append(py::make_tuple(to_tuple(p.place), std::uint32_t(p.block)));
-    return all;
+    return rows(points, &BlockPoint::place, &BlockPoint::block);
 }
 
 } // namespace
 
 py::dict to_dict(const Structure& s) {
-    py::list corners, patches, interfaces;
-    for (const ModelCorner& c : s.corners)
-        corners.append(py::make_tuple(std::uint32_t(c.vertex), py::tuple(py::cast(c.lines))));
-    for (const ModelPatch& p : s.patches)
-        patches.append(py::make_tuple(std::uint32_t(p.interface), owned(p.triangles),
-                                      py::tuple(py::cast(p.lines)), p.area));
-    for (const ModelInterface& i : s.interfaces)
-        interfaces.append(py::make_tuple(
-            py::make_tuple(i.volumes[0], i.volumes[1]), py::tuple(py::cast(i.surfaces)),
-            py::tuple(py::cast(i.patches)), owned(i.triangles), i.area));
+    const auto triangles = [](const auto& part) { return owned(part.triangles); };
+    const auto corners = rows(s.corners, &ModelCorner::vertex, &ModelCorner::lines);
+    const auto patches =
+        rows(s.patches, &ModelPatch::interface, triangles, &ModelPatch::lines, &ModelPatch::area);
+    const auto interfaces = rows(s.interfaces, &ModelInterface::volumes, &ModelInterface::surfaces,
+                                 &ModelInterface::patches, triangles, &ModelInterface::area);
     return py::dict("corners"_a = corners, "lines"_a = to_list(s.lines), "patches"_a = patches,
                     "interfaces"_a = interfaces, "blocks"_a = to_list(s.blocks),
                     "patch_of"_a = owned(s.patch_of), "interface_of"_a = owned(s.interface_of));
@@ -124,10 +106,9 @@ py::dict to_dict(const Structure& s) {
 void bind_volumes(py::module_& module) {
     py::class_<Volumes, VolumesPointer> bound(module, "Volumes");
     bound.def(py::init(&volumes_of), "of_sides"_a, "measures"_a, "total"_a);
-    add_array<Volumes>(
-        bound, "of_sides", [](const Volumes& v) -> auto& { return v.of_sides; });
-    add_array<Volumes>(
-        bound, "measures", [](const Volumes& v) -> auto& { return v.measures; });
+    ArraysOf{bound, std::identity{}}
+        .add("of_sides", &Volumes::of_sides)
+        .add("measures", &Volumes::measures);
     bound.def_readonly("total", &Volumes::total);
     module.def(
         "volumes_of_mesh",
