@@ -87,7 +87,7 @@ def members(name):
     if not found:  # attributes that only the docstring lists
         section = inspect.getdoc(cls).split("Attributes\n----------\n")[1].split("\n\n")[0]
         found = [k for line in section.splitlines() if not line.startswith(" ") for k in line.split(" : ")[0].split(", ")]
-    return item(name, found)
+    return item(name, sorted(found, key=lambda key: key.endswith("()")))
 
 
 def page():

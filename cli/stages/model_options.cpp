@@ -81,6 +81,11 @@ void add_arranging(CLI::App& app, ModelCommand& command) {
               "Most rounds of snapping until the doubles are a conforming mesh; "
               "0: only to the nearest double (default: 8)")
         ->check(CLI::Range(0U, most_rounds).description(""));
+    add_positive_length(
+        app, "--tolerance", project.tolerance,
+        "What is nearer than this is one: borders and creases of surfaces join, and gaps and "
+        "overlaps that are thinner vanish. No surface moves by more. Gaps of borders as wide are "
+        "sealed, unless --seal is given (default: nothing is joined)");
     add_max_move(app, project.max_move);
     add_check(app, project.check);
     add_seal(app, project);

@@ -53,6 +53,7 @@ void check_command(const ModelCommand& command) {
                    ", or the certificate",
                "--certificate");
     };
+    if (project.tolerance) refuse_proof("what was joined within a tolerance", "--tolerance");
     if (project.min_volume) refuse_proof("that only small blocks were merged", "--min-volume");
     if (project.improve && project.improve->resolution.length > 0)
         refuse_proof("what was joined at a resolution", "--resolution");

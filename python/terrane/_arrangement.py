@@ -238,8 +238,7 @@ class RoundedMesh(OnMesh):
         """Whether exact predicates have shown that the doubles are a conforming mesh."""
         return self.report.clean
 
-    def save(self, path: Path, format: Optional[str] = None, *, keep_unverified: bool = False,
-             ascii: bool = False, compress: bool = True) -> None:
+    def save(self, path: Path, format: Optional[str] = None, *, keep_unverified: bool = False, **options: Any) -> None:
         """Write the mesh as ``terrane arrange`` does: only if it is clean, or with `keep_unverified`.
 
         Examples
@@ -251,7 +250,7 @@ class RoundedMesh(OnMesh):
         """
         if not as_flag(keep_unverified, "keep_unverified"):
             require_conforming(self.clean, len(self.report.contacts))
-        self.mesh.save(path, format, ascii=ascii, compress=compress)
+        super().save(path, format, **options)
 
     def _line(self) -> str:
         verdict = "conforming" if self.clean else f"{len(self.report.contacts)} improper contacts"
