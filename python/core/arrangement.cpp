@@ -171,29 +171,27 @@ void bind_arrangement(py::module_& module) {
              })
         .def("construction", &construction);
     using A = Arrangement;
-    ArraysOf{bound, std::identity{}}
+    arrays_of(bound, std::identity())
         .add("points", &A::vertices)
         .add("triangles", &A::triangles)
         .add("intersection_edges", &A::intersection_edges)
         .add("degenerate", &A::degenerate)
         .add("parents_of", &A::parents_of)
         .add("surfaces_of", &A::surfaces_of);
-    ArraysOf{bound, [](const A& a) -> auto& {return a.inputs;
-}
-} // namespace terrane::python
-.add("duplicates", &InputTriangles::duplicates)
-    .add("first_triangle", &InputTriangles::first)
-    .add("first_vertex", &InputTriangles::first_vertex);
-module.def("arrange", &arrange_all, "surfaces"_a, "search"_a, "how"_a);
-module.def("round", &rounded, "arrangement"_a, "max_rounds"_a, "max_move"_a, "how"_a);
-module.def("digest", &digest, "surfaces"_a, "arrangement"_a, "how"_a);
-module.def("cut", &cut, "arrangement"_a, "boundary"_a, "how"_a);
-module.def("extend", &extend, "surfaces"_a, "boundary"_a, "limit"_a, "how"_a);
-module.def(
-    "unique_labels",
-    [](const py::sequence& surfaces) { return to_texts(unique_labels(to_infos(surfaces))); },
-    "surfaces"_a);
-bind_boundaries(module);
+    arrays_of(bound, &A::inputs)
+        .add("duplicates", &InputTriangles::duplicates)
+        .add("first_triangle", &InputTriangles::first)
+        .add("first_vertex", &InputTriangles::first_vertex);
+    module.def("arrange", &arrange_all, "surfaces"_a, "search"_a, "how"_a);
+    module.def("round", &rounded, "arrangement"_a, "max_rounds"_a, "max_move"_a, "how"_a);
+    module.def("digest", &digest, "surfaces"_a, "arrangement"_a, "how"_a);
+    module.def("cut", &cut, "arrangement"_a, "boundary"_a, "how"_a);
+    module.def("extend", &extend, "surfaces"_a, "boundary"_a, "limit"_a, "how"_a);
+    module.def(
+        "unique_labels",
+        [](const py::sequence& surfaces) { return to_texts(unique_labels(to_infos(surfaces))); },
+        "surfaces"_a);
+    bind_boundaries(module);
 }
 
 } // namespace terrane::python

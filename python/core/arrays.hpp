@@ -144,20 +144,26 @@ py::list rows(const Items& items, Members... members) {
     return all;
 }
 
-/// Adds properties that are views of vectors, or pairs of views of lists: members of a part of a handle.
+/// See arrays_of().
 template <class Bound, class Part>
 struct ArraysOf {
     Bound& bound;
-    Part part; ///< part(handle) returns a reference to it
+    Part part;
 
     template <class Member>
     const ArraysOf& add(const char* name, Member member) const {
         bound.def_property_readonly(name, [part = part, member](const py::object& self) {
             const auto& handle = self.cast<const typename Bound::type&>();
-            return view(std::invoke(member, part(handle)), self);
+            return view(std::invoke(member, std::invoke(part, handle)), self);
         });
         return *this;
     }
 };
+/// Adds properties that are views of vectors, or pairs of views of lists: members of a part of a handle, which is a
+/// member of it or what a function returns.
+template <class Bound, class Part>
+ArraysOf<Bound, Part> arrays_of(Bound& bound, Part part) {
+    return {bound, part};
+}
 
 } // namespace terrane::python

@@ -43,6 +43,10 @@ MeshPointer proven(const MeshPointer& handle, const HowToRun& how) {
     }));
 }
 
+const Mesh& mesh_in(const MeshHandle& handle) {
+    return *handle.mesh;
+}
+
 py::dict dict_of_spread(const Spread& s) {
     return py::dict("min"_a = s.min, "mean"_a = s.mean, "max"_a = s.max,
                     "percentiles"_a =
@@ -101,34 +105,31 @@ void bind_mesh(py::module_& module) {
                                [](const MeshHandle& m) { return to_list(m.mesh->surfaces); })
         .def_property_readonly("is_proven",
                                [](const MeshHandle& m) { return m.conforming.has_value(); });
-    using Handle = MeshHandle;
-    ArraysOf{mesh, [](const MeshHandle& m) -> auto& {return *m.mesh;
-}
-} // namespace terrane::python
-.add("vertices", &terrane::Mesh::vertices)
-    .add("triangles", &terrane::Mesh::triangles)
-    .add("intersection_edges", &terrane::Mesh::intersection_edges)
-    .add("surfaces_of", &terrane::Mesh::surfaces_of)
-    .add("regions_of", &terrane::Mesh::regions_of)
-    .add("parents_of", &terrane::Mesh::parents_of);
-module.def("proven", &proven, "mesh"_a, "how"_a);
-module.def("quality", &quality, "mesh"_a, "how"_a);
-module.def("regions", &regions, "mesh"_a, "how"_a);
-module.def(
-    "check",
-    [](const py::sequence& surfaces, const HowToRun& how) {
-        return check_all(to_surfaces(surfaces), how);
-    },
-    "surfaces"_a, "how"_a);
-module.def(
-    "surfaces_of_mesh",
-    [](const MeshPointer& m) { return from_surfaces(surfaces_of_mesh(m->mesh)); }, "mesh"_a);
-module.def(
-    "concatenate",
-    [](const py::sequence& surfaces) {
-        return handle_of(SharedMesh(concatenate(to_surfaces(surfaces))));
-    },
-    "surfaces"_a);
+    arrays_of(mesh, &mesh_in)
+        .add("vertices", &Mesh::vertices)
+        .add("triangles", &Mesh::triangles)
+        .add("intersection_edges", &Mesh::intersection_edges)
+        .add("surfaces_of", &Mesh::surfaces_of)
+        .add("regions_of", &Mesh::regions_of)
+        .add("parents_of", &Mesh::parents_of);
+    module.def("proven", &proven, "mesh"_a, "how"_a);
+    module.def("quality", &quality, "mesh"_a, "how"_a);
+    module.def("regions", &regions, "mesh"_a, "how"_a);
+    module.def(
+        "check",
+        [](const py::sequence& surfaces, const HowToRun& how) {
+            return check_all(to_surfaces(surfaces), how);
+        },
+        "surfaces"_a, "how"_a);
+    module.def(
+        "surfaces_of_mesh",
+        [](const MeshPointer& m) { return from_surfaces(surfaces_of_mesh(m->mesh)); }, "mesh"_a);
+    module.def(
+        "concatenate",
+        [](const py::sequence& surfaces) {
+            return handle_of(SharedMesh(concatenate(to_surfaces(surfaces))));
+        },
+        "surfaces"_a);
 }
 
 } // namespace terrane::python

@@ -202,12 +202,9 @@ void bind_model(py::module_& module) {
         .def("part", &part, "of_block"_a, "number"_a)
         .def("save", &save, "folder"_a, "format"_a, "how"_a);
     bound.def_property_readonly("total_volume", [](const M& m) { return m.model.total_volume; });
-    ArraysOf{bound, [](const M& m) -> auto& {return m.model;
-}
-} // namespace terrane::python
-.add("exact_volumes", &terrane::Model::exact_volumes);
-module.def("improve_model", &improved, "model"_a, "options"_a, "how"_a);
-module.def("model", &make, "surfaces"_a, "boundary"_a, "options"_a, "how"_a);
+    arrays_of(bound, &M::model).add("exact_volumes", &Model::exact_volumes);
+    module.def("improve_model", &improved, "model"_a, "options"_a, "how"_a);
+    module.def("model", &make, "surfaces"_a, "boundary"_a, "options"_a, "how"_a);
 }
 
 } // namespace terrane::python

@@ -130,7 +130,7 @@ void bind_surface(py::module_& module) {
         .def_property_readonly("name", [](const Surface& s) { return to_text(s.name); })
         .def_property_readonly("role", [](const Surface& s) { return to_text(name_of(s.role)); })
         .def_property_readonly("frame", [](const Surface& s) { return from_frame(s.frame); });
-    ArraysOf{bound, std::identity{}}
+    arrays_of(bound, std::identity())
         .add("vertices", &Surface::vertices)
         .add("triangles", &Surface::triangles);
 }

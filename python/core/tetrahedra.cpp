@@ -162,20 +162,18 @@ void bind_tetrahedra(py::module_& module) {
         .def_property_readonly("is_checked", [](const F& f) { return !f.report.volumes.empty(); })
         .def_property_readonly("optimised", &optimised)
         .def("shape", &shape);
-    ArraysOf{bound, [](const F& f) -> auto& {return f.tetrahedra;
-}
-} // namespace terrane::python
-.add("vertices", &TetrahedralMesh::vertices)
-    .add("tetrahedra", &TetrahedralMesh::tetrahedra)
-    .add("block_of", &TetrahedralMesh::block_of)
-    .add("faces", &TetrahedralMesh::faces)
-    .add("face_triangle", &TetrahedralMesh::face_triangle)
-    .add("twins", &TetrahedralMesh::twins)
-    .add("surfaces_of", &TetrahedralMesh::surfaces_of);
-module.attr("tetrahedra_fields") = described<TetrahedraOptions>();
-module.def("fill_blocks", &fill, "model"_a, "options"_a, "how"_a);
-module.def("write_tetrahedra", &write, "tetrahedra"_a, "path"_a, "format"_a, "compress"_a,
-           "order"_a, "how"_a);
+    arrays_of(bound, &F::tetrahedra)
+        .add("vertices", &TetrahedralMesh::vertices)
+        .add("tetrahedra", &TetrahedralMesh::tetrahedra)
+        .add("block_of", &TetrahedralMesh::block_of)
+        .add("faces", &TetrahedralMesh::faces)
+        .add("face_triangle", &TetrahedralMesh::face_triangle)
+        .add("twins", &TetrahedralMesh::twins)
+        .add("surfaces_of", &TetrahedralMesh::surfaces_of);
+    module.attr("tetrahedra_fields") = described<TetrahedraOptions>();
+    module.def("fill_blocks", &fill, "model"_a, "options"_a, "how"_a);
+    module.def("write_tetrahedra", &write, "tetrahedra"_a, "path"_a, "format"_a, "compress"_a,
+               "order"_a, "how"_a);
 }
 
 } // namespace terrane::python

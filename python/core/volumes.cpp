@@ -106,7 +106,7 @@ py::dict to_dict(const Structure& s) {
 void bind_volumes(py::module_& module) {
     py::class_<Volumes, VolumesPointer> bound(module, "Volumes");
     bound.def(py::init(&volumes_of), "of_sides"_a, "measures"_a, "total"_a);
-    ArraysOf{bound, std::identity{}}
+    arrays_of(bound, std::identity())
         .add("of_sides", &Volumes::of_sides)
         .add("measures", &Volumes::measures);
     bound.def_readonly("total", &Volumes::total);
