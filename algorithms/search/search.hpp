@@ -122,7 +122,7 @@ count_candidate_pairs(const BoxSource& boxes, const PairClassifier& class_of,
                       std::uint64_t most = UINT64_MAX, const Run& run = {});
 
 /// Returns the method that `automatic` stands for: brute for very few boxes, bvh for others.
-/// `terrane bench paper` compares the methods on the paper's models. The grid is faster than bvh by
+/// `terrane_bench_paper` compares the methods on the paper's models. The grid is faster than bvh by
 /// a fifth to a third for two uniform surfaces of up to 70 000 triangles that meet everywhere. It
 /// is slower for all others: 10 times for localised and 100 times for non-uniform contacts. The
 /// choice therefore considers neither the spread of sizes nor the common volume.
