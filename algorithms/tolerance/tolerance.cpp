@@ -24,6 +24,7 @@
 #include <terrane/algorithms/tolerance/detail/owners.hpp>
 #include <terrane/algorithms/tolerance/detail/thin_cells.hpp>
 #include <terrane/algorithms/tolerance/detail/tuning.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane {
 
@@ -119,18 +120,45 @@ std::vector<Surface> owned_surfaces(const Mesh& mesh, const Owners& owners,
     return surfaces;
 }
 
-/// Joins surfaces that move by no more than about `bound`.
-Result<JoinedSurfaces> join_by(const std::vector<Surface>& given, double bound,
-                               const ToleranceOptions& options, const Run& run) {
-    JoinedSurfaces joined{given, {}};
+/// Counts the blocks of a mesh that are thin.
+Result<std::size_t> thin_blocks(const Mesh& mesh, double bound, const Run& run) {
+    const auto volumes = find_volumes(mesh, run);
+    if (!volumes) return volumes.error();
+    std::vector<double> area(volumes->measures.size(), 0.0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto& [a, b, c] = mesh.triangles[t];
+        for (const std::uint32_t side : volumes->of_sides[t])
+            area[side] += area_between(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+    }
+    std::size_t thin = 0;
+    for (std::size_t v = 1; v < area.size(); ++v)
+        if (2 * volumes->measures[v] <= bound * area[v]) ++thin;
+    return thin;
+}
+
+/// Surfaces that were joined once, and whether rounding made thin blocks.
+struct JoinedOnce {
+    JoinedSurfaces joined;
+    bool is_clean = true; ///< conforming
+    bool is_thin = false;
+};
+
+/// Joins surfaces that move by no more than about `bound`. is_first: else only cells that surfaces
+/// enclose are thin, which rounding made.
+Result<JoinedOnce> join_once(const std::vector<Surface>& given, double bound, bool is_first,
+                             const ToleranceOptions& options, const Run& run) {
+    JoinedOnce once{{given, {}}};
+    JoinedSurfaces& joined = once.joined;
     std::vector<bool> closed;
     for (const Surface& s : given)
         closed.push_back(std::ranges::all_of(
             edges_of(s), [](const SurfaceEdge& e) { return e.sides.size() % 2 == 0; }));
     auto all = given;
-    snap_near_vertices(all, bound);
-    joined.report.vertices = join_curves(all, tuning.curve_share * bound);
-    all.push_back(fences_of(all, bound));
+    if (is_first) {
+        snap_near_vertices(all, bound);
+        joined.report.vertices = join_curves(all, tuning.curve_share * bound);
+    }
+    all.push_back(is_first ? fences_of(all, bound) : Surface{});
     auto exact = arrange(all, options.arrange, run);
     if (!exact) return exact.error();
     auto found = join_thin_cells(*exact, closed, bound, run);
@@ -138,7 +166,7 @@ Result<JoinedSurfaces> join_by(const std::vector<Surface>& given, double bound,
     joined.report.cells = found->cells;
     joined.report.volume = found->volume;
     joined.report.left = std::move(found->left);
-    if (found->cells == 0 && joined.report.vertices == 0) return joined;
+    if (found->cells == 0 && joined.report.vertices == 0) return once;
     Owned owned{std::move(*exact), std::move(found->owners)};
     auto fewer = arrange_needed(std::move(all), owned, closed, options, run);
     if (!fewer) return fewer.error();
@@ -153,10 +181,35 @@ Result<JoinedSurfaces> join_by(const std::vector<Surface>& given, double bound,
     const auto owners = owners_of(
         pieces, owned.pieces(places), owned.owners, closed,
         [](std::uint32_t parent) { return parent; }, run);
-    if (!are_closed(pieces, owners, closed, run)) return joined;
+    if (!are_closed(pieces, owners, closed, run)) return once;
     joined.surfaces = owned_surfaces(mesh, owners, given);
     joined.report.is_joined = true;
-    return joined;
+    once.is_clean = rounded->report.clean;
+    if (!once.is_clean) return once;
+    const auto thin = thin_blocks(mesh, bound, run);
+    if (!thin) return thin.error();
+    once.is_thin = *thin > joined.report.left.size();
+    return once;
+}
+
+/// Joins surfaces until nothing thin is left that can be joined.
+Result<JoinedSurfaces> join_by(std::vector<Surface> surfaces, double bound,
+                               const ToleranceOptions& options, const Run& run) {
+    JoinedSurfaces all{std::move(surfaces), {}};
+    for (unsigned pass = 0; pass < tuning.most_passes; ++pass) {
+        auto once = join_once(all.surfaces, bound, pass == 0, options, run);
+        if (!once) return once.error();
+        // What rounding makes of narrow gaps may be worse than they were.
+        if (pass > 0 && (!once->joined.report.is_joined || !once->is_clean)) break;
+        if (!once->joined.report.is_joined) return std::move(once->joined);
+        ToleranceReport report = std::move(once->joined.report);
+        report.vertices += all.report.vertices;
+        report.cells += all.report.cells;
+        report.volume += all.report.volume;
+        all = {std::move(once->joined.surfaces), std::move(report)};
+        if (!once->is_thin || run.stop.stop_requested()) break;
+    }
+    return all;
 }
 
 /// Whether each surface is shown to be within the bound of where it was, and that of it.
