@@ -181,7 +181,8 @@ Result<JoinedOnce> join_once(const std::vector<Surface>& given, double bound, bo
     const auto owners = owners_of(
         pieces, owned.pieces(places), owned.owners, closed,
         [](std::uint32_t parent) { return parent; }, run);
-    if (!are_closed(pieces, owners, closed, run)) return once;
+    joined.report.is_refused = !are_closed(pieces, owners, closed, run);
+    if (joined.report.is_refused) return once;
     joined.surfaces = owned_surfaces(mesh, owners, given);
     joined.report.is_joined = true;
     once.is_clean = rounded->report.clean;
@@ -193,30 +194,31 @@ Result<JoinedOnce> join_once(const std::vector<Surface>& given, double bound, bo
 }
 
 /// Joins surfaces until nothing thin is left that can be joined.
-Result<JoinedSurfaces> join_by(std::vector<Surface> surfaces, double bound,
-                               const ToleranceOptions& options, const Run& run) {
-    JoinedSurfaces all{std::move(surfaces), {}};
-    for (unsigned pass = 0; pass < tuning.most_passes; ++pass) {
-        auto once = join_once(all.surfaces, bound, pass == 0, options, run);
-        if (!once) return once.error();
+Result<JoinedOnce> join_by(const std::vector<Surface>& surfaces, double bound,
+                           const ToleranceOptions& options, const Run& run) {
+    auto all = join_once(surfaces, bound, true, options, run);
+    for (unsigned pass = 1; all && all->is_thin && pass < tuning.most_passes; ++pass) {
+        auto once = join_once(all->joined.surfaces, bound, false, options, run);
+        if (!once) return once;
         // What rounding makes of narrow gaps may be worse than they were.
-        if (pass > 0 && (!once->joined.report.is_joined || !once->is_clean)) break;
-        if (!once->joined.report.is_joined) return std::move(once->joined);
-        ToleranceReport report = std::move(once->joined.report);
-        report.vertices += all.report.vertices;
-        report.cells += all.report.cells;
-        report.volume += all.report.volume;
-        all = {std::move(once->joined.surfaces), std::move(report)};
-        if (!once->is_thin || run.stop.stop_requested()) break;
+        if (!once->joined.report.is_joined || !once->is_clean || run.stop.stop_requested()) break;
+        ToleranceReport& report = once->joined.report;
+        report.vertices += all->joined.report.vertices;
+        report.cells += all->joined.report.cells;
+        report.volume += all->joined.report.volume;
+        all = std::move(once);
     }
     return all;
 }
 
-/// Whether each surface is shown to be within the bound of where it was, and that of it.
+/// Whether each surface is shown to be within the bound of where it was, and that of it; and where
+/// surfaces were that vanished, others are.
 bool are_within(const std::vector<Surface>& before, const std::vector<Surface>& after, double bound,
                 const Run& run) {
+    const Mesh all = concatenate(after);
+    const Surface together{"", Role::unknown, all.vertices, all.triangles};
     for (std::size_t s = 0; s < before.size(); ++s)
-        if (!is_within(before[s], after[s], bound, run) ||
+        if (!is_within(before[s], after[s].triangles.empty() ? together : after[s], bound, run) ||
             !is_within(after[s], before[s], bound, run))
             return false;
     return true;
@@ -232,20 +234,25 @@ Result<JoinedSurfaces> join_within(std::vector<Surface> surfaces, const Toleranc
         const StageTimer timer(run, "tolerance");
         const Run inner = timer.inside();
         // Moves add up where a surface is near several others: then each may be by half as much.
+        JoinedSurfaces best{{}, {.tolerance = options.tolerance, .is_refused = true}};
         for (double bound = options.tolerance; bound >= options.tolerance / 4; bound /= 2) {
-            auto joined = join_by(surfaces, bound, options, inner);
-            if (!joined) return joined;
-            joined->report.tolerance = joined->report.largest = options.tolerance;
-            if (!joined->report.is_joined ||
-                are_within(surfaces, joined->surfaces, options.tolerance, inner))
-                return joined;
+            auto found = join_by(surfaces, bound, options, inner);
+            if (!found) return found.error();
+            auto& [joined, is_clean, is_thin] = *found;
+            joined.report.tolerance = options.tolerance;
+            for (std::uint32_t s = 0; s < surfaces.size(); ++s)
+                if (joined.surfaces[s].triangles.empty() && !surfaces[s].triangles.empty())
+                    joined.report.vanished.push_back(s);
+            const bool is_shown = !joined.report.is_refused &&
+                                  (!joined.report.is_joined ||
+                                   are_within(surfaces, joined.surfaces, options.tolerance, inner));
             if (run.stop.stop_requested())
                 return Error{ErrorCode::interrupted, "stopped on request", ""};
+            if (is_shown && is_clean) return std::move(joined);
+            if (is_shown && best.report.is_refused) best = std::move(joined);
         }
-        JoinedSurfaces none;
-        none.report.tolerance = options.tolerance;
-        none.surfaces = std::move(surfaces);
-        return none;
+        if (best.report.is_refused) best.surfaces = std::move(surfaces);
+        return best;
     });
 }
 
