@@ -272,7 +272,7 @@ def check_json(program, findings):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for file in (ROOT / "docs" / "data").iterdir():
-            if file.suffix in (".ts", ".asc"):
+            if file.suffix in (".ts", ".asc", ".obj"):
                 (folder / file.name).write_bytes(file.read_bytes())
         written = write_json_files(program, folder)
         true = {page: set().union(*(key_paths(json.loads((folder / f).read_text())) for f in files))
