@@ -261,6 +261,10 @@ std::vector<NamedConstant> tolerance_constants() {
             {"fence_reach", tuning.fence_reach},
             {"fence_spacings", tuning.fence_spacings},
             {"alike", tuning.alike},
+            {"least_gain", tuning.least_gain},
+            {"grid_steps", tuning.grid_steps},
+            {"located_spacings", tuning.located_spacings},
+            {"most_passes", static_cast<double>(tuning.most_passes)},
             {"curve_share", tuning.curve_share}};
 }
 
