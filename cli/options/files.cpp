@@ -280,7 +280,6 @@ Result<Inputs> read_inputs(const FileOptions& options, Session& session) {
     if (std::max(all.vertices, all.triangles) >= UINT32_MAX)
         return Error{ErrorCode::unsupported, "more than 4294967294 vertices or triangles", ""};
     describe(all.surfaces, all);
-    all.statistics_wanted = !options.stats.empty();
     all.strict = options.strict;
     return all;
 }

@@ -10,7 +10,6 @@
 #include <terrane/cli/reports/fill_report.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
 #include <terrane/cli/reports/layer_report.hpp>
-#include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/reports/resolution_report.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
 #include <terrane/cli/stages/blocks.hpp>
@@ -97,7 +96,6 @@ Result<ModelRun> ModelRun::begin(const ModelCommand& command, Session& session) 
     if (!volume) return volume.error();
     run.project_.volume = *std::move(volume);
     if (command.volume.extend != 0) run.project_.extend = command.volume.extend;
-    run.project_.check = check_of(command.project.check, *inputs);
     BuildInput input{.stated_blocks = inputs->stated_blocks};
     if (command.volume.wanted()) {
         auto boundary = boundary_of(command.volume, session);

@@ -36,7 +36,6 @@ Result<EnsembleHandle> prepared(Project project, const Run& run) {
     if (!inputs) return inputs.error();
     project.outputs.tetrahedra.clear(); // of a thousand models nobody looks at them
     project.outputs.certificate = false;
-    project.check.count_up_to = 0; // what decided each pair of triangles is kept by nobody
     const std::size_t moved = project.uncertainty.size();
     auto made = Realisations::prepare(std::move(project), std::move(inputs->build), *maps, run);
     if (!made) return made.error();

@@ -113,6 +113,7 @@ private:
     bool is_found(const CandidatePair& p);
     std::vector<CandidatePair> first_contacts_until_full();
     std::vector<CandidatePair> first_contacts(const Run& run);
+    std::vector<CandidatePair> contacts_in_frame(const Run& run);
     std::vector<CandidatePair> lowest_contacts(std::size_t most);
     [[nodiscard]] MovedParts moved_parts() const;
     [[nodiscard]] Pools find_pools() const;

@@ -14,6 +14,7 @@
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
+#include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/rounding/detail/repair.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
 #include <terrane/kernel/predicates.hpp>
@@ -106,7 +107,8 @@ std::vector<CandidatePair> Rounding::lowest_contacts(std::size_t most) {
 /// Finds the pairs that meet improperly right after rounding to nearest. Only pairs that neither
 /// injective patches nor the separation of faces exclude need a test.
 std::vector<CandidatePair> Rounding::first_contacts(const Run& run) {
-    if (changed_ || tests_all() || moved_.frame != nullptr) return contacts(run);
+    if (changed_ || tests_all()) return contacts(run);
+    if (moved_.frame != nullptr) return contacts_in_frame(run);
     const Arrangement& a = arrangement_;
     const auto& dirty = state_.found_dirty;
     if (dirty.empty()) return {};
@@ -161,6 +163,24 @@ std::vector<CandidatePair> Rounding::first_contacts(const Run& run) {
     const auto more = contacts_in_pools(pools, patches, without_progress(run));
     pairs.insert(pairs.end(), more.begin(), more.end());
     sort_unique(pairs);
+    return pairs;
+}
+
+/// Finds the pairs that meet improperly, where any corner may have moved on the way out of a frame.
+/// Only pairs that injective patches do not exclude need a test.
+std::vector<CandidatePair> Rounding::contacts_in_frame(const Run& run) {
+    const auto& triangles = state_.triangles;
+    std::vector<std::uint32_t> surface_of;
+    surface_of.reserve(triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        surface_of.push_back(arrangement_.surfaces_of[t][0]);
+    const EdgeSides edges = group_edges(triangles, state_.points.size(), run_);
+    auto patches = find_injective_patches(state_.points, triangles, surface_of, edges, run_).of;
+    auto pairs = candidate_pairs_of(
+        {state_.points, triangles}, state_.found_dirty, patches,
+        [&](const CandidatePair& p) { return is_found(p); }, run);
+    if (options_.check.most_counted(triangles.size()) > 0)
+        first_search_ = {{}, state_.found_dirty, state_.found_dirty, std::move(patches), {}};
     return pairs;
 }
 

@@ -66,7 +66,7 @@ struct RoundingTuning : Constants {
     /// Fewer contacts are never crowded.
     std::size_t many = add("many", 1024);
     /// Contacts are crowded if there are fewer triangles per contact.
-    std::size_t crowded = add("crowded", 8);
+    std::size_t crowded = add("crowded", 24);
     /// So many parts of a triangle, or up to twice, tell with which others it is in contact where
     /// contacts are too many to list.
     std::size_t sampled = add("sampled", 16);
