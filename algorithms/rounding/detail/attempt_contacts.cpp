@@ -4,6 +4,7 @@
 #include <terrane/algorithms/rounding/detail/attempt.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <numeric>
 #include <span>
@@ -51,6 +52,25 @@ bool Rounding::is_found(const CandidatePair& p) {
         if (ends_when_full_ && crowd_->is_full()) full_.request_stop();
     }
     return true;
+}
+
+/// Finds the contacts of sampled triangles, or somewhat more than can be listed.
+std::vector<CandidatePair> Rounding::sampled_contacts() {
+    std::vector<std::uint32_t> active;
+    for (const std::uint32_t t : state_.dirty_triangles(run_))
+        if (is_sampled(state_.parents_of[t][0])) active.push_back(t);
+    std::atomic<std::size_t> count = 0;
+    std::stop_source enough;
+    const std::stop_callback also(run_.stop, [&] { enough.request_stop(); });
+    Run until_enough = quiet_;
+    until_enough.stop = enough.get_token();
+    const auto improper = [&](const CandidatePair& p) {
+        if (!is_improper(p)) return false;
+        if (++count > ParentsInContact::most_contacts) enough.request_stop();
+        return true;
+    };
+    return candidate_pairs_of({state_.points, state_.triangles}, active, {}, improper,
+                              until_enough);
 }
 
 /// Finds the pairs that meet improperly.

@@ -66,7 +66,11 @@ struct RoundingTuning : Constants {
     /// Fewer contacts are never crowded.
     std::size_t many = add("many", 1024);
     /// Contacts are crowded if there are fewer triangles per contact.
-    std::size_t crowded = add("crowded", 24);
+    std::size_t crowded = add("crowded", 8);
+    /// Contacts of a sample are crowded, and left for a moved input, if there are at least so many, and
+    /// fewer triangles per contact than that.
+    std::size_t sampled_many = add("sampled_many", 256);
+    std::size_t sampled_crowded = add("sampled_crowded", 128);
     /// So many parts of a triangle, or up to twice, tell with which others it is in contact where
     /// contacts are too many to list.
     std::size_t sampled = add("sampled", 16);
