@@ -245,19 +245,27 @@ bool RoundingState::tidy(const Run& run) {
         }));
     collapsed += lost.size();
     if (lost.empty() && joined.empty()) return false;
-    std::vector<std::uint32_t> may_be_equal; // each has a corner that took the place of another
-    if (!joined.empty())
-        for (const std::uint32_t t : found_dirty)
-            if (std::ranges::any_of(triangles[t], [&](std::uint32_t v) { return joined[v]; }))
-                may_be_equal.push_back(t);
-    std::vector<bool> gone(triangles.size(), false);
-    for (const std::uint32_t t : lost) gone[t] = true;
+    std::vector<bool> gone(triangles.size(), false), at_lost(points.size(), false);
+    for (const std::uint32_t t : lost) {
+        gone[t] = true;
+        for (const std::uint32_t v : triangles[t]) at_lost[v] = true;
+    }
     if (!lost.empty()) find_gaps(gone);
     const CollapsedTriangles lines(points, triangles, lost);
-    join_equal(may_be_equal, gone);
+    const auto with_corner = [&](std::span<const std::uint32_t> all, const std::vector<bool>& in) {
+        std::vector<std::uint32_t> some;
+        for (const std::uint32_t t : all)
+            if (std::ranges::any_of(triangles[t], [&](std::uint32_t v) { return in[v]; }))
+                some.push_back(t);
+        return some;
+    };
+    // Of two triangles that became equal, one has a corner that took the place of another.
+    join_equal(joined.empty() ? std::vector<std::uint32_t>() : with_corner(found_dirty, joined),
+               gone);
     if (!lost.empty() && divide_sides(lines)) {
         gone.assign(triangles.size(), false);
-        join_equal(dirty_triangles(run), gone);
+        // Of two that are equal now, one is a part, and has a corner of a dropped triangle.
+        join_equal(with_corner(dirty_triangles(run), at_lost), gone);
     }
     return true;
 }
