@@ -66,7 +66,7 @@ std::vector<CandidatePair> Rounding::sampled_contacts() {
     until_enough.stop = enough.get_token();
     const auto improper = [&](const CandidatePair& p) {
         if (!is_improper(p)) return false;
-        if (++count > ParentsInContact::most_contacts) enough.request_stop();
+        if (++count > most_sampled) enough.request_stop();
         return true;
     };
     return candidate_pairs_of({state_.points, state_.triangles}, active, {}, improper,

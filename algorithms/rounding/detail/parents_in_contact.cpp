@@ -58,8 +58,8 @@ std::vector<CandidatePair> contacts_of_sampled(std::span<const CandidatePair> co
 }
 
 bool are_sampled_crowded(std::size_t contacts, std::size_t triangles) {
-    return contacts <= ParentsInContact::most_contacts &&
-           contacts >= std::max(rounding_tuning.sampled_many,
+    return contacts <= most_sampled &&
+           contacts >= std::max(RoundingReport::least_sampled,
                                 triangles / rounding_tuning.sampled_crowded + 1);
 }
 

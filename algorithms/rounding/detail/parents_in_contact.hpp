@@ -43,8 +43,10 @@ constexpr bool is_sampled(std::uint32_t parent) {
 /// Returns the contacts of triangles whose first parent is sampled.
 std::vector<CandidatePair> contacts_of_sampled(std::span<const CandidatePair> contacts,
                                                const IndexLists<std::uint32_t>& parents_of);
-/// Tells whether so many contacts of sampled ones are crowded in a mesh of this size.
+/// Tells whether so many contacts of sampled ones are crowded in a mesh of this size. More than
+/// most_sampled are for CrowdedContacts.
 bool are_sampled_crowded(std::size_t contacts, std::size_t triangles);
+constexpr std::size_t most_sampled = ParentsInContact::most_contacts / 8;
 
 /// Returns a sample of the triangles, ascending. If a first parent has fewer than `parts` parts, the
 /// sample contains them all. Otherwise it contains `parts` to 2 * `parts` - 1 of them, evenly chosen.
