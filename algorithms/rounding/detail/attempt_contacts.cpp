@@ -9,6 +9,7 @@
 #include <numeric>
 #include <span>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
@@ -56,15 +57,20 @@ bool Rounding::is_found(const CandidatePair& p) {
 
 /// Finds the contacts of sampled triangles, or somewhat more than can be listed.
 std::vector<CandidatePair> Rounding::sampled_contacts() {
+    // Each of these contacts has a sampled triangle, and one with a dirty corner.
+    const auto is_in_sample = [&](std::uint32_t t) { return is_sampled(state_.parents_of[t][0]); };
     std::vector<std::uint32_t> active;
-    for (const std::uint32_t t : state_.dirty_triangles(run_))
-        if (is_sampled(state_.parents_of[t][0])) active.push_back(t);
+    for (std::uint32_t t = 0; t < state_.triangles.size(); ++t)
+        if (is_in_sample(t)) active.push_back(t);
+    auto dirty = state_.dirty_triangles(run_);
+    if (dirty.size() < active.size()) active = std::move(dirty);
     std::atomic<std::size_t> count = 0;
     std::stop_source enough;
     const std::stop_callback also(run_.stop, [&] { enough.request_stop(); });
     Run until_enough = quiet_;
     until_enough.stop = enough.get_token();
     const auto improper = [&](const CandidatePair& p) {
+        if (!is_in_sample(p.first) && !is_in_sample(p.second)) return false;
         if (!is_improper(p)) return false;
         if (++count > most_sampled) enough.request_stop();
         return true;
