@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include <terrane/kernel/sign.hpp>
 #ifdef TERRANE_SHADOW
 #include <terrane/kernel/shadow.hpp>
 #endif
@@ -87,6 +88,13 @@ public:
     /// Whether the true value may be the double value().
     [[nodiscard]] bool may_be_double() const { return !(std::fabs(lo_) > err_); }
 
+    /// Returns the sign of the true value if the error bound decides it.
+    [[nodiscard]] std::optional<Sign> sign() const {
+        if (is_zero()) return Sign::Zero;
+        if (!(std::fabs(hi_) > error()) || std::isinf(hi_)) return std::nullopt;
+        return hi_ > 0 ? Sign::Positive : Sign::Negative;
+    }
+
     /// Whether the true value is certainly value() + low().
     [[nodiscard]] bool is_exact() const {
         return err_ == 0 && std::isfinite(hi_) && std::isfinite(lo_);
@@ -152,5 +160,29 @@ private:
 
     double hi_ = 0, lo_ = 0, err_ = 0;
 };
+
+#if defined(__x86_64__) && defined(__GNUC__)
+inline const bool has_fma = __builtin_cpu_supports("fma") != 0;
+
+/// Calls work with the processor's fused multiply-add in place of the C library's, which gives the
+/// same numbers.
+template <class Work>
+[[gnu::target("fma"), gnu::flatten, gnu::noinline]] auto call_with_fma(const Work& work) {
+    return work();
+}
+#else
+constexpr bool has_fma = false;
+template <class Work>
+auto call_with_fma(const Work& work) {
+    return work();
+}
+#endif
+
+/// Returns what work computes in DoubleDouble. The caller holds the default rounding mode. Neither
+/// way is inlined, so that no operation moves out of that mode.
+template <class Work>
+[[gnu::noinline]] auto in_twofold(const Work& work) {
+    return has_fma ? call_with_fma(work) : work();
+}
 
 } // namespace terrane

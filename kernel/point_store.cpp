@@ -14,12 +14,15 @@ namespace terrane {
 
 using polynomial::cartesian;
 using polynomial::One;
+using TwofoldPoint = polynomial::Coordinates<DoubleDouble, One>;
 
-/// One slot per constructed point, filled once by the first thread that needs the point.
+/// Per constructed point: its coordinates in DoubleDouble, and a slot for the exact ones, filled
+/// once by the first thread that needs them.
 struct PointStore::Cache {
+    std::vector<TwofoldPoint> twofold;
     std::vector<std::atomic<const ExactPoint*>> slots;
 
-    explicit Cache(std::size_t n) : slots(n) {}
+    explicit Cache(std::size_t n) : twofold(n), slots(n) {}
     ~Cache() {
         for (const auto& s : slots) delete s.load();
     }
@@ -35,7 +38,9 @@ PointStore& PointStore::operator=(PointStore&&) noexcept = default;
 
 PointStore::PointStore(const PointStore& other) :
     input_(other.input_), constructed_(other.constructed_), rounded_(other.rounded_),
-    cache_(std::make_unique<Cache>(constructed_.size())) {}
+    cache_(std::make_unique<Cache>(constructed_.size())) {
+    if (other.cache_) cache_->twofold = other.cache_->twofold;
+}
 
 PointStore& PointStore::operator=(const PointStore& other) {
     if (this != &other) *this = PointStore(other);
@@ -49,28 +54,11 @@ Construction PointStore::construction(PointIndex p) const {
     return how;
 }
 
-void PointStore::append(std::span<const Construction> constructions, const Share& share) {
-    const std::size_t before = constructed_.size();
-    constructed_.insert(constructed_.end(), constructions.begin(), constructions.end());
-    rounded_.resize(constructed_.size());
-    const auto round_all = [&](std::size_t first, std::size_t last) {
-        const ToNearest mode;
-        for (std::size_t k = first; k < last; ++k) rounded_[before + k] = round(constructions[k]);
-    };
-    if (share)
-        share(constructions.size(), round_all);
-    else
-        round_all(0, constructions.size());
-    auto grown = std::make_unique<Cache>(constructed_.size());
-    for (std::size_t k = 0; k < before; ++k)
-        grown->slots[k].store(cache_->slots[k].exchange(nullptr));
-    cache_ = std::move(grown);
-}
-
 void PointStore::exchange(PointIndex p, PointIndex q) {
     const std::size_t i = p - input_.size(), j = q - input_.size();
     std::swap(constructed_[i], constructed_[j]);
     std::swap(rounded_[i], rounded_[j]);
+    std::swap(cache_->twofold[i], cache_->twofold[j]);
     cache_->slots[i].store(cache_->slots[j].exchange(cache_->slots[i].load()));
 }
 
@@ -80,6 +68,7 @@ void PointStore::keep_constructed(std::span<const PointIndex> kept) {
         const std::size_t from = kept[k] - input_.size();
         constructed_[k] = constructed_[from];
         rounded_[k] = rounded_[from];
+        cache->twofold[k] = cache_->twofold[from];
         cache->slots[k].store(cache_->slots[from].exchange(nullptr));
     }
     constructed_.resize(kept.size());
@@ -112,8 +101,6 @@ Point3 round_exactly(const ExactPoint& p) {
     return {quotient(p.x), quotient(p.y), quotient(p.z)};
 }
 
-using TwofoldPoint = std::array<DoubleDouble, 3>;
-
 /// Computes the point in DoubleDouble. The caller holds the default rounding mode.
 TwofoldPoint twofold_point(std::span<const Point3> input, const Construction& how) {
     const auto at = [&](std::uint32_t v) -> const Point3& { return input[v]; };
@@ -121,7 +108,7 @@ TwofoldPoint twofold_point(std::span<const Point3> input, const Construction& ho
     const auto from_base = [&](const DoubleDouble& x, const DoubleDouble& y,
                                const DoubleDouble& z) {
         return TwofoldPoint{DoubleDouble(base.x) + x, DoubleDouble(base.y) + y,
-                            DoubleDouble(base.z) + z};
+                            DoubleDouble(base.z) + z, One{}};
     };
     if (!polynomial::is_on_line(how)) {
         const auto h = polynomial::construct<DoubleDouble>(how, at);
@@ -133,7 +120,7 @@ TwofoldPoint twofold_point(std::span<const Point3> input, const Construction& ho
     const auto is_settled = [](const DoubleDouble& x) {
         return x.is_double() || !x.may_be_double();
     };
-    if (is_settled(p[0]) && is_settled(p[1]) && is_settled(p[2])) return p;
+    if (is_settled(p.x) && is_settled(p.y) && is_settled(p.z)) return p;
     // Dividing last may show that a coordinate is a double.
     return from_base(d.x * t / w, d.y * t / w, d.z * t / w);
 }
@@ -155,28 +142,6 @@ TwofoldHomogeneous twofold_homogeneous(std::span<const Point3> input, const Cons
     return on_base(h, h.w.value() < 0, input[how.v[0]]);
 }
 
-#if defined(__x86_64__) && defined(__GNUC__)
-// Uses the processor's fused multiply-add instead of calling the C library's; both give the same
-// numbers.
-[[gnu::target("fma"), gnu::flatten]] TwofoldPoint fused_point(std::span<const Point3> input,
-                                                              const Construction& how) {
-    return twofold_point(input, how);
-}
-[[gnu::target("fma"), gnu::flatten]] TwofoldHomogeneous
-fused_homogeneous(std::span<const Point3> input, const Construction& how) {
-    return twofold_homogeneous(input, how);
-}
-const bool has_fma = __builtin_cpu_supports("fma") != 0;
-#else
-TwofoldPoint fused_point(std::span<const Point3> input, const Construction& how) {
-    return twofold_point(input, how);
-}
-TwofoldHomogeneous fused_homogeneous(std::span<const Point3> input, const Construction& how) {
-    return twofold_homogeneous(input, how);
-}
-constexpr bool has_fma = false;
-#endif
-
 Exact exact_sum(const DoubleDouble& d) {
     return d.low() == 0 ? Exact(d.value()) : Exact(d.value()) + Exact(d.low());
 }
@@ -195,7 +160,7 @@ std::optional<ExactPoint> construct_in_doubles(std::span<const Point3> input,
                      [&](std::uint32_t v) { return has_few_bits(input[v]); }))
         return std::nullopt;
     const ToNearest mode;
-    const auto h = has_fma ? fused_homogeneous(input, how) : twofold_homogeneous(input, how);
+    const auto h = in_twofold([&] { return twofold_homogeneous(input, how); });
     if (!h.x.is_exact() || !h.y.is_exact() || !h.z.is_exact() || !h.w.is_exact())
         return std::nullopt;
     return ExactPoint{exact_sum(h.x), exact_sum(h.y), exact_sum(h.z), exact_sum(h.w)};
@@ -210,19 +175,35 @@ ExactPoint construct_exactly(std::span<const Point3> input, const Construction& 
 
 } // namespace
 
-/// Rounds a point if numbers of about 106 bits decide every coordinate. The caller holds the
-/// default rounding mode.
-std::optional<PointStore::Rounded> PointStore::round_quickly(std::span<const Point3> input,
-                                                             const Construction& how) {
-    const TwofoldPoint p = has_fma ? fused_point(input, how) : twofold_point(input, how);
-    const auto x = p[0].nearest(), y = p[1].nearest(), z = p[2].nearest();
-    if (!x || !y || !z) return std::nullopt;
-    return Rounded{{*x, *y, *z}, {p[0].is_double(), p[1].is_double(), p[2].is_double()}};
+void PointStore::append(std::span<const Construction> constructions, const Share& share) {
+    const std::size_t before = constructed_.size();
+    constructed_.insert(constructed_.end(), constructions.begin(), constructions.end());
+    rounded_.resize(constructed_.size());
+    auto grown = std::make_unique<Cache>(constructed_.size());
+    const auto round_all = [&](std::size_t first, std::size_t last) {
+        const ToNearest mode;
+        for (std::size_t k = before + first; k < before + last; ++k) {
+            grown->twofold[k] = in_twofold([&] { return twofold_point(input_, constructed_[k]); });
+            rounded_[k] = round(k, *grown);
+        }
+    };
+    if (share)
+        share(constructions.size(), round_all);
+    else
+        round_all(0, constructions.size());
+    for (std::size_t k = 0; k < before; ++k) {
+        grown->twofold[k] = cache_->twofold[k];
+        grown->slots[k].store(cache_->slots[k].exchange(nullptr));
+    }
+    cache_ = std::move(grown);
 }
 
-PointStore::Rounded PointStore::round(const Construction& how) const {
-    if (const auto quick = round_quickly(input_, how)) return *quick;
-    return {round_exactly(make_exact(how)), {false, false, false}};
+/// Rounds a constructed point, in most cases the number of about 106 bits that the cache has.
+PointStore::Rounded PointStore::round(std::size_t k, const Cache& cache) const {
+    const auto& p = cache.twofold[k];
+    const auto x = p.x.nearest(), y = p.y.nearest(), z = p.z.nearest();
+    if (x && y && z) return {{*x, *y, *z}, {p.x.is_double(), p.y.is_double(), p.z.is_double()}};
+    return {round_exactly(make_exact(constructed_[k])), {false, false, false}};
 }
 
 ExactPoint PointStore::make_exact(const Construction& how) const {
@@ -295,6 +276,17 @@ Sign PointStore::filtered(UpwardWitness upward, const Polynomial& polynomial, P.
     if (const auto sign = certain_sign(upward, polynomial(interval(points)...))) {
         ++predicate_counts().interval;
         return *sign;
+    }
+    const auto twofold = [&](PointIndex p) {
+        return is_input(p) ? cartesian<DoubleDouble>(input_[p])
+                           : cache_->twofold[p - input_.size()];
+    };
+    {
+        const ToNearest mode;
+        if (const auto sign = in_twofold([&] { return polynomial(twofold(points)...).sign(); })) {
+            ++predicate_counts().interval;
+            return *sign;
+        }
     }
     ++predicate_counts().exact;
     return exact_sign(polynomial(exact(points)...));

@@ -4,9 +4,9 @@
 // indices.
 //
 // append() computes the doubles nearest to each constructed point and marks those that equal the
-// exact coordinates. A predicate tries intervals around these doubles first, then exact homogeneous
-// coordinates, which are computed when first needed and kept. If all its points are input points,
-// it calls its namesake in predicates.hpp.
+// exact coordinates. A predicate tries intervals around these doubles first, then numbers of about
+// 106 bits, which append() keeps, then exact homogeneous coordinates, which are computed when first
+// needed and kept. If all its points are input points, it calls its namesake in predicates.hpp.
 //
 // Laws (a test carries each number):
 // (1) Each predicate agrees with its namesake in predicates.hpp on input points, and keeps its laws
@@ -139,16 +139,14 @@ private:
     [[nodiscard]] IntervalPoint interval(PointIndex p) const;
     [[nodiscard]] const ExactPoint& cached_exact(std::size_t k) const;
     [[nodiscard]] ExactPoint make_exact(const Construction& how) const;
-    [[nodiscard]] static std::optional<Rounded> round_quickly(std::span<const Point3> input,
-                                                              const Construction& how);
-    [[nodiscard]] Rounded round(const Construction& how) const;
+    [[nodiscard]] Rounded round(std::size_t k, const Cache& cache) const;
     template <class Polynomial, class... P>
     Sign filtered(UpwardWitness upward, const Polynomial& polynomial, P... points) const;
 
     std::vector<Point3> input_;
     std::vector<Construction> constructed_;
     std::vector<Rounded> rounded_; ///< of the constructed points
-    std::unique_ptr<Cache> cache_; ///< exact coordinates of the constructed points
+    std::unique_ptr<Cache> cache_; ///< more precise coordinates of the constructed points
 };
 
 /// Returns the doubles nearest to the point of one construction on `input`.

@@ -8,7 +8,7 @@ namespace terrane {
 /// The number of predicates that each stage decided.
 struct PredicateCounts {
     std::uint64_t static_filter = 0; ///< by doubles with an error bound
-    std::uint64_t interval = 0;      ///< by intervals of doubles
+    std::uint64_t interval = 0;      ///< by intervals, or by numbers of about 106 bits
     std::uint64_t exact = 0;         ///< by exact numbers
 
     /// Adds the counts of each stage.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <terrane/kernel/double_double.hpp>
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/polynomials.hpp>
 #include <terrane/kernel/static_filter_bounds.hpp>
@@ -65,13 +66,20 @@ std::optional<Axis> static_projection_axis(const Point3& a, const Point3& b, con
     return std::nullopt;
 }
 
-// Evaluates stages two and three. `polynomial` is generic over the number type. Stage one decides
+// Evaluates stages two to four. `polynomial` is generic over the number type. Stage one decides
 // most calls in some 50 instructions; it stays that short if this function is not inlined.
 template <class Polynomial>
 [[gnu::noinline, gnu::cold]] Sign filtered(const Polynomial& polynomial) {
     {
         const UpwardRounding guard;
         if (const auto sign = certain_sign(guard, polynomial(Interval{}))) {
+            ++predicate_counts().interval;
+            return *sign;
+        }
+    }
+    {
+        const ToNearest mode;
+        if (const auto sign = in_twofold([&] { return polynomial(DoubleDouble{}).sign(); })) {
             ++predicate_counts().interval;
             return *sign;
         }
@@ -101,7 +109,7 @@ std::optional<Sign> filtered_orient2d(Axis axis, const Point3& a, const Point3& 
     return static_turn2d(p, project(axis, b), p, project(axis, c));
 }
 
-// Stage one has no arrays, so its stack needs no protection. Stages two and three protect theirs.
+// Stage one has no arrays, so its stack needs no protection. The others protect theirs.
 __attribute__((no_stack_protector)) Sign orient3d(const Point3& a, const Point3& b, const Point3& c,
                                                   const Point3& d) {
     if (const auto sign = static_orient3d(a, b, c, d)) {

@@ -25,7 +25,7 @@ enum class DecidedBy : std::uint8_t {
 
 /// Counts all pairs of triangles of a mesh; decided_by is asked for those whose boxes overlap, from
 /// several threads. None if more than `most` boxes overlap. Cost: one box search, which ends there,
-/// and no memory for the pairs.
+/// and no memory for the pairs. Times: count_pairs.
 std::optional<PairCounts>
 count_pairs(std::span<const Point3> points, std::span<const Triangle> triangles,
             const std::function<DecidedBy(const CandidatePair&)>& decided_by, std::uint64_t most,

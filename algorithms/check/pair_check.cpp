@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/check/count_pairs.hpp>
 #include <terrane/algorithms/core/progress.hpp>
+#include <terrane/algorithms/core/stage_timer.hpp>
 
 namespace terrane {
 
@@ -13,6 +14,7 @@ count_pairs(std::span<const Point3> points, std::span<const Triangle> triangles,
             const std::function<DecidedBy(const CandidatePair&)>& decided_by, std::uint64_t most,
             const Run& run) {
     if (most == 0) return std::nullopt;
+    const StageTimer timer(run, "count_pairs");
     const auto class_of = [&](const CandidatePair& pair) {
         return static_cast<std::size_t>(decided_by(pair));
     };

@@ -182,9 +182,7 @@ struct Project {
     Search search = Search::automatic; ///< how triangles that may meet are found; no result depends
                                        ///< on it
     unsigned max_rounds = RoundingOptions{}.max_rounds; ///< see RoundingOptions
-    /// How meshes are shown to be conforming, and that it is counted what decided each pair of
-    /// triangles; no result depends on it.
-    PairCheckOptions check{PairCheck::bounds, SIZE_MAX};
+    PairCheckOptions check{}; ///< how meshes are shown to be conforming; no result depends on it
     BuildStage last = BuildStage::tetrahedra; ///< later stages are left out
 };
 

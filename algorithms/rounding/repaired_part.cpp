@@ -68,8 +68,12 @@ RepairedPart repair_part(PartOfDoubles part, const Run& run) {
     Repair repair(state, task, run);
     if (repair.tidy() && !(state.is_torn && part.is_moved)) {
         auto pairs = repair.contacts();
+        auto sampled = contacts_of_sampled(pairs, state.parents_of);
+        const bool are_crowded = !part.is_moved && are_sampled_crowded(sampled.size(), all);
+        if (are_crowded) pairs = std::move(sampled);
         out.naive_contacts = pairs.size();
-        if (repair.missing().empty() && !state.is_torn && pairs.size() < left_from) {
+        if (repair.missing().empty() && !state.is_torn && !are_crowded &&
+            pairs.size() < left_from) {
             if (!pairs.empty()) repair(pairs);
             out.clean = pairs.empty() && repair.missing().empty();
         }

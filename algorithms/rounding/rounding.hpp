@@ -55,9 +55,10 @@ struct VanishedRegions {
 struct RoundingReport {
     bool clean = false;  ///< conforming, by exact check of the doubles
     unsigned rounds = 0; ///< number of snapping rounds
-    /// Pairs that meet improperly at the nearest doubles. If they are more than most_counted, there
-    /// may be more: the input is then moved at once.
+    /// Pairs that meet improperly at the nearest doubles. If they are least_sampled or more, there may
+    /// be more: if a sample of the triangles has so many, the input is moved at once.
     std::size_t naive_contacts = 0;
+    static constexpr std::size_t least_sampled = 256;
     static constexpr std::size_t most_counted = 100'000;
     /// Remaining contacts; triangles of the mesh. If they are more than most_counted, there may be
     /// more: they are then the first ones, in the order of their triangles.

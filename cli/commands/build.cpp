@@ -38,7 +38,7 @@ struct BuildCommand {
     std::string folder;              ///< empty: the folder that the project names
     FileOptions page;                ///< --report, and what the page says of the inputs
     std::optional<unsigned> threads; ///< none: the number that the project names
-    PairCheckOptions check{PairCheck::bounds, SIZE_MAX};
+    PairCheckOptions check = few_pairs;
     bool strict = false; ///< warnings about the inputs are errors
     bool resume = false; ///< stages that take long are kept until the run ends well
 };

@@ -243,7 +243,6 @@ Inputs read_inputs(const FileOptions& options, Session& session) {
     if (std::max(all.vertices, all.triangles) >= UINT32_MAX)
         refuse(ErrorCode::unsupported, "more than 4294967294 vertices or triangles", "");
     describe(all.surfaces, all);
-    all.statistics_wanted = !options.stats.empty();
     all.strict = options.strict;
     return all;
 }

@@ -77,8 +77,7 @@ struct Inputs {
     double extent = 0;               ///< longest side of the box of a surface
     std::vector<std::string> labels; ///< per surface: its name, made unique, on one line
     std::size_t vertices = 0, triangles = 0;
-    bool statistics_wanted = false; ///< whether --stats is given
-    bool strict = false;            ///< warnings about them are errors
+    bool strict = false; ///< warnings about them are errors
 
     [[nodiscard]] Quantities quantities() const { return Quantities(unit, extent); }
 };

@@ -69,8 +69,8 @@ std::string set_aside(const Arrangement& a) {
 }
 
 /// Returns the words before a number of contacts, if there may be more.
-std::string_view at_least(std::size_t contacts) {
-    return contacts > RoundingReport::most_counted ? "at least " : "";
+std::string_view at_least(bool may_be_more) {
+    return may_be_more ? "at least " : "";
 }
 
 std::string rounding_text(const RoundingReport& r, const Quantities& quantities) {
@@ -83,7 +83,8 @@ std::string rounding_text(const RoundingReport& r, const Quantities& quantities)
                             quantities.length(r.surface_deviation, 3));
     if (r.rounds > 0)
         text += fmt::format("; {} of snapping, for {}{} that met improperly",
-                            counted(r.rounds, "round"), at_least(r.naive_contacts),
+                            counted(r.rounds, "round"),
+                            at_least(r.naive_contacts >= RoundingReport::least_sampled),
                             counted(r.naive_contacts, "pair"));
     text += '\n';
     if (r.rounds > 0)
@@ -111,7 +112,8 @@ std::string rounding_text(const RoundingReport& r, const Quantities& quantities)
     text += r.clean ? good("verified:") + " the doubles are a conforming mesh, by exact check\n"
                     : fmt::format("{} {}{} of triangles still meet improperly, and no "
                                   "surface may move by more than {} to separate them\n",
-                                  bad("NOT verified:"), at_least(r.contacts.size()),
+                                  bad("NOT verified:"),
+                                  at_least(r.contacts.size() > RoundingReport::most_counted),
                                   counted(r.contacts.size(), "pair"),
                                   quantities.length(r.max_allowed, 3));
     if (r.sufficient_limit > 0) text += fmt::format("--max-move {} would do\n", r.sufficient_limit);

@@ -27,11 +27,6 @@ void add_check(CLI::App& command, PairCheckOptions& check) {
         });
 }
 
-PairCheckOptions check_of(PairCheckOptions check, const Inputs& inputs) {
-    if (inputs.statistics_wanted) check.count_up_to = SIZE_MAX;
-    return check;
-}
-
 std::string text_of(const std::optional<PairCounts>& pairs) {
     if (!pairs) return {};
     return fmt::format("pairs of triangles: {} tested by exact predicates; {} cleared by proven "

@@ -9,19 +9,14 @@
 #include <CLI/CLI.hpp>
 
 #include <terrane/algorithms/check/check.hpp>
-#include <terrane/cli/options/files.hpp>
 
 namespace terrane::cli {
 
-/// Unless --check or --stats is given, pairs are counted for small meshes only: see count_up_to.
-inline constexpr PairCheckOptions few_pairs{PairCheck::bounds, 50'000, 256};
+/// Unless --check is given, pairs are counted for small meshes only: see count_up_to.
+inline constexpr PairCheckOptions few_pairs{PairCheck::bounds, 20'000, 256};
 
 /// Adds --check. Where it is given, pairs are counted in any case.
 void add_check(CLI::App& command, PairCheckOptions& check);
-
-/// Returns the check for a command with these inputs: for statistics pairs are counted for meshes of
-/// any size.
-PairCheckOptions check_of(PairCheckOptions check, const Inputs& inputs);
 
 /// A line that follows "verified: ..."; empty where nothing was counted.
 std::string text_of(const std::optional<PairCounts>& pairs);

@@ -10,7 +10,6 @@
 #include <terrane/cli/reports/fill_report.hpp>
 #include <terrane/cli/reports/improve_report.hpp>
 #include <terrane/cli/reports/layer_report.hpp>
-#include <terrane/cli/reports/pair_report.hpp>
 #include <terrane/cli/reports/resolution_report.hpp>
 #include <terrane/cli/reports/tetrahedra_report.hpp>
 #include <terrane/cli/stages/blocks.hpp>
@@ -91,7 +90,6 @@ ModelRun ModelRun::begin(const ModelCommand& command, Session& session) {
     run.project_.column = column_of(command.column, inputs);
     run.project_.volume = volume_of(command.volume);
     if (command.volume.extend != 0) run.project_.extend = command.volume.extend;
-    run.project_.check = check_of(command.project.check, inputs);
     BuildInput input{.stated_blocks = inputs.stated_blocks};
     if (command.volume.wanted()) input.boundary = boundary_of(command.volume, session);
     input.surfaces = std::exchange(inputs.surfaces, {});

@@ -34,7 +34,6 @@ EnsembleHandle prepared(Project project, const Run& run) {
     auto inputs = must(read_inputs(project, run));
     project.outputs.tetrahedra.clear(); // of a thousand models nobody looks at them
     project.outputs.certificate = false;
-    project.check.count_up_to = 0; // what decided each pair of triangles is kept by nobody
     const std::size_t moved = project.uncertainty.size();
     auto made = must(Realisations::prepare(std::move(project), std::move(inputs.build), maps, run));
     return EnsembleHandle{std::move(made), moved};

@@ -262,6 +262,9 @@ TEST_CASE("each stage decides what is made for it") {
     CHECK(stage({0, 0, 0}, {1, 2, 3}, {2, 4, 7}, {3, 6, 10}) == 'i'); // small integers: exact zero
     CHECK(stage({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1e-300}) == 'i'); // below the static range
     CHECK(stage({0.1, 0.2, 0.3}, {0.2, 0.4, 0.6}, {0.3, 0.6, 0.1}, {0.7, 1.4, 0.9}) == 'e');
+    // One double away from that plane: intervals can't tell, numbers of 106 bits can.
+    CHECK(stage({0.1, 0.2, 0.3}, {0.2, 0.4, 0.6}, {0.3, 0.6, 0.1},
+                {0.7, std::nextafter(1.4, 2.0), 0.9}) == 'i');
 }
 
 TEST_CASE("predicates do not depend on the rounding mode, and keep it") {

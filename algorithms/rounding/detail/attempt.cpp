@@ -98,6 +98,14 @@ std::size_t Rounding::left_from() const {
     return repairs_ == Repairs::sparse ? crowded_from(count) : hopeless_from(count);
 }
 
+/// If contacts of the sample are crowded, notes which input triangles are in contact.
+bool Rounding::leaves_crowd(std::span<const CandidatePair> sampled) {
+    if (!are_sampled_crowded(sampled.size(), arrangement_.triangles.size())) return false;
+    out_.report.naive_contacts = sampled.size();
+    left_ = parents_in_contact(sampled, state_.parents_of);
+    return true;
+}
+
 /// Notes which input triangles are in contact.
 void Rounding::leave(std::span<const CandidatePair> pairs) {
     if (!crowd_->is_full()) {

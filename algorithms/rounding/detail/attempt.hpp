@@ -66,10 +66,15 @@ public:
         if (repairs_ != Repairs::all || arrangement_.state->whole)
             crowd_.emplace(state_.parents_of, arrangement_.state->corners.size(),
                            std::max(left_from(), ParentsInContact::most_contacts + 1));
+        const bool looks_for_crowd = repairs_ == Repairs::sparse;
+        if (looks_for_crowd && changed_ && leaves_crowd(sampled_contacts())) return std::move(out_);
         auto pairs = first_contacts_until_full();
         tell(0.7); // the shares are estimates, not measured
         if (run_.stop.stop_requested()) return interrupted();
         const bool is_full = crowd_ && crowd_->is_full();
+        if (looks_for_crowd && !changed_ && !is_full &&
+            leaves_crowd(contacts_of_sampled(pairs, state_.parents_of)))
+            return std::move(out_);
         out_.report.naive_contacts = is_full ? crowd_->most() : pairs.size();
         if (repairs_ != Repairs::all &&
             (out_.report.naive_contacts >= left_from() || state_.is_torn)) {
@@ -100,6 +105,7 @@ private:
         if (run_.progress) run_.progress("round", share);
     }
     [[nodiscard]] std::size_t left_from() const;
+    bool leaves_crowd(std::span<const CandidatePair> sampled);
     void leave(std::span<const CandidatePair> pairs);
     void take_sample();
     [[nodiscard]] ParentsInContact contacts_of_sample() const;
@@ -111,8 +117,10 @@ private:
     [[nodiscard]] Error too_far() const;
     [[nodiscard]] bool is_improper(const CandidatePair& p) const;
     bool is_found(const CandidatePair& p);
+    std::vector<CandidatePair> sampled_contacts();
     std::vector<CandidatePair> first_contacts_until_full();
     std::vector<CandidatePair> first_contacts(const Run& run);
+    std::vector<CandidatePair> contacts_in_frame(const Run& run);
     std::vector<CandidatePair> lowest_contacts(std::size_t most);
     [[nodiscard]] MovedParts moved_parts() const;
     [[nodiscard]] Pools find_pools() const;

@@ -4,16 +4,19 @@
 #include <terrane/algorithms/rounding/detail/attempt.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <numeric>
 #include <span>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/intersection/injective_patches.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
+#include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/rounding/detail/repair.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
 #include <terrane/kernel/predicates.hpp>
@@ -50,6 +53,30 @@ bool Rounding::is_found(const CandidatePair& p) {
         if (ends_when_full_ && crowd_->is_full()) full_.request_stop();
     }
     return true;
+}
+
+/// Finds the contacts of sampled triangles, or somewhat more than can be listed.
+std::vector<CandidatePair> Rounding::sampled_contacts() {
+    // Each of these contacts has a sampled triangle, and one with a dirty corner.
+    const auto is_in_sample = [&](std::uint32_t t) { return is_sampled(state_.parents_of[t][0]); };
+    std::vector<std::uint32_t> active;
+    for (std::uint32_t t = 0; t < state_.triangles.size(); ++t)
+        if (is_in_sample(t)) active.push_back(t);
+    auto dirty = state_.dirty_triangles(run_);
+    if (dirty.size() < active.size()) active = std::move(dirty);
+    std::atomic<std::size_t> count = 0;
+    std::stop_source enough;
+    const std::stop_callback also(run_.stop, [&] { enough.request_stop(); });
+    Run until_enough = quiet_;
+    until_enough.stop = enough.get_token();
+    const auto improper = [&](const CandidatePair& p) {
+        if (!is_in_sample(p.first) && !is_in_sample(p.second)) return false;
+        if (!is_improper(p)) return false;
+        if (++count > most_sampled) enough.request_stop();
+        return true;
+    };
+    return candidate_pairs_of({state_.points, state_.triangles}, active, {}, improper,
+                              until_enough);
 }
 
 /// Finds the pairs that meet improperly.
@@ -106,7 +133,8 @@ std::vector<CandidatePair> Rounding::lowest_contacts(std::size_t most) {
 /// Finds the pairs that meet improperly right after rounding to nearest. Only pairs that neither
 /// injective patches nor the separation of faces exclude need a test.
 std::vector<CandidatePair> Rounding::first_contacts(const Run& run) {
-    if (changed_ || tests_all() || moved_.frame != nullptr) return contacts(run);
+    if (changed_ || tests_all()) return contacts(run);
+    if (moved_.frame != nullptr) return contacts_in_frame(run);
     const Arrangement& a = arrangement_;
     const auto& dirty = state_.found_dirty;
     if (dirty.empty()) return {};
@@ -161,6 +189,24 @@ std::vector<CandidatePair> Rounding::first_contacts(const Run& run) {
     const auto more = contacts_in_pools(pools, patches, without_progress(run));
     pairs.insert(pairs.end(), more.begin(), more.end());
     sort_unique(pairs);
+    return pairs;
+}
+
+/// Finds the pairs that meet improperly, where any corner may have moved on the way out of a frame.
+/// Only pairs that injective patches do not exclude need a test.
+std::vector<CandidatePair> Rounding::contacts_in_frame(const Run& run) {
+    const auto& triangles = state_.triangles;
+    std::vector<std::uint32_t> surface_of;
+    surface_of.reserve(triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        surface_of.push_back(arrangement_.surfaces_of[t][0]);
+    const EdgeSides edges = group_edges(triangles, state_.points.size(), run_);
+    auto patches = find_injective_patches(state_.points, triangles, surface_of, edges, run_).of;
+    auto pairs = candidate_pairs_of(
+        {state_.points, triangles}, state_.found_dirty, patches,
+        [&](const CandidatePair& p) { return is_found(p); }, run);
+    if (options_.check.most_counted(triangles.size()) > 0)
+        first_search_ = {{}, state_.found_dirty, state_.found_dirty, std::move(patches), {}};
     return pairs;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/rounding/detail/tuning.hpp>
 #include <terrane/kernel/assertion.hpp>
 
 namespace terrane::rounding::detail {
@@ -45,6 +46,21 @@ ParentsInContact parents_in_contact(const RoundedMesh& rounded) {
     for (const ImproperContact& c : rounded.report.contacts)
         contacts.push_back({c.triangles[0], c.triangles[1]});
     return parents_in_contact(contacts, rounded.mesh->parents_of);
+}
+
+std::vector<CandidatePair> contacts_of_sampled(std::span<const CandidatePair> contacts,
+                                               const IndexLists<std::uint32_t>& parents_of) {
+    std::vector<CandidatePair> found;
+    for (const CandidatePair& c : contacts)
+        if (is_sampled(parents_of[c.first][0]) || is_sampled(parents_of[c.second][0]))
+            found.push_back(c);
+    return found;
+}
+
+bool are_sampled_crowded(std::size_t contacts, std::size_t triangles) {
+    return contacts <= most_sampled &&
+           contacts >= std::max(RoundingReport::least_sampled,
+                                triangles / rounding_tuning.sampled_crowded + 1);
 }
 
 std::vector<std::uint32_t> sample_of_parts(const IndexLists<std::uint32_t>& parents_of,

@@ -35,6 +35,19 @@ ParentsInContact parents_in_contact(std::span<const CandidatePair> contacts,
 /// Does the same for the contacts that remain after rounding.
 ParentsInContact parents_in_contact(const RoundedMesh& rounded);
 
+/// Tells whether an input triangle is in a sample of one in eight. Whether contacts are crowded, and
+/// which input triangles are in contact then, shows in the contacts of the sample.
+constexpr bool is_sampled(std::uint32_t parent) {
+    return parent * 0x9e3779b9U >> 29 == 0;
+}
+/// Returns the contacts of triangles whose first parent is sampled.
+std::vector<CandidatePair> contacts_of_sampled(std::span<const CandidatePair> contacts,
+                                               const IndexLists<std::uint32_t>& parents_of);
+/// Tells whether so many contacts of sampled ones are crowded in a mesh of this size. More than
+/// most_sampled are for CrowdedContacts.
+bool are_sampled_crowded(std::size_t contacts, std::size_t triangles);
+constexpr std::size_t most_sampled = ParentsInContact::most_contacts / 8;
+
 /// Returns a sample of the triangles, ascending. If a first parent has fewer than `parts` parts, the
 /// sample contains them all. Otherwise it contains `parts` to 2 * `parts` - 1 of them, evenly chosen.
 /// The parts of a first parent are consecutive, as in an arrangement.

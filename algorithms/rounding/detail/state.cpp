@@ -182,8 +182,8 @@ double RoundingState::total_gaps() const {
 }
 
 /// Merges equal points into the one with the lowest index. Only a dirty point can have become equal
-/// to another.
-bool RoundingState::merge_points(const Run& run) {
+/// to another. Returns per point whether others were merged into it; nothing if none were merged.
+std::vector<bool> RoundingState::merge_points(const Run& run) {
     // This filter saves most look-ups. Its hash is quicker than hash_of(). + 0.0 turns -0 into 0.
     constexpr unsigned bits = 20;
     std::vector<bool> maybe(std::size_t{1} << bits, false);
@@ -204,9 +204,12 @@ bool RoundingState::merge_points(const Run& run) {
         }));
     PointTable table(candidates.size());
     std::vector<std::uint32_t> name;
+    std::vector<bool> joined;
     for (const std::uint32_t v : candidates) {
         const std::uint32_t first = table.enter(points, v);
         if (first == v) continue;
+        joined.resize(points.size(), false);
+        joined[first] = true;
         is_dirty[first] = true;
         is_merged.resize(points.size(), false);
         is_merged[v] = true;
@@ -216,18 +219,18 @@ bool RoundingState::merge_points(const Run& run) {
         }
         name[v] = first;
     }
-    if (name.empty()) return false;
+    if (joined.empty()) return joined;
     for (Triangle& t : triangles)
         for (std::uint32_t& v : t) {
             if (name[v] == v) continue;
             move[name[v]] = std::max(move[name[v]], move[v]);
             v = name[v];
         }
-    return true;
+    return joined;
 }
 
 bool RoundingState::tidy(const Run& run) {
-    const bool merged_any = merge_points(run);
+    const std::vector<bool> joined = merge_points(run);
     const auto has_area = [&](const Triangle& t) {
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
         return !collinear(points[t[0]], points[t[1]], points[t[2]]);
@@ -241,15 +244,28 @@ bool RoundingState::tidy(const Run& run) {
             return part;
         }));
     collapsed += lost.size();
-    if (lost.empty() && !merged_any) return false; // then no two triangles can have become equal
-    std::vector<bool> gone(triangles.size(), false);
-    for (const std::uint32_t t : lost) gone[t] = true;
+    if (lost.empty() && joined.empty()) return false;
+    std::vector<bool> gone(triangles.size(), false), at_lost(points.size(), false);
+    for (const std::uint32_t t : lost) {
+        gone[t] = true;
+        for (const std::uint32_t v : triangles[t]) at_lost[v] = true;
+    }
     if (!lost.empty()) find_gaps(gone);
     const CollapsedTriangles lines(points, triangles, lost);
-    join_equal(found_dirty, gone);
+    const auto with_corner = [&](std::span<const std::uint32_t> all, const std::vector<bool>& in) {
+        std::vector<std::uint32_t> some;
+        for (const std::uint32_t t : all)
+            if (std::ranges::any_of(triangles[t], [&](std::uint32_t v) { return in[v]; }))
+                some.push_back(t);
+        return some;
+    };
+    // Of two triangles that became equal, one has a corner that took the place of another.
+    join_equal(joined.empty() ? std::vector<std::uint32_t>() : with_corner(found_dirty, joined),
+               gone);
     if (!lost.empty() && divide_sides(lines)) {
         gone.assign(triangles.size(), false);
-        join_equal(dirty_triangles(run), gone);
+        // Of two that are equal now, one is a part, and has a corner of a dropped triangle.
+        join_equal(with_corner(dirty_triangles(run), at_lost), gone);
     }
     return true;
 }

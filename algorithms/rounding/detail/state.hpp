@@ -99,7 +99,7 @@ struct RoundingState {
     }
 
 private:
-    bool merge_points(const Run& run);
+    std::vector<bool> merge_points(const Run& run);
     void join_equal(std::span<const std::uint32_t> dirty, std::vector<bool>& gone);
     void find_gaps(const std::vector<bool>& gone);
     bool divide_sides(const CollapsedTriangles& lines);

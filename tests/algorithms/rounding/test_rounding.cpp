@@ -165,6 +165,18 @@ TEST_CASE("rounding: nearly coplanar sheets come out conforming, hardly moved") 
     }
 }
 
+TEST_CASE("rounding: crowded contacts are counted in a sample, and the sheets hardly move") {
+    const auto a = arranged(turned_sheets(64));
+    const std::size_t all = rounded(a, {.max_rounds = 0}).report.naive_contacts;
+    const auto r = rounded(a);
+    REQUIRE(r.report.clean);
+    CHECK(is_conforming(r.mesh));
+    CHECK(r.report.naive_contacts >= RoundingReport::least_sampled);
+    CHECK(2 * r.report.naive_contacts < all);
+    CHECK(r.report.deviation < 1e-9);
+    check_lists(r);
+}
+
 TEST_CASE("rounding: what is left is named when no round is allowed") {
     const auto a = arranged(turned_sheets(16));
     const auto r = rounded(a, {.max_rounds = 0});
