@@ -5,6 +5,7 @@
 # The parts, all of them unless some are named; with two cores they take some thirteen hours together:
 #   soups      20 000 random soups and more, judged by the verifier and by rational numbers; 5 000 certified ones
 #   decimals   2 000 soups on decimal lattices: how far surfaces moved, in rational numbers
+#   mpi        all certified cases in 1, 2, 3, 4 and 7 processes
 #   models     5 000 random block models against an oracle; 300 improved ones; 100 with tetrahedra
 #   stacks     2 000 random stacks of layers, judged in rational numbers
 #   signals    2 000 interrupts at random times
@@ -21,7 +22,7 @@ cd "$(dirname "$0")/.."
 folder=${1:-build/nightly}
 shift || true
 parts=("$@")
-[[ ${#parts[@]} -gt 0 ]] || parts=(soups decimals models stacks signals memory arguments kept many threads fuzz)
+[[ ${#parts[@]} -gt 0 ]] || parts=(soups decimals mpi models stacks signals memory arguments kept many threads fuzz)
 mkdir -p "$folder"
 
 cmake --preset release >/dev/null && cmake --build --preset release || exit 2
@@ -54,10 +55,15 @@ run_part() {
         /usr/bin/python3 $folder/program_arguments.py --program $terrane --data docs/data --seconds 1200 &&
             /usr/bin/python3 $folder/c_arguments.py --library build/release/capi/libterrane_c.so --seconds 1200 &&
             PYTHONPATH=$PWD/build/release/python /usr/bin/python3 $folder/python_arguments.py --seconds 1200 ;;
+    mpi)
+        /usr/bin/python3 tests/mpi/run_mpi.py --all --terrane $terrane --terrane-mpi build/release/cli/terrane-mpi \
+            --mpirun "$(command -v mpiexec)" --certified tests/certified ;;
     kept) /usr/bin/python3 tests/cli/kept_stages.py --terrane $terrane --seconds 3600 ;;
     many) /usr/bin/python3 tests/oracles/many.py --terrane $terrane --seconds 3600 ;;
     threads) scripts/thread_sanitizer.sh ;;
-    fuzz) FUZZ_CORPUS=$PWD/$folder/corpus scripts/fuzz.sh "${FUZZ_SECONDS:-540}" ;;
+    fuzz)
+        fuzz/check_plants.py build/release/compile_commands.json &&
+            FUZZ_CORPUS=$PWD/$folder/corpus scripts/fuzz.sh "${FUZZ_SECONDS:-540}" ;;
     *) echo "nightly: there is no part $1" && return 2 ;;
     esac
 }
