@@ -265,6 +265,12 @@ def test_layers_refuse(order):
         terrane.layers(stack(), order)
 
 
+@pytest.mark.parametrize("order", [["top"], [("top",)], [("top", 1, 2)], "top", {"top"}])
+def test_what_is_no_order_of_layers_is_refused(order):
+    with pytest.raises(TypeError, match="order"):
+        terrane.layers(stack(), order)
+
+
 def test_overturned_layers_are_refused():
     with pytest.raises(terrane.Error) as raised:
         terrane.layers([wall(name="top"), sheet(name="base")], {"top": 1, "base": 2})
