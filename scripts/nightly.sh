@@ -58,7 +58,7 @@ run_part() {
     mpi)
         /usr/bin/python3 tests/mpi/run_mpi.py --all --terrane $terrane --terrane-mpi build/release/cli/terrane-mpi \
             --mpirun "$(command -v mpiexec)" --certified tests/certified ;;
-    kept) /usr/bin/python3 tests/cli/kept_stages.py --terrane $terrane --seconds 3600 ;;
+    kept) scripts/kept_stages.py --terrane $terrane --seconds 3600 ;;
     many) /usr/bin/python3 tests/oracles/many.py --terrane $terrane --seconds 3600 ;;
     threads) scripts/thread_sanitizer.sh ;;
     fuzz)

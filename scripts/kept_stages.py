@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Changes what `terrane build --resume` kept, at random, and judges what the next run makes of it.
 
-    tests/cli/kept_stages.py --terrane build/release/cli/terrane [--count 20 | --seconds 3600] [--seed 1] [--keep FOLDER]
+    scripts/kept_stages.py --terrane build/release/cli/terrane [--count 20 | --seconds 3600] [--seed 1] [--keep FOLDER]
 
 Several projects, with sealing, a resolution, and rounds of refinement, are built once without --resume, and once up to the
 point where both stages are kept. Then files of kept stages get flipped bits and other numbers, are cut, grow, change places with
