@@ -86,10 +86,25 @@ public:
         return least_;
     }
 
+    /// Tells whether all of the triangle is shown to be within the bound.
+    bool is_within(std::span<const Point3, 3> triangle, double bound) {
+        least_ = 0;
+        bound_ = bound;
+        open_.assign(1, Polygon(triangle.begin(), triangle.end()));
+        for (unsigned count = 0; !open_.empty() && least_ <= bound; ++count) {
+            if (count == most_polygons || (count % 256 == 255 && stop_.stop_requested()))
+                return false;
+            const Polygon polygon = std::move(open_.back());
+            open_.pop_back();
+            measure(polygon);
+        }
+        return least_ <= bound;
+    }
+
 private:
-    /// Tells whether a bound adds nothing to what is known.
+    /// Tells whether a bound adds nothing to what is known, or to what is asked.
     [[nodiscard]] bool is_known(double bound) const {
-        return bound <= least_ * (1 + measured_error) + rounding_;
+        return bound <= (bound_ ? *bound_ : least_ * (1 + measured_error)) + rounding_;
     }
 
     /// Drops the polygon if no point of it is much farther than what is known, else divides it.
@@ -209,6 +224,7 @@ private:
     double rounding_;
     std::stop_token stop_;
     double least_ = 0;
+    std::optional<double> bound_; ///< that is to be shown; none: the distance is measured
     std::vector<Polygon> open_;
     std::vector<double> heights_;
 };
@@ -251,10 +267,15 @@ double size_of(const Surface& from, const Surface& to) {
     return size;
 }
 
+/// Returns the error that distances may have for coordinates of this size.
+double rounding_for(double size) {
+    return 256 * std::numeric_limits<double>::epsilon() * size;
+}
+
 /// Measures surfaces whose largest coordinate has this size; squares must neither overflow nor underflow.
 double distance_in_range(const Surface& from, const Surface& to, double size, const Run& run) {
     const TriangleTree tree(to.vertices, to.triangles);
-    const double rounding = 256 * std::numeric_limits<double>::epsilon() * size;
+    const double rounding = rounding_for(size);
     std::vector<double> found = sampled(from, tree, run);
     // The triangles with the largest samples come first, so that others need fewer parts.
     std::vector<std::uint32_t> order(found.size());
@@ -290,6 +311,25 @@ Surface scaled(Surface surface, int exponent) {
 }
 
 } // namespace
+
+bool is_within(const Surface& from, const Surface& to, double bound, const Run& run) {
+    const StandardArithmetic guard;
+    if (to.triangles.empty()) return from.triangles.empty();
+    const double rounding = rounding_for(size_of(from, to));
+    const TriangleTree tree(to.vertices, to.triangles);
+    const auto parts =
+        parts_of_ranges<char>(from.triangles.size(), run, [&](std::size_t first, std::size_t last) {
+            Measurer measurer(tree, to.vertices, rounding, run.stop);
+            for (std::size_t t = first; t < last; ++t) {
+                const auto& [a, b, c] = from.triangles[t];
+                const std::array corners{from.vertices[a], from.vertices[b], from.vertices[c]};
+                if (run.stop.stop_requested() || !measurer.is_within(corners, bound))
+                    return char{0};
+            }
+            return char{1};
+        });
+    return std::find(parts.begin(), parts.end(), char{0}) == parts.end();
+}
 
 double measured_distance(const Surface& from, const Surface& to, const Run& run) {
     const StandardArithmetic guard;
