@@ -3,6 +3,7 @@
 #
 # Repeats what takes too long for each commit: scripts/nightly.sh [FOLDER [PART...]]
 # The parts, all of them unless some are named; with two cores they take some thirteen hours together:
+#   cases      all tests of the library, with four times the random cases of a commit
 #   soups      20 000 random soups and more, judged by the verifier and by rational numbers; 5 000 certified ones
 #   decimals   2 000 soups on decimal lattices: how far surfaces moved, in rational numbers
 #   mpi        all certified cases in 1, 2, 3, 4 and 7 processes
@@ -22,7 +23,7 @@ cd "$(dirname "$0")/.."
 folder=${1:-build/nightly}
 shift || true
 parts=("$@")
-[[ ${#parts[@]} -gt 0 ]] || parts=(soups decimals mpi models stacks signals memory arguments kept many threads fuzz)
+[[ ${#parts[@]} -gt 0 ]] || parts=(cases soups decimals mpi models stacks signals memory arguments kept many threads fuzz)
 mkdir -p "$folder"
 
 cmake --preset release >/dev/null && cmake --build --preset release || exit 2
@@ -31,20 +32,25 @@ tests=build/release/tests
 
 run_part() {
     case $1 in
+    cases) TERRANE_EFFORT=4 "$tests/terrane_tests" ;;
     soups)
-        # 3 290 soups for each unit of effort, of seven shapes; also nudged, shifted and scaled.
-        TERRANE_EFFORT=7 "$tests/terrane_tests" "random soups*" &&
-            TERRANE_EFFORT=10 "$tests/terrane_tests" "rounding: random soups*" &&
-            TERRANE_EFFORT=20 "$tests/terrane_tests" "pair check: the same where*" &&
+        # 800 soups for each unit of effort, of seven shapes; also nudged, shifted and scaled.
+        TERRANE_EFFORT=28 "$tests/terrane_tests" "random soups*" &&
+            TERRANE_EFFORT=40 "$tests/terrane_tests" "rounding: random soups*" &&
+            TERRANE_EFFORT=80 "$tests/terrane_tests" "pair check: the same where*" &&
             /usr/bin/python3 tests/oracles/certified_soups.py --terrane $terrane --count 5000 ;;
     decimals)
         for kind in "" --turned --box; do
             /usr/bin/python3 tests/oracles/rounded_soups.py --terrane $terrane --count 700 $kind || return 1
         done ;;
     models)
-        TERRANE_RANDOM_MODELS=5000 "$tests/terrane_tests" "volumes: 1000 random models*" &&
+        TERRANE_RANDOM_MODELS=5000 "$tests/terrane_tests" "volumes: random models*" &&
             /usr/bin/python3 tests/oracles/improved.py --terrane $terrane &&
-            /usr/bin/python3 tests/oracles/moved_vertices.py --terrane $terrane ;;
+            /usr/bin/python3 tests/oracles/moved_vertices.py --terrane $terrane || return 1
+        # The example that takes a model from beside the repository.
+        local archive=../shared/data/SCECcode+GFM_web/GFM2020-inputs-dev.tar.xz
+        [[ ! -e $archive ]] || TERRANE_GFM2020=$(realpath "$archive") PYTHONPATH=build/release/python \
+            /usr/bin/python3 -m pytest -q python/tests/test_examples.py ;;
     stacks) "$tests/stacks" random 2000 1 ;;
     signals) scripts/interrupts.py --runs 2000 ;;
     memory)

@@ -2,7 +2,7 @@
 //
 // Random models of planes, sheets, solids and dangling pieces, filled and improved: what becomes of
 // them is sound by both checks, which share no code, and never worse than what TetGen made. With
-// TERRANE_EFFORT=5 these are 200 models.
+// TERRANE_EFFORT=20 these are 200 models.
 #include "support/effort.hpp"
 #include "support/exact_numbers.hpp"
 #include "support/filled.hpp"
