@@ -6,6 +6,7 @@
 #include "support/oracle.hpp"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/manifoldness.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
@@ -31,32 +32,36 @@ using terrane::Arrangement;
 using terrane::Edge;
 using terrane::Surface;
 using terrane::Triangle;
+using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Epeck = CGAL::Exact_predicates_exact_constructions_kernel;
 using ExactMesh = CGAL::Surface_mesh<Epeck::Point_3>;
 
 // --- the conditions of CGAL
 
 /// Converts a surface, without unused vertices; none if it is not a manifold.
-std::optional<ExactMesh> to_cgal(const Surface& s) {
-    ExactMesh mesh;
-    std::map<std::uint32_t, ExactMesh::Vertex_index> number;
+template <class Mesh>
+std::optional<Mesh> to_cgal(const Surface& s) {
+    using Point = typename Mesh::Point;
+    Mesh mesh;
+    std::map<std::uint32_t, typename Mesh::Vertex_index> number;
     const auto vertex = [&](std::uint32_t v) {
         const auto [at, added] = number.try_emplace(v);
         const auto& p = s.vertices[v];
-        if (added) at->second = mesh.add_vertex({p.x, p.y, p.z});
+        if (added) at->second = mesh.add_vertex(Point(p.x, p.y, p.z));
         return at->second;
     };
     for (const Triangle& t : s.triangles) {
         const auto a = vertex(t[0]), b = vertex(t[1]), c = vertex(t[2]);
-        if (mesh.add_face(a, b, c) == ExactMesh::null_face()) return std::nullopt;
+        if (mesh.add_face(a, b, c) == Mesh::null_face()) return std::nullopt;
     }
     return mesh;
 }
 
-/// Names the first condition of CGAL that a surface violates; empty if none.
+/// Names the first condition of CGAL that a surface violates; empty if none. The predicates of
+/// Epick make this exact.
 std::string broken_condition(const Surface& s) {
     if (s.triangles.empty()) return "no triangle";
-    const auto mesh = to_cgal(s);
+    const auto mesh = to_cgal<CGAL::Surface_mesh<Epick::Point_3>>(s);
     if (!mesh) return "no manifold";
     for (const auto v : mesh->vertices())
         if (pmp::is_non_manifold_vertex(v, *mesh)) return "no manifold at a vertex";
@@ -69,7 +74,7 @@ std::string broken_condition(const Surface& s) {
 /// Tells whether a surface is the border of a volume for CGAL. Precondition: no condition is
 /// violated.
 bool bounds_volume(const Surface& s) {
-    const auto mesh = to_cgal(s);
+    const auto mesh = to_cgal<CGAL::Surface_mesh<Epick::Point_3>>(s);
     return CGAL::is_closed(*mesh) && pmp::does_bound_a_volume(*mesh) &&
            pmp::is_outward_oriented(*mesh);
 }
@@ -258,7 +263,7 @@ class Corefinement {
 public:
     explicit Corefinement(std::span<const Surface> pair) {
         for (unsigned k = 0; k < 2; ++k) {
-            mesh_[k] = *to_cgal(pair[k]);
+            mesh_[k] = *to_cgal<ExactMesh>(pair[k]);
             is_[k] = mesh_[k].add_property_map<ExactMesh::Edge_index, bool>("e:is", false).first;
             auto parent =
                 mesh_[k].add_property_map<ExactMesh::Face_index, std::uint32_t>("f:of").first;
