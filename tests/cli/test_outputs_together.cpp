@@ -191,19 +191,7 @@ TEST_CASE("cli: edges of a filling that ask for too many points are refused befo
 
 namespace {
 
-const auto horizons = R"(o base
-v -1 -1 3
-v 9 -1 3
-v 9 9 3
-v -1 9 3
-f 1 2 3 4
-o top
-v -1 -1 5
-v 9 -1 5
-v 9 9 5
-v -1 9 5
-f 5 6 7 8
-)";
+const auto horizons = level("base", "3") + level("top", "5");
 const auto fault = "o F\nv 4 -1 -1\nv 4 4 -1\nv 4 4 9\nv 4 -1 9\nf 1 2 3 4\n";
 const auto polygon = "0 0\n8 0\n8 8\n0 8\n";
 
