@@ -88,23 +88,47 @@ public:
 
     /// Tells whether all of the triangle is shown to be within the bound.
     bool is_within(std::span<const Point3, 3> triangle, double bound) {
-        least_ = 0;
-        bound_ = bound;
         open_.assign(1, Polygon(triangle.begin(), triangle.end()));
-        for (unsigned count = 0; !open_.empty() && least_ <= bound; ++count) {
+        for (unsigned count = 0; !open_.empty(); ++count) {
             if (count == most_polygons || (count % 256 == 255 && stop_.stop_requested()))
                 return false;
             const Polygon polygon = std::move(open_.back());
             open_.pop_back();
-            measure(polygon);
+            if (!show(polygon, bound)) return false;
         }
-        return least_ <= bound;
+        return true;
     }
 
 private:
-    /// Tells whether a bound adds nothing to what is known, or to what is asked.
+    /// Drops the polygon if it is within the bound, else divides it. Returns false if a point of it is not.
+    bool show(const Polygon& polygon, double bound) {
+        const Point3 middle = centre_of(polygon);
+        const auto near = tree_.within(middle, bound + rounding_);
+        if (near.empty()) return false;
+        double radius = 0, least = anywhere;
+        for (const Point3& p : polygon) radius = std::max(radius, length(minus(p, middle)));
+        std::vector<std::pair<double, Facet>> facets; // by area
+        for (const auto& one : near) {
+            if (one.distance + radius <= bound) return true; // the distance is 1-Lipschitz
+            const auto& [a, b, c] =
+                facets.emplace_back(0.0, Facet(points_, one.triangle)).second.corners;
+            facets.back().first = -length(cross(minus(b, a), minus(c, a)));
+            double most = 0;
+            for (const Point3& p : polygon) most = std::max(most, facets.back().second.distance(p));
+            least = std::min(least, most);
+        }
+        if (least <= bound + rounding_) return true; // the distance from one triangle is convex
+        // The largest triangles leave the fewest parts.
+        std::ranges::sort(facets, {}, [](const auto& one) { return one.first; });
+        for (const auto& [area, facet] : facets)
+            if (cut_by_walls(polygon, facet)) return true;
+        halve(polygon);
+        return true;
+    }
+
+    /// Tells whether a bound adds nothing to what is known.
     [[nodiscard]] bool is_known(double bound) const {
-        return bound <= (bound_ ? *bound_ : least_ * (1 + measured_error)) + rounding_;
+        return bound <= least_ * (1 + measured_error) + rounding_;
     }
 
     /// Drops the polygon if no point of it is much farther than what is known, else divides it.
@@ -224,7 +248,6 @@ private:
     double rounding_;
     std::stop_token stop_;
     double least_ = 0;
-    std::optional<double> bound_; ///< that is to be shown; none: the distance is measured
     std::vector<Polygon> open_;
     std::vector<double> heights_;
 };

@@ -24,6 +24,18 @@ double spacing_at(const Point3& p) {
     return std::ldexp(1.0, std::ilogb(largest) - 52);
 }
 
+/// Returns the distance of the farthest of the other surfaces that are within the bound; 0 if none is.
+double farthest_of_near(const SurfaceTree& tree, std::uint32_t surface, const Point3& p,
+                        double bound) {
+    std::vector<std::uint32_t> seen{surface};
+    double farthest = 0;
+    while (const auto near = tree.nearest(p, seen, bound)) {
+        farthest = std::max(farthest, near->distance);
+        seen.insert(std::ranges::upper_bound(seen, near->surface), near->surface);
+    }
+    return farthest;
+}
+
 /// The fences of one surface.
 class Fences {
 public:
@@ -63,12 +75,7 @@ private:
     double reach(const Point3& p) {
         const auto [at, is_new] = reach_.emplace(p, 0.0);
         if (!is_new) return at->second;
-        std::vector<std::uint32_t> seen{number_};
-        double farthest = 0;
-        while (const auto near = tree_.nearest(p, seen, tolerance_)) {
-            farthest = std::max(farthest, near->distance);
-            seen.insert(std::ranges::upper_bound(seen, near->surface), near->surface);
-        }
+        const double farthest = farthest_of_near(tree_, number_, p, tolerance_);
         if (farthest > 0)
             at->second = std::min(tolerance_, tuning.fence_reach * farthest +
                                                   tuning.fence_spacings * spacing_at(p));
@@ -100,23 +107,42 @@ private:
     std::map<Point3, double> reach_;
 };
 
-} // namespace
-
-Surface fences_of(const std::vector<Surface>& surfaces, double tolerance) {
+/// The triangles of all surfaces.
+struct Together {
+    explicit Together(const std::vector<Surface>& surfaces) {
+        for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
+            const auto first = static_cast<std::uint32_t>(points.size());
+            points.insert(points.end(), surfaces[s].vertices.begin(), surfaces[s].vertices.end());
+            for (const Triangle& t : surfaces[s].triangles) {
+                triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+                surface_of.push_back(std::span(&s, 1));
+            }
+        }
+    }
     std::vector<Point3> points;
     std::vector<Triangle> triangles;
     IndexLists<std::uint32_t> surface_of;
-    for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
-        const auto first = static_cast<std::uint32_t>(points.size());
-        points.insert(points.end(), surfaces[s].vertices.begin(), surfaces[s].vertices.end());
-        for (const Triangle& t : surfaces[s].triangles) {
-            triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-            surface_of.push_back(std::span(&s, 1));
-        }
-    }
+};
+
+} // namespace
+
+void snap_near_vertices(std::vector<Surface>& surfaces, double bound) {
+    const Together all(surfaces);
+    if (all.triangles.empty()) return;
+    const SurfaceTree tree({all.points, all.triangles, all.surface_of});
+    const double step = std::ldexp(1.0, std::ilogb(bound / tuning.grid_steps));
+    const auto snapped = [&](double x) { return std::nearbyint(x / step) * step; };
+    for (std::uint32_t s = 0; s < surfaces.size(); ++s)
+        for (Point3& p : surfaces[s].vertices)
+            if (farthest_of_near(tree, s, p, bound) > 0)
+                p = {snapped(p.x), snapped(p.y), snapped(p.z)};
+}
+
+Surface fences_of(const std::vector<Surface>& surfaces, double tolerance) {
+    const Together all(surfaces);
     Surface out;
-    if (triangles.empty()) return out;
-    const SurfaceTree tree({points, triangles, surface_of});
+    if (all.triangles.empty()) return out;
+    const SurfaceTree tree({all.points, all.triangles, all.surface_of});
     for (std::uint32_t s = 0; s < surfaces.size(); ++s)
         Fences(surfaces[s], s, tree, tolerance).append_to(out);
     return out;

@@ -44,8 +44,10 @@ using SurfaceSet = std::vector<std::uint32_t>; ///< ascending
 
 class CellJoining {
 public:
-    CellJoining(const Arrangement& a, const Volumes& volumes, double bound, const Run& run) :
-        a_(a), volumes_(volumes), bound_(bound), run_(run), area_(a.triangles.size()),
+    CellJoining(const Arrangement& a, const Volumes& volumes, const std::vector<bool>& closed,
+                double bound, const Run& run) :
+        a_(a),
+        volumes_(volumes), bound_(bound), run_(run), area_(a.triangles.size()),
         moved_(a.triangles.size(), 0.0) {
         result_.owners.resize(a.triangles.size());
         for (std::uint32_t v = 0; v < a.vertices.size(); ++v)
@@ -55,7 +57,7 @@ public:
             const auto& [p, q, r] = a.triangles[t];
             corners.insert(corners.end(), {p, q, r});
             area_[t] = area_between(places_[p], places_[q], places_[r]);
-            set_owners(t);
+            set_owners(t, closed);
         }
         at_vertex_ = lists_by_key<std::uint32_t>(a.vertices.size(), corners, [](std::size_t i) {
             return static_cast<std::uint32_t>(i / 3);
@@ -76,17 +78,15 @@ public:
 private:
     // ---- Cells
 
-    void set_owners(std::uint32_t t) {
+    void set_owners(std::uint32_t t, const std::vector<bool>& closed) {
         const auto fences = static_cast<std::uint32_t>(a_.surfaces.size() - 1);
-        std::map<std::uint32_t, bool> owners;
-        for (const std::uint32_t p : a_.parents_of[t]) {
-            const std::uint32_t s = a_.inputs.surface_of(InputTriangleId(p));
-            if (s != fences)
-                owners.emplace(s,
-                               dot(normal_of_input(a_.parents_of[t][0]), normal_of_input(p)) < 0);
-        }
-        for (const auto& [surface, is_reversed] : owners)
-            result_.owners[t].push_back({surface, is_reversed});
+        std::map<std::uint32_t, std::vector<std::uint32_t>> parents; // by surface
+        for (const std::uint32_t p : a_.parents_of[t])
+            parents[a_.inputs.surface_of(InputTriangleId(p))].push_back(p);
+        const Point3 front = normal_of_input(a_.parents_of[t][0]);
+        for (const auto& [surface, of] : parents)
+            if (surface != fences && !(closed[surface] && of.size() % 2 == 0))
+                result_.owners[t].push_back({surface, dot(front, normal_of_input(of[0])) < 0});
     }
     [[nodiscard]] Point3 normal_of_input(std::uint32_t triangle) const {
         const auto points = a_.input_vertices();
@@ -170,16 +170,6 @@ private:
         }
         return s;
     }
-    /// Returns a distance within which both parts are shown to be of their targets, or infinity: the bound or a fraction of it.
-    [[nodiscard]] double shown_distance(const std::array<std::array<Surface, 2>, 2>& pairs,
-                                        double most) const {
-        for (const double share : {1.0 / 256, 1.0 / 16, 1.0 / 4, 1.0})
-            if (std::ranges::all_of(pairs, [&](const auto& pair) {
-                    return is_within(pair[0], pair[1], share * most, run_);
-                }))
-                return share * most;
-        return std::numeric_limits<double>::infinity();
-    }
     /// Returns a box with all that is within the bound of a cell.
     [[nodiscard]] Box box_around(const Cell& cell) const {
         Box all = box_of(places_, a_.triangles[cell.faces[0].triangle]);
@@ -206,15 +196,14 @@ private:
                 for (const std::uint32_t t : at_vertex_[v])
                     if (!own.contains(t) && has(t, surface)) others.insert(t);
         }
-        const auto shown = [&] {
+        const auto sampled = [&] {
             auto near_from = from, near_to = to;
             near_from.insert(near_from.end(), others.begin(), others.end());
             near_to.insert(near_to.end(), others.begin(), others.end());
-            return before +
-                   shown_distance({{{part(from), part(near_to)}, {part(to), part(near_from)}}},
-                                  bound_ - before);
+            return before + std::max(sampled_distance(part(from), part(near_to), run_),
+                                     sampled_distance(part(to), part(near_from), run_));
         };
-        const double move = shown();
+        const double move = sampled();
         if (move <= bound_) return move;
         // Parts of the surface that are near, but not next to the cell.
         const Box around = box_around(cell);
@@ -222,7 +211,7 @@ private:
             if (has(t, surface) && !own.contains(t) &&
                 box_of(places_, a_.triangles[t]).overlaps(around))
                 others.insert(t);
-        return shown();
+        return sampled();
     }
     /// Adds the boundary of a cell to surfaces, unless one of them would move too far.
     bool remove(const SurfaceSet& surfaces, const Cell& cell) {
@@ -282,10 +271,11 @@ private:
 
 } // namespace
 
-Result<Ownership> join_thin_cells(const Arrangement& arrangement, double bound, const Run& run) {
+Result<Ownership> join_thin_cells(const Arrangement& arrangement, const std::vector<bool>& closed,
+                                  double bound, const Run& run) {
     const auto volumes = find_volumes(arrangement, run);
     if (!volumes) return volumes.error();
-    return CellJoining(arrangement, *volumes, bound, run)();
+    return CellJoining(arrangement, *volumes, closed, bound, run)();
 }
 
 } // namespace terrane::tolerance::detail

@@ -19,6 +19,10 @@ struct Tuning {
     /// Interfaces whose areas differ by less than this share of their cell's are alike: that of the
     /// last surface vanishes, so that of two units the first keeps its triangles.
     double alike = 0.1;
+    /// The grid of near vertices has at least so many spacings per tolerance.
+    double grid_steps = 64;
+    /// Triangles narrower than so many spacings are not told apart by the place of their centres.
+    double located_spacings = 4096;
     /// The share of the tolerance by which vertices of curves may move.
     double curve_share = 0.5;
 };
