@@ -151,7 +151,7 @@ private:
         areas.erase(SurfaceSet{});
         std::vector<std::pair<double, SurfaceSet>> order;
         for (const auto& [surfaces, area] : areas)
-            if (area > of_none) order.emplace_back(area, surfaces);
+            if (area > of_none + tuning.least_gain * cell.area) order.emplace_back(area, surfaces);
         std::ranges::sort(order, std::greater{});
         const auto alike = std::ranges::find_if(order, [&](const auto& one) {
             return one.first < order[0].first - tuning.alike * cell.area;
