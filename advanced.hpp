@@ -26,6 +26,7 @@
 #include <terrane/algorithms/structure/block_names.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
 #include <terrane/algorithms/tetrahedra/split_nodes.hpp>
+#include <terrane/algorithms/tolerance/tolerance.hpp>
 #include <terrane/algorithms/verify/certificate.hpp>
 #include <terrane/algorithms/verify/verdict.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>

@@ -3,8 +3,10 @@
 #
 # Repeats what takes too long for each commit: scripts/nightly.sh [FOLDER [PART...]]
 # The parts, all of them unless some are named; with two cores they take some thirteen hours together:
+#   cases      all tests of the library, with four times the random cases of a commit
 #   soups      20 000 random soups and more, judged by the verifier and by rational numbers; 5 000 certified ones
 #   decimals   2 000 soups on decimal lattices: how far surfaces moved, in rational numbers
+#   mpi        all certified cases in 1, 2, 3, 4 and 7 processes
 #   models     5 000 random block models against an oracle; 300 improved ones; 100 with tetrahedra
 #   stacks     2 000 random stacks of layers, judged in rational numbers
 #   signals    2 000 interrupts at random times
@@ -21,7 +23,7 @@ cd "$(dirname "$0")/.."
 folder=${1:-build/nightly}
 shift || true
 parts=("$@")
-[[ ${#parts[@]} -gt 0 ]] || parts=(soups decimals models stacks signals memory arguments kept many threads fuzz)
+[[ ${#parts[@]} -gt 0 ]] || parts=(cases soups decimals mpi models stacks signals memory arguments kept many threads fuzz)
 mkdir -p "$folder"
 
 cmake --preset release >/dev/null && cmake --build --preset release || exit 2
@@ -30,20 +32,25 @@ tests=build/release/tests
 
 run_part() {
     case $1 in
+    cases) TERRANE_EFFORT=4 "$tests/terrane_tests" ;;
     soups)
-        # 3 290 soups for each unit of effort, of seven shapes; also nudged, shifted and scaled.
-        TERRANE_EFFORT=7 "$tests/terrane_tests" "random soups*" &&
-            TERRANE_EFFORT=10 "$tests/terrane_tests" "rounding: random soups*" &&
-            TERRANE_EFFORT=20 "$tests/terrane_tests" "pair check: the same where*" &&
+        # 800 soups for each unit of effort, of seven shapes; also nudged, shifted and scaled.
+        TERRANE_EFFORT=28 "$tests/terrane_tests" "random soups*" &&
+            TERRANE_EFFORT=40 "$tests/terrane_tests" "rounding: random soups*" &&
+            TERRANE_EFFORT=80 "$tests/terrane_tests" "pair check: the same where*" &&
             /usr/bin/python3 tests/oracles/certified_soups.py --terrane $terrane --count 5000 ;;
     decimals)
         for kind in "" --turned --box; do
             /usr/bin/python3 tests/oracles/rounded_soups.py --terrane $terrane --count 700 $kind || return 1
         done ;;
     models)
-        TERRANE_RANDOM_MODELS=5000 "$tests/terrane_tests" "volumes: 1000 random models*" &&
+        TERRANE_RANDOM_MODELS=5000 "$tests/terrane_tests" "volumes: random models*" &&
             /usr/bin/python3 tests/oracles/improved.py --terrane $terrane &&
-            /usr/bin/python3 tests/oracles/moved_vertices.py --terrane $terrane ;;
+            /usr/bin/python3 tests/oracles/moved_vertices.py --terrane $terrane || return 1
+        # The example that takes a model from beside the repository.
+        local archive=../shared/data/SCECcode+GFM_web/GFM2020-inputs-dev.tar.xz
+        [[ ! -e $archive ]] || TERRANE_GFM2020=$(realpath "$archive") PYTHONPATH=build/release/python \
+            /usr/bin/python3 -m pytest -q python/tests/test_examples.py ;;
     stacks) "$tests/stacks" random 2000 1 ;;
     signals) scripts/interrupts.py --runs 2000 ;;
     memory)
@@ -54,10 +61,15 @@ run_part() {
         /usr/bin/python3 $folder/program_arguments.py --program $terrane --data docs/data --seconds 1200 &&
             /usr/bin/python3 $folder/c_arguments.py --library build/release/capi/libterrane_c.so --seconds 1200 &&
             PYTHONPATH=$PWD/build/release/python /usr/bin/python3 $folder/python_arguments.py --seconds 1200 ;;
-    kept) /usr/bin/python3 tests/cli/kept_stages.py --terrane $terrane --seconds 3600 ;;
+    mpi)
+        /usr/bin/python3 tests/mpi/run_mpi.py --all --terrane $terrane --terrane-mpi build/release/cli/terrane-mpi \
+            --mpirun "$(command -v mpiexec)" --certified tests/certified ;;
+    kept) scripts/kept_stages.py --terrane $terrane --seconds 3600 ;;
     many) /usr/bin/python3 tests/oracles/many.py --terrane $terrane --seconds 3600 ;;
     threads) scripts/thread_sanitizer.sh ;;
-    fuzz) FUZZ_CORPUS=$PWD/$folder/corpus scripts/fuzz.sh "${FUZZ_SECONDS:-540}" ;;
+    fuzz)
+        fuzz/check_plants.py build/release/compile_commands.json &&
+            FUZZ_CORPUS=$PWD/$folder/corpus scripts/fuzz.sh "${FUZZ_SECONDS:-540}" ;;
     *) echo "nightly: there is no part $1" && return 2 ;;
     esac
 }

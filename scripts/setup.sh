@@ -10,7 +10,7 @@ packages=(
     cmake ninja-build ccache pkgconf
     libcgal-dev libgmp-dev libmpfr-dev nettle-dev libeigen3-dev libnanoflann-dev libtbb-dev
     libcli11-dev libfmt-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev libshp-dev
-    libtet1.5-dev libgmsh-dev catch2 libbenchmark-dev
+    libtet1.5-dev libgmsh-dev catch2
     libopenmpi-dev openmpi-bin                            # terrane-mpi
     python3-dev pybind11-dev python3-numpy                # the Python package
     python3-pytest python3-hypothesis mypy python3-pip python3-setuptools python3-wheel # its tests

@@ -265,6 +265,12 @@ def test_layers_refuse(order):
         terrane.layers(stack(), order)
 
 
+@pytest.mark.parametrize("order", [["top"], [("top",)], [("top", 1, 2)], "top", {"top"}])
+def test_what_is_no_order_of_layers_is_refused(order):
+    with pytest.raises(TypeError, match="order"):
+        terrane.layers(stack(), order)
+
+
 def test_overturned_layers_are_refused():
     with pytest.raises(terrane.Error) as raised:
         terrane.layers([wall(name="top"), sheet(name="base")], {"top": 1, "base": 2})
@@ -277,9 +283,9 @@ def test_overturned_layers_are_refused():
 @compares_bytes
 @pytest.mark.tetgen
 @pytest.mark.parametrize("options, arguments", [
-    ({}, []), ({"edge_length": 1.5}, ["--edge-length", "1.5"]), ({"split": ["F1"]}, ["--split", "F1"]),
-    ({"size_in": {"above top, east of F1": 1.0}}, ["--size-in", "above top, east of F1=1"]),
-    ({"size_of": {"F1": 1.0}}, ["--size-of", "F1=1"]), ({"quality": 2.0}, ["--quality", "2"]),
+    ({}, []), ({"edge_length": 2.5}, ["--edge-length", "2.5"]), ({"split": ["F1"]}, ["--split", "F1"]),
+    ({"size_in": {"above top, east of F1": 2.0}}, ["--size-in", "above top, east of F1=2"]),
+    ({"size_of": {"F1": 2.0}}, ["--size-of", "F1=2"]), ({"quality": 2.0}, ["--quality", "2"]),
     ({"mesher": "gmsh"}, ["--mesher", "gmsh"]), ({"optimise": False}, ["--no-optimise"])])
 def test_tetrahedra_are_those_of_the_program(options, arguments):
     files = [s.name + ".ts" for s in stack()]
@@ -530,28 +536,6 @@ def test_edge_lengths_improve_the_model_first(model):
     cells = model.tetrahedra(edge_length=0.8)
     assert cells == better.tetrahedra(edge_length=0.8)
     assert cells.shape()["dihedral"][0] > model.tetrahedra().shape()["dihedral"][0]
-
-
-def needles(k):
-    """Return a model with thin triangles beside its cuts, which are not improved."""
-    x, y = (a.ravel() for a in np.meshgrid([99.0, 102.0, 105.0], [99.0, 102.0, 105.0], indexing="ij"))
-    triangles = [t for a in (0, 1, 3, 4) for t in ((a, a + 3, a + 4), (a, a + 4, a + 1))]
-    top, base = (terrane.Surface(np.c_[x, y, z + 0.4 * np.sin(phase + k * np.arange(9))], triangles, name, "horizon")
-                 for name, z, phase in (("top", 1, 0), ("base", -1, 2)))
-    fault = terrane.Surface([[101.2, 98, -4], [101.4, 106, -4], [102.6, 106, 5], [102.3, 98, 5]], [[0, 1, 2], [0, 2, 3]],
-                            "F1", "fault")
-    return terrane.model([top, base, fault], box=((100, 100, -3), (104, 104, 3)))
-
-
-NEEDLES = [(2, 2.0), (5, 2.0), (10, 2.0), (12, 2.0), (16, 2.0), (16, 0.8), (19, 1.2)]
-
-
-@pytest.mark.tetgen
-@pytest.mark.parametrize("k, length", NEEDLES[:1] if SANITIZED else NEEDLES)  # all run the same functions
-def test_nodes_that_tetgen_puts_beside_a_triangle_go_back(k, length):
-    """TetGen's nodes in thin triangles are hundreds of spacings beside them: once an `internal` error."""
-    cells = terrane.tetrahedralize(needles(k), edge_length=length, time_limit=60)
-    assert cells.violations == [] and cells.mesher == "TetGen"
 
 
 def test_improved_models_are_pickled(model):

@@ -8,7 +8,7 @@ The functions, their arguments, structs and members are those of the headers. (1
 argument it must be said here what a good one is. (2) A value that makes no sense is an error, or it changes the result:
 none is ignored; getters return nothing for it. No call crashes.
 
---share tries such a share of the values, drawn by --seed. --seconds goes on with random combinations for so long.
+--share tries such a share of the values, drawn by --seed, and always null and what is no handle. --seconds goes on with random combinations for so long.
 """
 
 import ctypes
@@ -306,7 +306,8 @@ def work_list(options):
             continue
         work.append((name, "", ""))
         for kind, own in FUNCTIONS[name][1]:
-            work += [(name, own, label) for label, _ in nonsense_of(kind, own) if draw.random() < options.share]
+            work += [(name, own, label) for label, _ in nonsense_of(kind, own)
+                     if draw.random() < options.share or label in ("null", "no handle")]
     return work
 
 

@@ -9,7 +9,7 @@
     with an internal error or with one of Python's own that no caller can read.
 (3) A value that makes sense changes the result; where it needs another argument, it is an error without that one.
 
---share tries such a share of the values, drawn by --seed. --seconds goes on with random combinations for so long.
+--share tries such a share of the values, drawn by --seed, and always an object of no known type. --seconds goes on with random combinations for so long.
 """
 
 import hashlib
@@ -212,7 +212,8 @@ def flaw_of(error):
     text = f"{type(error).__name__}: {str(error)[:200]}"
     if not isinstance(error, REFUSALS) or getattr(error, "code", "") == "internal":
         return text
-    if isinstance(error, TypeError) and ("incompatible" in str(error) or "Unable to convert" in str(error)):
+    if any(words in str(error) for words in ("incompatible function arguments", "Unable to convert", "Unable to cast",
+                                             "another type than it must have")):  # pybind11's, not ours
         return text
     return None if str(error) else f"{text}: it says nothing"
 
@@ -234,7 +235,7 @@ def work_list(seed, share, only):
         call = target if "." not in place or not method else getattr(target, method)
         names, others = parameters(call)
         names = [*dict.fromkeys([*names, *case[1]])]
-        found += [(place, n, label) for n in names for label in NONSENSE if draw.random() < share]
+        found += [(place, n, label) for n in names for label in NONSENSE if draw.random() < share or label == "object"]
         found += [(place, n, "sense") for n in names if case[1].get(n) is not None]
         found.append((place, "nonsense", "none such"))
     return found

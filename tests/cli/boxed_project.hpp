@@ -13,33 +13,11 @@
 namespace program_test {
 
 /// Two horizons that reach beyond the box.
-inline constexpr auto base_and_top = R"(o base
-v -1 -1 3
-v 9 -1 3
-v 9 9 3
-v -1 9 3
-f 1 2 3 4
-o top
-v -1 -1 5
-v 9 -1 5
-v 9 9 5
-v -1 9 5
-f 5 6 7 8
-)";
+inline const std::string base_and_top = level("base", "3") + level("top", "5");
 
 /// Three horizons that reach beyond the box, and a fault that ends inside it.
-inline const std::string layers = std::string(base_and_top) + R"(o spare
-v -1 -1 6
-v 9 -1 6
-v 9 9 6
-f 9 10 11
-)";
-inline constexpr auto fault = R"(v 4 -1 -1
-v 4 4 -1
-v 4 4 9
-v 4 -1 9
-f 1 2 3 4
-)";
+inline const std::string layers = base_and_top + polygon("spare", "-1 -1 6, 9 -1 6, 9 9 6");
+inline const std::string fault = polygon("", "4 -1 -1, 4 4 -1, 4 4 9, 4 -1 9");
 
 /// Returns a project of the files in in/, with a box as volume of interest.
 inline Json boxed_project() {

@@ -88,6 +88,40 @@ inline bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
+/// Returns an object of OBJ, a polygon with these corners: "x y z, x y z, ...".
+inline std::string polygon(const std::string& name, const std::string& corners) {
+    std::string text = name.empty() ? "" : "o " + name + "\n", face = "f";
+    std::size_t count = 1;
+    for (std::size_t at = 0, end = 0; end != std::string::npos; at = end + 2, ++count) {
+        end = corners.find(',', at);
+        text += "v " + corners.substr(at, end - at) + "\n";
+    }
+    while (--count > 0) face += " -" + std::to_string(count);
+    return text + face + "\n";
+}
+
+/// A level square at this height, which reaches beyond the box from 0 to 8.
+inline std::string level(const std::string& name, const std::string& z) {
+    return polygon(name, "-1 -1 " + z + ", 9 -1 " + z + ", 9 9 " + z + ", -1 9 " + z);
+}
+
+/// The box from 0 to 8.
+inline constexpr auto cube = R"(v 0 0 0
+v 8 0 0
+v 8 8 0
+v 0 8 0
+v 0 0 8
+v 8 0 8
+v 8 8 8
+v 0 8 8
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+)";
+
 /// A horizon of two triangles, and a fault of one that crosses it.
 inline constexpr auto crossing = R"(o horizon
 v 0 0 0

@@ -15,13 +15,7 @@ using namespace program_test;
 
 namespace {
 
-const std::string two_layers = std::string(base_and_top) + R"(o F1
-v 3 -1 -1
-v 3 9 -1
-v 3 9 9
-v 3 -1 9
-f 9 10 11 12
-)";
+const std::string two_layers = base_and_top + polygon("F1", "3 -1 -1, 3 9 -1, 3 9 9, 3 -1 9");
 
 constexpr auto column_text = R"({"column": [
     {"unit": "Cover \"A\"", "surface": "top", "age": 10},

@@ -16,25 +16,10 @@ namespace {
 
 /// Three planes that almost meet in one line: the prism between them is far thinner than the
 /// spacing of doubles there, and rounding makes the planes meet in the line x = y = 4.
-constexpr auto planes = R"(o first
-v -1 -1 -1
-v 9 9 -1
-v 9 9 9
-v -1 -1 9
-f 1 2 3 4
-o second
-v -1 9 -1
-v 9 -1 -1
-v 9 -1 9
-v -1 9 9
-f 5 6 7 8
-o third
-v 4.0000000000000009 -60 -1
-v 3.9999999999999991 72 -1
-v 3.9999999999999991 72 9
-v 4.0000000000000009 -60 9
-f 9 10 11 12
-)";
+const std::string planes = polygon("first", "-1 -1 -1, 9 9 -1, 9 9 9, -1 -1 9") +
+                           polygon("second", "-1 9 -1, 9 -1 -1, 9 -1 9, -1 9 9") +
+                           polygon("third", "4.0000000000000009 -60 -1, 3.9999999999999991 72 -1, "
+                                            "3.9999999999999991 72 9, 4.0000000000000009 -60 9");
 
 constexpr std::size_t lost = 5; ///< the number of the prism: there are blocks after it
 

@@ -232,7 +232,9 @@ TEST_CASE("cli: build: what is wrong is named by its key, and nothing is written
     json["outputs"]["certificate"] = true;
     refused(json, "in/p.json: surfaces[0].objects: a certificate is about whole files");
     json["improve"]["edge_length"] = 0.5;
-    refused(json, "outputs.certificate: must be false with unit, fill, layers, improve or depth");
+    refused(
+        json,
+        "outputs.certificate: must be false with unit, fill, layers, tolerance, improve or depth");
     refused(boxed_project(), "not empty", 2, "-o in");
     CHECK(c.folder.run("build in/nothing.json -o out").status == 2);
 }

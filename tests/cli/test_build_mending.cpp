@@ -44,19 +44,8 @@ Json grid_project(const std::string& method) {
 
 /// Shale rises through flat salt, so that the order is wrong in one half. A bore wall is in no
 /// layer.
-constexpr auto crossing_horizons = R"(o shale
-v 0 0 -4
-v 8 0 4
-v 8 8 4
-v 0 8 -4
-f 1 2 3 4
-o salt
-v 0 0 0
-v 8 0 0
-v 8 8 0
-v 0 8 0
-f 5 6 7 8
-)";
+const std::string crossing_horizons = polygon("shale", "0 0 -4, 8 0 4, 8 8 4, 0 8 -4") +
+                                      polygon("salt", "0 0 0, 8 0 0, 8 8 0, 0 8 0");
 
 Json layer_project(const char* upper, const char* lower) {
     auto json = Json::parse(R"({

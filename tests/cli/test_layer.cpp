@@ -14,21 +14,9 @@ using namespace program_test;
 namespace {
 
 /// Shale rises from -4 to 4, with a crease at x = 4.
-constexpr auto tilted = R"(o shale
-v 0 0 -4
-v 8 0 4
-v 8 8 4
-v 0 8 -4
-f 1 2 3 4
-)";
+const std::string tilted = polygon("shale", "0 0 -4, 8 0 4, 8 8 4, 0 8 -4");
 
-constexpr auto flat = R"(o salt
-v 0 0 0
-v 8 0 0
-v 8 8 0
-v 0 8 0
-f 1 2 3 4
-)";
+const std::string flat = polygon("salt", "0 0 0, 8 0 0, 8 8 0, 0 8 0");
 
 std::size_t count(const std::string& text, const std::string& what) {
     std::size_t found = 0;
@@ -66,13 +54,7 @@ TEST_CASE("cli: layer replaces the soft horizon beyond the hard one", "[cli][lay
 
 TEST_CASE("cli: layer of a stack in one file, with a thickness", "[cli][layer]") {
     const Folder folder;
-    const auto both = folder.input("both.obj", std::string(tilted) + R"(o salt
-v 0 0 0
-v 8 0 0
-v 8 8 0
-v 0 8 0
-f 5 6 7 8
-)");
+    const auto both = folder.input("both.obj", tilted + flat);
     const auto run = folder.run("layer " + both +
                                 " --layer shale=1 --layer salt=2.5 "
                                 "--min-thickness 0.5 -o out.ts");

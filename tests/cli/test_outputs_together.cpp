@@ -191,21 +191,9 @@ TEST_CASE("cli: edges of a filling that ask for too many points are refused befo
 
 namespace {
 
-const auto horizons = R"(o base
-v -1 -1 3
-v 9 -1 3
-v 9 9 3
-v -1 9 3
-f 1 2 3 4
-o top
-v -1 -1 5
-v 9 -1 5
-v 9 9 5
-v -1 9 5
-f 5 6 7 8
-)";
+const auto horizons = level("base", "3") + level("top", "5");
 const auto fault = "o F\nv 4 -1 -1\nv 4 4 -1\nv 4 4 9\nv 4 -1 9\nf 1 2 3 4\n";
-const auto polygon = "0 0\n8 0\n8 8\n0 8\n";
+const auto outline_text = "0 0\n8 0\n8 8\n0 8\n";
 
 /// A folder with horizons, a fault, files of a volume of interest and projects, all of which must
 /// stay as they are.
@@ -233,7 +221,7 @@ public:
     const std::vector<std::pair<std::string, std::string>> files{
         {"in.obj", horizons},
         {"fault.obj", fault},
-        {"poly.txt", polygon},
+        {"poly.txt", outline_text},
         {"box.obj", "v 0 0 0\nv 8 0 0\nv 0 8 0\nv 0 0 8\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"},
         {"map.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 9\n1 1\n1 1\n"},
         {"column.json", R"({"column": [{"unit": "a", "surface": "top"}, {"unit": "b"}]})"},

@@ -16,19 +16,8 @@ using namespace program_test;
 namespace {
 
 /// A horizon that ends 0.1 short of a fault at x = 4, in the box from 0 to 8.
-constexpr auto gapped_model = R"(o horizon
-v -1 -1 3
-v 3.9 -1 3
-v 3.9 9 3
-v -1 9 3
-f 1 2 3 4
-o fault
-v 4 -1 -1
-v 4 9 -1
-v 4 9 9
-v 4 -1 9
-f 5 6 7 8
-)";
+const std::string gapped_model = polygon("horizon", "-1 -1 3, 3.9 -1 3, 3.9 9 3, -1 9 3") +
+                                 polygon("fault", "4 -1 -1, 4 9 -1, 4 9 9, 4 -1 9");
 
 const std::string around_gap = " --box 0,0,0,8,8,8 ";
 
@@ -270,19 +259,7 @@ TEST_CASE("cli: --seal auto takes the last break, says so, and its certificate h
 
 TEST_CASE("cli: --min-volume merges small blocks and lists them", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", R"(o top
-v -1 -1 4.001
-v 9 -1 4.001
-v 9 9 4.001
-v -1 9 4.001
-f 1 2 3 4
-o base
-v -1 -1 4
-v 9 -1 4
-v 9 9 4
-v -1 9 4
-f 5 6 7 8
-)");
+    const auto in = folder.input("model.obj", level("top", "4.001") + level("base", "4"));
     const auto r =
         folder.run("volume " + in + around_gap + " -o model --min-volume 1 --stats s.json");
     REQUIRE(r.status == 0);

@@ -15,40 +15,8 @@ using namespace program_test;
 namespace {
 
 /// A box, two horizons that reach beyond it, and a fault that ends inside it.
-constexpr auto boxed_model = R"(o box
-v 0 0 0
-v 8 0 0
-v 8 8 0
-v 0 8 0
-v 0 0 8
-v 8 0 8
-v 8 8 8
-v 0 8 8
-f 1 4 3 2
-f 5 6 7 8
-f 1 2 6 5
-f 2 3 7 6
-f 3 4 8 7
-f 4 1 5 8
-o base
-v -1 -1 3
-v 9 -1 3
-v 9 9 3
-v -1 9 3
-f 9 10 11 12
-o top
-v -1 -1 5
-v 9 -1 5
-v 9 9 5
-v -1 9 5
-f 13 14 15 16
-o F1
-v 4 -1 -1
-v 4 4 -1
-v 4 4 9
-v 4 -1 9
-f 17 18 19 20
-)";
+const std::string boxed_model = std::string("o box\n") + cube + level("base", "3") +
+                                level("top", "5") + polygon("F1", "4 -1 -1, 4 4 -1, 4 4 9, 4 -1 9");
 
 const std::string roles =
     " --role box=boundary --role base=horizon --role top=horizon --role F1=fault";
@@ -221,19 +189,9 @@ TEST_CASE("cli: volume: a block that only rounding made has the exact volume 0",
 
 TEST_CASE("cli: tables of relations and juxtapositions", "[cli]") {
     const Folder folder;
-    const auto in = folder.input("model.obj", R"(o a,b "quoted"
-v -1 -1 3
-v 4 -1 3
-v 4 9 3
-v -1 9 3
-f 1 2 3 4
-o fault
-v 4 -1 -1
-v 4 9 -1
-v 4 9 9
-v 4 -1 9
-f 5 6 7 8
-)");
+    const auto in =
+        folder.input("model.obj", polygon("a,b \"quoted\"", "-1 -1 3, 4 -1 3, 4 9 3, -1 9 3") +
+                                      polygon("fault", "4 -1 -1, 4 9 -1, 4 9 9, 4 -1 9"));
     const auto r = folder.run(
         "volume " + in + " -o model --box 0,0,0,8,8,8 --relations r.csv --juxtaposition j.csv");
     REQUIRE(r.status == 0);

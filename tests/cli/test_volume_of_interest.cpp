@@ -15,46 +15,10 @@ using namespace program_test;
 namespace {
 
 /// Two horizons and a fault that end inside a box from 0 to 8 on some sides and cross it on others.
-constexpr auto cut_model = R"(o base
-v -1 -1 3
-v 9 -1 3
-v 9 9 3
-v -1 9 3
-f 1 2 3 4
-o top
-v -1 -1 5
-v 6 -1 5
-v 6 9 5
-v -1 9 5
-f 5 6 7 8
-o F1
-v 4 -1 -1
-v 4 9 -1
-v 4 9 9
-v 4 -1 9
-f 9 10 11 12
-o elsewhere
-v 20 0 0
-v 21 0 0
-v 20 1 0
-f 13 14 15
-)";
-
-constexpr auto cube = R"(v 0 0 0
-v 8 0 0
-v 8 8 0
-v 0 8 0
-v 0 0 8
-v 8 0 8
-v 8 8 8
-v 0 8 8
-f 1 4 3 2
-f 5 6 7 8
-f 1 2 6 5
-f 2 3 7 6
-f 3 4 8 7
-f 4 1 5 8
-)";
+const std::string cut_model = level("base", "3") +
+                              polygon("top", "-1 -1 5, 6 -1 5, 6 9 5, -1 9 5") +
+                              polygon("F1", "4 -1 -1, 4 9 -1, 4 9 9, 4 -1 9") +
+                              polygon("elsewhere", "20 0 0, 21 0 0, 20 1 0");
 
 } // namespace
 

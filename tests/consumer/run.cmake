@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # cmake -DBUILD=... -DSOURCE=... -DWORK=... -DTETGEN=... -DCOMPILER=... -DSANITIZE=... -P run.cmake
 # Installs the build tree into WORK/prefix; then configures, builds and runs the consumer against it, with the
-# library's compiler and, if installed, with the other one of gcc and clang. It has all C and C++ of the documentation.
+# library's compiler and, if installed, with the other one of gcc and clang. The first build has all C and C++ of the
+# documentation.
 # Then it does what README.md says: the programs there print what it shows.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed)
@@ -45,12 +46,14 @@ if(NOT licences)
   message(FATAL_ERROR "the text of the licence is not installed")
 endif()
 run(/usr/bin/python3 -B ${SOURCE}/snippets.py ${WORK})
+set(snippets ${WORK}/snippets)
 foreach(compiler IN LISTS compilers)
   cmake_path(GET compiler FILENAME name)
   set(build ${WORK}/build-${name})
   run(${CMAKE_COMMAND} -S ${SOURCE} -B ${build} -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
-      -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${compiler} -DWITH_TETGEN=${TETGEN} -DSNIPPETS=${WORK}/snippets
+      -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${compiler} -DWITH_TETGEN=${TETGEN} -DSNIPPETS=${snippets}
       ${flags})
+  set(snippets "")
   run(${CMAKE_COMMAND} --build ${build})
   judge_dependencies(${build})
   run(${build}/consumer)

@@ -7,7 +7,7 @@
 The 20 boundaries of blocks and the Moho of GFM 2020 (SCEC; no licence is stated, so that the files are not in this
 repository) are cut by a box of 930 x 830 km from -45 to -6 km and sealed by `--seal auto`; slivers are merged. The
 volumes of the blocks must be those below, which agree with the model that SCEC made by hand where its boundaries are
-among the files. FOLDER has the collection of data (default: ../shared/data beside the repository); PAGE.html gets the report page. The exit status is
+among the files; docs/how-to/python-examples.md shows the largest. FOLDER has the collection of data (default: ../shared/data beside the repository); PAGE.html gets the report page. The exit status is
 77 if the model is not there.
 """
 import json
@@ -48,6 +48,11 @@ def main():
     volumes = sorted((block["volume"] for block in model["blocks"][1:]), reverse=True)
     wrong = [f"{found:.9g} instead of {right:.9g}" for found, right in zip(volumes, VOLUMES)
              if abs(found - right) > 1e-6 * right]
+    shown = (ROOT / "docs/how-to/python-examples.md").read_text()
+    for block in sorted(model["blocks"][1:], key=lambda b: -b["volume"])[:5]:
+        line = f"{block['volume'] / 1e9:.0f} km3: {block['name']}\n"
+        if line not in shown:
+            wrong.append(f"docs/how-to/python-examples.md does not show {line}")
     if len(volumes) != len(VOLUMES):
         wrong.append(f"{len(volumes)} blocks instead of {len(VOLUMES)}")
     if stats["seal"]["distance"] != 10:

@@ -4,7 +4,8 @@
 
     run_mpi.py --terrane FILE --terrane-mpi FILE --mpirun FILE --certified FOLDER [--all]
 
-With --all, which takes minutes, all certified cases are compared, not some.
+With --all, which takes minutes, all certified cases are compared in each number of processes. Without, some cases are in
+two, and one in each.
 """
 import argparse
 import json
@@ -53,14 +54,14 @@ def volumes_of(arguments, mesh: Path, work: Path):
             "names": [b["name"] for b in blocks]}
 
 
-def check_case(arguments, folder: Path, work: Path):
-    """The same digest, bytes and volumes for every number of processes."""
+def check_case(arguments, folder: Path, work: Path, numbers):
+    """The same digest, bytes and volumes for these numbers of processes."""
     files = inputs_of(folder)
     expected = json.loads((folder / "expected.json").read_text())
     whole = work / "whole.vtp"
     alone = run([arguments.terrane, "arrange", *files, "-o", whole])
     volumes = volumes_of(arguments, whole, work) if alone.returncode == 0 else None
-    for ranks in RANKS:
+    for ranks in numbers:
         pieces, joined, stats = (work / f"m{ranks}{end}" for end in (".pvtp", ".vtp", ".json"))
         done = run([arguments.mpirun, "-n", ranks, arguments.terrane_mpi, "arrange", *files, "-o", pieces,
                     "--digest", "--volumes", "--stats", stats])
@@ -174,7 +175,7 @@ def check_killed(arguments, work: Path):
     (work / "in.obj").write_text("\n".join(lines) + "\n")
     killed = 0
     for rank in (0, 1, 2):
-        for seconds in (0, 0.05, 0.1, 0.2, 0.4):
+        for seconds in (0, 0.1, 0.4):
             # It blocks SIGTERM, and not SIGSEGV, once MPI has started and all have agreed on what to do. Before,
             # mpirun itself can fail to end.
             script = (f'if [ "$OMPI_COMM_WORLD_RANK" = {rank} ]; then (until ! [ -e /proc/$$ ] || '
@@ -197,7 +198,7 @@ def check_killed(arguments, work: Path):
                 assert name in complete or name.startswith(".x"), where
                 if name != "in.obj":
                     shutil.rmtree(work / name) if (work / name).is_dir() else (work / name).unlink()
-    print(f"{killed} of 15 runs were killed")
+    print(f"{killed} of 9 runs were killed")
 
 
 def check_quiet(arguments, folder: Path, work: Path):
@@ -240,15 +241,15 @@ def main():
     arguments = parser.parse_args()
     arguments.terrane_mpi = arguments.terrane_mpi.resolve()  # some processes start in another folder
     cases = sorted(path.parent.name for path in arguments.certified.glob("*/expected.json")) if arguments.all else CASES
-    for name in cases:
+    for number, name in enumerate(cases):
         with tempfile.TemporaryDirectory() as work:
-            check_case(arguments, arguments.certified / name, Path(work))
+            check_case(arguments, arguments.certified / name, Path(work), RANKS if arguments.all or number == 0 else (2, 7))
     for check in (check_failures, check_one_unlike_the_others, check_quiet, check_pieces):
         with tempfile.TemporaryDirectory() as work:
             check(arguments, arguments.certified / "horizons_and_fault", Path(work))
     with tempfile.TemporaryDirectory() as work:
         check_killed(arguments, Path(work))
-    print(f"{len(cases)} cases with {', '.join(map(str, RANKS))} processes: as in one")
+    print(f"{len(cases)} cases: as in one process")
 
 
 if __name__ == "__main__":

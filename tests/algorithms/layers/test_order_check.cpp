@@ -69,7 +69,7 @@ TEST_CASE("layer order: finds what is out of order, and nothing else", "[layers]
         REQUIRE(listed == expected);
         ++(expected.empty() ? right : wrong);
     }
-    CHECK(std::min(wrong, right) > 100 / test_support::effort_divisor);
+    CHECK(std::min(wrong, right) > test_support::cases(100));
 }
 
 TEST_CASE("layer order: strips along the borders are left out, as wide as allowed", "[layers]") {

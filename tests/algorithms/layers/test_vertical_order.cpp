@@ -72,6 +72,6 @@ TEST_CASE("vertical order: agrees with clipped polygons in rationals", "[layers]
         REQUIRE(above_along_z(guard, store, *t, *s) == -expected);
         ++(higher ? above : lower ? below : same);
     }
-    CHECK(std::min({above, below, apart}) > 200 / test_support::effort_divisor);
+    CHECK(std::min({above, below, apart}) > test_support::cases(200));
     CHECK(same > 0);
 }
