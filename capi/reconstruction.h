@@ -23,8 +23,8 @@ typedef struct terrane_fill_task {
     uint32_t surface;      ///< number of the surface; no two tasks have the same
     int32_t use_rbf;       ///< 0: kriging, for z = f(x, y); not 0: radial basis functions, for any
                            ///< surface
-    const char* variogram; ///< model of kriging: "spherical", ...; NULL or "auto": the one that
-                           ///< fits best
+    const char* variogram; ///< model of kriging: "spherical", ...; NULL or "auto": all but
+                           ///< spherical count
     double max_area;       ///< larger holes stay open; squared unit; default: infinite
     double mesh_size;      ///< edge length of the filling; 0: the median edge of the hole's border
     double gap_slope;      ///< throw / width from which a hole counts as a fault gap

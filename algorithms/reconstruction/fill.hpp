@@ -37,7 +37,7 @@ enum class FillMethod : std::uint8_t {
 /// each member does.
 struct FillOptions {
     FillMethod method = FillMethod::kriging; ///< of all holes of the surface
-    std::optional<VariogramModel> model{};   ///< of kriging; none: the one that fits best
+    std::optional<VariogramModel> model{};   ///< of kriging; none: all count, as likely as they are
     double max_area = HUGE_VAL;              ///< see describe(), squared unit
     double mesh_size = 0;                    ///< see describe()
     std::size_t rings = 5;                   ///< see describe()
@@ -58,7 +58,7 @@ struct FillOptions {
                     true),
               o.gap_slope);
         visit(Field("isotropic", "", "For kriging: the variogram is the same in all directions",
-                    "anisotropy is fitted"),
+                    "models with directions count, too"),
               o.isotropic);
         visit(Field("mesh_size", "LENGTH", "Edge length of the new triangles",
                     "the median edge of the hole's border; down to a quarter of it where flat "

@@ -188,7 +188,7 @@ void add_method(CLI::App& app, FillCommand& command) {
            "--model", command.variogram,
            "Of the variogram of kriging: auto, spherical, exponential, gaussian, matern, power "
            "(default: auto, "
-           "what fits best)")
+           "all but spherical count, as likely as they are)")
         ->check(one_of({"auto", "spherical", "exponential", "gaussian", "matern", "power"}))
         ->type_name("MODEL");
     app.add_option("--smoothing", command.smoothing,
