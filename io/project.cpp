@@ -89,6 +89,8 @@ private:
             });
         if (const Json* v = in_.find(json, "layers")) project.layers = layers(*v);
         if (const Json* v = in_.find(json, "volume_of_interest")) volume(*v, project);
+        if (const Json* v = in_.find(json, "tolerance"))
+            project.tolerance = in_.positive(*v, "tolerance");
         if (const Json* v = in_.find(json, "extend")) {
             project.extend = in_.positive(*v, "extend");
             if (project.volume.index() == 0)
@@ -106,12 +108,12 @@ private:
             project.uncertainty = uncertainty_of(in_, *v, base_);
         const bool turned = std::any_of(project.surfaces.begin(), project.surfaces.end(),
                                         [](const ProjectSurfaces& s) { return s.depth; });
-        const bool changed = turned || !project.unit.empty() || !project.fill.empty() ||
+        const bool changed = turned || project.tolerance || !project.unit.empty() || !project.fill.empty() ||
                              project.layers || project.improve;
         if (project.outputs.certificate && changed)
             in_.fail(
                 "outputs.certificate",
-                "must be false with unit, fill, layers, improve or depth: a certificate is about "
+                "must be false with unit, fill, layers, tolerance, improve or depth: a certificate is about "
                 "whole surfaces as their files have them");
         check_tetrahedra_formats(project);
         const std::string& parts = project.outputs.blocks;

@@ -40,6 +40,18 @@ bool seals(const ArrangeWithinOptions& options) {
            });
 }
 
+/// Joins what is nearer than the tolerance.
+Status join(const ArrangeWithinOptions& options, const Run& run, std::vector<Surface>& surfaces,
+            Arranged& arranged) {
+    announce(run, "tolerance");
+    auto joined = join_within(std::move(surfaces),
+                              {options.tolerance, options.arrange, options.rounding}, run);
+    if (!joined) return joined.error();
+    surfaces = std::move(joined->surfaces);
+    arranged.joined = std::move(joined->report);
+    return Done{};
+}
+
 Result<Arrangement> arrange_or_seal(const ArrangeWithinOptions& options, KnownTriangles* known,
                                     const Run& run, Arranged& arranged) {
     if (!seals(options)) {
@@ -99,7 +111,7 @@ Result<SealChoice> seal_chosen(const std::vector<Surface>& surfaces,
                                const Run& run) {
     return guarded("for the widths of gaps", "seal", [&]() -> Result<SealChoice> {
         ArrangeWithinOptions unsealed = options;
-        unsealed.seal = unsealed.min_volume = 0;
+        unsealed.tolerance = unsealed.seal = unsealed.min_volume = 0;
         unsealed.seal_automatic = false;
         unsealed.seal_rules.clear();
         const double edge_length = median_edge_length(surfaces);
@@ -114,10 +126,14 @@ Result<Arranged> arrange_exactly(std::vector<Surface> surfaces, std::vector<Surf
                                  ArrangeWithinOptions options, KnownTriangles* known,
                                  const Run& run) {
     return guarded("for the arrangement", "arrange", [&]() -> Result<Arranged> {
+        Arranged arranged;
+        if (options.tolerance != 0) {
+            if (auto done = join(options, run, surfaces, arranged); !done) return done.error();
+            if (!seals(options) && !options.seal_automatic) options.seal = options.tolerance;
+        }
         KnownTriangles own; // of the surfaces, which all arrangements below have in common
         const bool arranges_again = options.seal_automatic || options.extend != 0 || seals(options);
         if (arranges_again && known == nullptr) known = &own;
-        Arranged arranged;
         if (options.seal_automatic) {
             auto choice = seal_chosen(surfaces, boundary, options, known, run);
             if (!choice) return choice.error();

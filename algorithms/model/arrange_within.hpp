@@ -19,6 +19,7 @@
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
 #include <terrane/algorithms/simplification/simplify.hpp>
+#include <terrane/algorithms/tolerance/tolerance.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 namespace terrane {
@@ -77,6 +78,9 @@ std::vector<NamedConstant> small_block_constants();
 struct ArrangeWithinOptions {
     ArrangeOptions arrange{};    ///< for every arrangement that is made
     RoundingOptions rounding{};  ///< for the final rounding
+    double tolerance = 0;        ///< surfaces that are nearer are joined first, see join_within(), and
+                                 ///< gaps as wide are sealed unless `seal` or its rules say
+                                 ///< otherwise; unit of the input; 0: none
     double seal = 0;             ///< largest width of gaps to close, unit of the input; 0: none
     bool seal_automatic = false; ///< the distance is chosen by choose_seal(); `seal` is ignored
     double extend = 0;     ///< longest extension of horizons that end inside, unit of the input; 0:
@@ -123,6 +127,7 @@ struct Arranged {
                                    ///< the boundary
     Arrangement exact;             ///< with a volume of interest: restricted to it
     RoundedMesh rounded;           ///< `exact` in doubles, with its report
+    std::optional<ToleranceReport> joined;               ///< with a tolerance
     std::optional<VolumeReport> cut;                     ///< with a volume of interest
     std::optional<SealReport> sealed;                    ///< where asked for
     std::optional<SealChoice> choice;                    ///< with seal_automatic
@@ -135,7 +140,7 @@ struct Arranged {
 };
 
 /// Arranges and rounds the surfaces. `boundary` is that of a volume of interest; empty: there is
-/// none. Errors: those of extend_to_boundary, seal, arrange, cut_to_volume, merge_small_blocks and
+/// none. Errors: those of join_within, extend_to_boundary, seal, arrange, cut_to_volume, merge_small_blocks and
 /// round_to_doubles. A mesh that is not conforming is no error: see rounded.report.
 Result<Arranged> arrange_within(std::vector<Surface> surfaces, std::vector<Surface> boundary,
                                 const ArrangeWithinOptions& options = {}, const Run& run = {});

@@ -407,6 +407,7 @@ namespace {
 Result<ArrangeWithinOptions> options_of(const Project& project, std::span<const Surface> surfaces) {
     ArrangeWithinOptions options{.arrange = {.search = project.search},
                                  .rounding = rounding_of(project),
+                                 .tolerance = project.tolerance.value_or(0),
                                  .seal = project.seal.value_or(0),
                                  .seal_automatic = project.seal == 0.0,
                                  .extend = project.extend.value_or(0),

@@ -159,6 +159,9 @@ struct Project {
     StratigraphicColumn column{};            ///< empty: none
     std::vector<ProjectFill> fill{};         ///< no surface is in two of them
     std::optional<ProjectLayers> layers{};   ///< none: horizons are not put in order
+    std::optional<double> tolerance{}; ///< what is nearer is joined before all else, unit of the
+                                       ///< surfaces; gaps as wide are sealed unless `seal` or
+                                       ///< `seal_of` is given; none: nothing is joined
     std::optional<double> extend{}; ///< limit of the extension of horizons that end in the volume,
                                     ///< unit of the surfaces
     std::optional<double> seal{};   ///< largest width of gaps to close, unit of the surfaces; 0:

@@ -68,41 +68,7 @@ std::array<Corners, 4> quarters(const Corners& c) {
     return {Corners{c[0], m[0], m[2]}, Corners{m[0], c[1], m[1]}, Corners{m[2], m[1], c[2]}, m};
 }
 
-/// The most divisions of a part of a triangle, and the most parts that are examined.
-constexpr unsigned most_divisions = 16;
-constexpr std::size_t most_parts = 1U << 18U;
-
-/// Tells whether all of a triangle is shown to be within the bound.
-bool is_part_within(const TriangleTree& tree, std::span<const Point3> points,
-                    const Corners& corners, double bound) {
-    std::vector<std::pair<Corners, unsigned>> front{{corners, 0}};
-    for (std::size_t examined = 0; !front.empty(); ++examined) {
-        const auto [c, depth] = front.back();
-        front.pop_back();
-        double least = 0;
-        if (part_of(tree, points, c, least).most <= bound) continue;
-        if (least > bound || depth == most_divisions || examined == most_parts) return false;
-        for (const Corners& quarter : quarters(c)) front.emplace_back(quarter, depth + 1);
-    }
-    return true;
-}
-
 } // namespace
-
-bool is_within(const Surface& from, const Surface& to, double bound, const Run& run) {
-    const StandardArithmetic guard;
-    if (to.triangles.empty()) return from.triangles.empty();
-    const TriangleTree tree(to.vertices, to.triangles);
-    const auto parts =
-        parts_of_ranges<char>(from.triangles.size(), run, [&](std::size_t first, std::size_t last) {
-            for (std::size_t t = first; t < last; ++t)
-                if (run.stop.stop_requested() ||
-                    !is_part_within(tree, to.vertices, corners_of(from, from.triangles[t]), bound))
-                    return char{0};
-            return char{1};
-        });
-    return std::find(parts.begin(), parts.end(), char{0}) == parts.end();
-}
 
 double sampled_distance(const Surface& from, const Surface& to, const Run& run) {
     const StandardArithmetic guard;

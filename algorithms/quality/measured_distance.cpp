@@ -86,7 +86,46 @@ public:
         return least_;
     }
 
+    /// Tells whether all of the triangle is shown to be within the bound.
+    bool is_within(std::span<const Point3, 3> triangle, double bound) {
+        open_.assign(1, Polygon(triangle.begin(), triangle.end()));
+        for (unsigned count = 0; !open_.empty(); ++count) {
+            if (count == most_polygons || (count % 256 == 255 && stop_.stop_requested()))
+                return false;
+            const Polygon polygon = std::move(open_.back());
+            open_.pop_back();
+            if (!show(polygon, bound)) return false;
+        }
+        return true;
+    }
+
 private:
+    /// Drops the polygon if it is within the bound, else divides it. Returns false if a point of it is not.
+    bool show(const Polygon& polygon, double bound) {
+        const Point3 middle = centre_of(polygon);
+        const auto near = tree_.within(middle, bound + rounding_);
+        if (near.empty()) return false;
+        double radius = 0, least = anywhere;
+        for (const Point3& p : polygon) radius = std::max(radius, length(minus(p, middle)));
+        std::vector<std::pair<double, Facet>> facets; // by area
+        for (const auto& one : near) {
+            if (one.distance + radius <= bound) return true; // the distance is 1-Lipschitz
+            const auto& [a, b, c] =
+                facets.emplace_back(0.0, Facet(points_, one.triangle)).second.corners;
+            facets.back().first = -length(cross(minus(b, a), minus(c, a)));
+            double most = 0;
+            for (const Point3& p : polygon) most = std::max(most, facets.back().second.distance(p));
+            least = std::min(least, most);
+        }
+        if (least <= bound + rounding_) return true; // the distance from one triangle is convex
+        // The largest triangles leave the fewest parts.
+        std::ranges::sort(facets, {}, [](const auto& one) { return one.first; });
+        for (const auto& [area, facet] : facets)
+            if (cut_by_walls(polygon, facet)) return true;
+        halve(polygon);
+        return true;
+    }
+
     /// Tells whether a bound adds nothing to what is known.
     [[nodiscard]] bool is_known(double bound) const {
         return bound <= least_ * (1 + measured_error) + rounding_;
@@ -251,10 +290,15 @@ double size_of(const Surface& from, const Surface& to) {
     return size;
 }
 
+/// Returns the error that distances may have for coordinates of this size.
+double rounding_for(double size) {
+    return 256 * std::numeric_limits<double>::epsilon() * size;
+}
+
 /// Measures surfaces whose largest coordinate has this size; squares must neither overflow nor underflow.
 double distance_in_range(const Surface& from, const Surface& to, double size, const Run& run) {
     const TriangleTree tree(to.vertices, to.triangles);
-    const double rounding = 256 * std::numeric_limits<double>::epsilon() * size;
+    const double rounding = rounding_for(size);
     std::vector<double> found = sampled(from, tree, run);
     // The triangles with the largest samples come first, so that others need fewer parts.
     std::vector<std::uint32_t> order(found.size());
@@ -290,6 +334,25 @@ Surface scaled(Surface surface, int exponent) {
 }
 
 } // namespace
+
+bool is_within(const Surface& from, const Surface& to, double bound, const Run& run) {
+    const StandardArithmetic guard;
+    if (to.triangles.empty()) return from.triangles.empty();
+    const double rounding = rounding_for(size_of(from, to));
+    const TriangleTree tree(to.vertices, to.triangles);
+    const auto parts =
+        parts_of_ranges<char>(from.triangles.size(), run, [&](std::size_t first, std::size_t last) {
+            Measurer measurer(tree, to.vertices, rounding, run.stop);
+            for (std::size_t t = first; t < last; ++t) {
+                const auto& [a, b, c] = from.triangles[t];
+                const std::array corners{from.vertices[a], from.vertices[b], from.vertices[c]};
+                if (run.stop.stop_requested() || !measurer.is_within(corners, bound))
+                    return char{0};
+            }
+            return char{1};
+        });
+    return std::find(parts.begin(), parts.end(), char{0}) == parts.end();
+}
 
 double measured_distance(const Surface& from, const Surface& to, const Run& run) {
     const StandardArithmetic guard;

@@ -130,6 +130,10 @@ void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& in
         add_statistics(statistics, *arranged.extended);
         add_constants(statistics, "extend", extension_constants());
     }
+    if (arranged.joined) {
+        add_statistics(statistics, *arranged.joined, inputs);
+        add_constants(statistics, "tolerance", tolerance_constants());
+    }
     if (arranged.choice) {
         add_statistics(statistics, *arranged.choice);
         add_constants(statistics, "seal_choice", seal_choice_constants());
@@ -158,6 +162,7 @@ std::string summary(const Inputs& inputs, const Arranged& arranged) {
                             counted(arranged.rounded.regions.size(), "region"));
     text += surface_table(inputs, arranged);
     text += set_aside(arranged.exact);
+    if (arranged.joined) text += text_of(*arranged.joined, inputs);
     if (arranged.extended) text += text_of(*arranged.extended, inputs);
     if (arranged.choice) text += text_of(*arranged.choice, inputs);
     if (arranged.sealed) text += text_of(*arranged.sealed, inputs);

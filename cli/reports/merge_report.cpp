@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,12 +15,17 @@
 namespace terrane::cli {
 namespace {
 
-constexpr std::size_t most_merged = 20; ///< printed
+constexpr std::size_t most_printed = 20;
 
-std::string names_of(const MergedBlock& block, const Inputs& inputs) {
+std::string names_of(std::span<const std::uint32_t> surfaces, const Inputs& inputs) {
     std::string names;
-    for (const std::uint32_t s : block.surfaces)
-        names += (names.empty() ? "" : ", ") + inputs.labels[s];
+    for (const std::uint32_t s : surfaces) names += (names.empty() ? "" : ", ") + inputs.labels[s];
+    return names;
+}
+
+Json labels_of(std::span<const std::uint32_t> surfaces, const Inputs& inputs) {
+    Json names = Json::array();
+    for (const std::uint32_t s : surfaces) names.push_back(inputs.labels[s]);
     return names;
 }
 
@@ -29,15 +35,15 @@ std::string text_of(const BlockMerge& report, const Inputs& inputs) {
     const Quantities quantities = inputs.quantities();
     auto text = fmt::format("blocks below {}: {} merged with a neighbour\n",
                             quantities.volume(report.least, 4), report.merged.size());
-    for (std::size_t i = 0; i < std::min(report.merged.size(), most_merged); ++i) {
+    for (std::size_t i = 0; i < std::min(report.merged.size(), most_printed); ++i) {
         const MergedBlock& m = report.merged[i];
         text += fmt::format("  volume {}, {} thick, at {}: {} of {} removed, area {}\n",
                             quantities.volume(m.volume, 4), quantities.length(m.thickness, 2),
                             quantities.place(m.place), counted(m.triangles, "triangle"),
-                            names_of(m, inputs), quantities.area(m.area));
+                            names_of(m.surfaces, inputs), quantities.area(m.area));
     }
-    if (report.merged.size() > most_merged)
-        text += fmt::format("  and {} more\n", report.merged.size() - most_merged);
+    if (report.merged.size() > most_printed)
+        text += fmt::format("  and {} more\n", report.merged.size() - most_printed);
     if (report.kept > 0)
         text += fmt::format("  {} kept, with no neighbour inside of the model\n", report.kept);
     return text;
@@ -46,18 +52,49 @@ std::string text_of(const BlockMerge& report, const Inputs& inputs) {
 void add_statistics(Json& json, const BlockMerge& report, const Inputs& inputs) {
     Json merged = Json::array();
     for (const MergedBlock& m : report.merged) {
-        Json names = Json::array();
-        for (const std::uint32_t s : m.surfaces) names.push_back(inputs.labels[s]);
         merged.push_back({{"volume", m.volume},
                           {"thickness", m.thickness},
                           {"into", std::isfinite(m.into) ? Json(m.into) : Json("outside")},
                           {"place", {m.place.x, m.place.y, m.place.z}},
-                          {"surfaces", std::move(names)},
+                          {"surfaces", labels_of(m.surfaces, inputs)},
                           {"area", m.area},
                           {"triangles", m.triangles}});
     }
     json["small_blocks"] = {
         {"least_volume", report.least}, {"kept", report.kept}, {"merged", std::move(merged)}};
+}
+
+std::string text_of(const ToleranceReport& report, const Inputs& inputs) {
+    const Quantities quantities = inputs.quantities();
+    auto text =
+        fmt::format("joined within {}: {} of borders and creases, {} of {} in all\n",
+                    quantities.length(report.tolerance, 4),
+                    report.vertices == 1 ? "1 vertex" : fmt::format("{} vertices", report.vertices),
+                    counted(report.cells, "thin cell"), quantities.volume(report.volume, 3));
+    if (!report.is_joined && report.vertices + report.cells > 0)
+        text = fmt::format("nothing joined within {}: the moves are not shown to be within it\n",
+                           quantities.length(report.tolerance, 4));
+    for (std::size_t i = 0; i < std::min(report.left.size(), most_printed); ++i) {
+        const ThinCell& cell = report.left[i];
+        text += fmt::format("  left: {} thick, volume {}, at {}, between {}\n",
+                            quantities.length(cell.thickness, 2), quantities.volume(cell.volume, 3),
+                            quantities.place(cell.place), names_of(cell.surfaces, inputs));
+    }
+    if (report.left.size() > most_printed)
+        text += fmt::format("  and {} more\n", report.left.size() - most_printed);
+    return text;
+}
+
+void add_statistics(Json& json, const ToleranceReport& report, const Inputs& inputs) {
+    Json left = Json::array();
+    for (const ThinCell& cell : report.left)
+        left.push_back({{"thickness", cell.thickness},
+                        {"volume", cell.volume},
+                        {"place", {cell.place.x, cell.place.y, cell.place.z}},
+                        {"surfaces", labels_of(cell.surfaces, inputs)}});
+    json["tolerance"] = {{"tolerance", report.tolerance}, {"is_joined", report.is_joined},
+                         {"vertices", report.vertices},   {"cells", report.cells},
+                         {"volume", report.volume},       {"left", std::move(left)}};
 }
 
 } // namespace terrane::cli

@@ -82,6 +82,17 @@ void add_arranging(CLI::App& app, ModelCommand& command) {
                    "0: only to the nearest double (default: 8)")
         ->check(CLI::Range(0U, most_rounds).description(""))
         ->type_name("N");
+    app.add_option_function<double>(
+           "--tolerance",
+           [&project](double length) {
+               if (!(length > 0) || !std::isfinite(length))
+                   throw CLI::ValidationError("--tolerance", "needs a positive length");
+               project.tolerance = length;
+           },
+           "What is nearer than this is one: borders and creases of surfaces join, and gaps and "
+           "overlaps that are thinner vanish. No surface moves by more. Gaps of borders as wide are "
+           "sealed, unless --seal is given (default: nothing is joined)")
+        ->type_name("LENGTH");
     add_max_move(app, project.max_move);
     add_check(app, project.check);
     add_seal(app, project);

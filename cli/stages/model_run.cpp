@@ -54,6 +54,7 @@ Status check_command(const ModelCommand& command) {
                          ", or the certificate",
                      "--certificate");
     };
+    if (project.tolerance) return refuse("what was joined within a tolerance", "--tolerance");
     if (project.min_volume) return refuse("that only small blocks were merged", "--min-volume");
     if (project.improve && project.improve->resolution.length > 0)
         return refuse("what was joined at a resolution", "--resolution");

@@ -10,11 +10,11 @@
 
 namespace terrane::detail {
 
-inline constexpr std::array<std::string_view, 18> project_level{
-    "format",     "folder",  "threads",    "surfaces",           "unit",
-    "column",     "fill",    "layers",     "volume_of_interest", "extend",
-    "seal",       "seal_of", "min_volume", "max_move",           "improve",
-    "tetrahedra", "outputs", "uncertainty"};
+inline constexpr std::array<std::string_view, 19> project_level{
+    "format",    "folder",     "threads", "surfaces",           "unit",
+    "column",    "fill",       "layers",  "volume_of_interest", "extend",
+    "tolerance", "seal",       "seal_of", "min_volume",         "max_move",
+    "improve",   "tetrahedra", "outputs", "uncertainty"};
 inline constexpr std::array<std::string_view, 5> surfaces_level{"file", "objects", "name", "role",
                                                                 "depth"};
 inline constexpr std::array<std::string_view, 4> own_fill_level{"surface", "method", "model",

@@ -98,6 +98,7 @@ Project project_of(const py::dict& given) {
     project.max_rounds = given["max_rounds"].cast<unsigned>();
     project.max_move = given["max_move"].cast<std::optional<double>>();
     project.seal = wanted("seal", "seal_automatic");
+    project.tolerance = given["tolerance"].cast<std::optional<double>>();
     project.extend = given["extend"].cast<double>();
     project.min_volume = wanted("min_volume", "min_volume_automatic");
     for (const auto& [name, distance] : given["seal_of"].cast<py::dict>())

@@ -358,10 +358,10 @@ def _made(surfaces: List[Any], boundary: List[Any], options: Dict[str, Any], thr
 
 
 def model(surfaces: Any, box: Any = None, seal: Union[None, float, str, Mapping[Any, float]] = None, *,
-          extend: float = 0, min_volume: Union[None, float, str] = None,
+          tolerance: Optional[float] = None, extend: float = 0, min_volume: Union[None, float, str] = None,
           column: Optional[Sequence[Any]] = None, max_rounds: int = 8, max_move: Optional[float] = None,
           threads: Optional[int] = None, progress: Any = None) -> Model:
-    """Make blocks of surfaces in one call: extend, seal, arrange, cut, round, and find the blocks.
+    """Make blocks of surfaces in one call: join within a tolerance, extend, seal, arrange, cut, round, and find the blocks.
 
     Parameters
     ----------
@@ -372,6 +372,9 @@ def model(surfaces: Any, box: Any = None, seal: Union[None, float, str, Mapping[
     seal : float, "auto", or dict, optional
         Close gaps up to this width, unit of the input. A dict has exceptions by ``"F1"`` or ``("F1", "F2")``, and the
         distance for all others under None.
+    tolerance : float, optional
+        Join what is nearer than this, unit of the input: borders and creases, gaps and overlaps that are thinner.
+        No surface moves by more. Gaps of borders as wide are sealed unless `seal` is given.
     extend : float, optional
         Extend horizons that end inside the box to it, by at most this length.
     min_volume : float or "auto", optional
@@ -403,7 +406,8 @@ def model(surfaces: Any, box: Any = None, seal: Union[None, float, str, Mapping[
     """
     distance, automatic, of = _seal_options(seal)
     least, small = _length(min_volume, "min_volume")
-    options = {"max_rounds": as_count(max_rounds, "max_rounds", 0, 8), "max_move": as_move(max_move), "seal": distance,
+    options = {"max_rounds": as_count(max_rounds, "max_rounds", 0, 8), "max_move": as_move(max_move),
+               "tolerance": None if tolerance is None else as_number(tolerance, "tolerance", positive=True), "seal": distance,
                "seal_automatic": automatic, "seal_of": of, "extend": as_number(extend, "extend", least=0),
                "min_volume": least, "min_volume_automatic": small, "column": column_of(column)}
     return _made(as_surfaces(surfaces), as_boundary(box), options, threads, progress)

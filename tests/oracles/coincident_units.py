@@ -16,13 +16,21 @@ moved     each vertex moved by up to 1, 1e2, 1e4 or 1e6 spacings of the doubles
 Each may be shifted to map coordinates of millions of metres (utm).
 
 Each model must end in a conforming mesh, as `terrane check` says of the file, within the default limit of moves, or with the limit named that would do, within which
-it must then end conforming. Prints a line for each model that does not, and a table; status 1 if there is one.
+it must then end conforming.
+
+With --tolerance F, T is F times the largest distance of a vertex from where it was computed (1e-9 of the model where that
+is less). `terrane volume --tolerance T` must then find exactly the parts of units that hang together, each with the volume
+that its cells have, but for T times the area around it, and no vertex of a surface may be farther than T from where the
+surface was, nor one that was there from the surface; some vertices are tested. With --tetrahedra the blocks are meshed, too.
+
+Prints a line for each model that does not, and a table; status 1 if there is one.
 """
 import argparse
 import collections
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -104,16 +112,48 @@ def model(seed, kind, units, cells):
         points = points + np.array([480000.0, 6900000.0, -1500.0])
     moves = float(rng.choice((1, 1e2, 1e4, 1e6)))
     out = []
+    misfit = 0.0
     for unit in np.unique(labels):
         vertices, triangles = divided(rng, points, faces_of(labels, unit))
+        computed = vertices
         if kind.startswith("float32"):
             vertices = vertices.astype(np.float32).astype(float)
         elif kind.startswith("decimals"):
             vertices = np.round(vertices, 3)
         elif kind.startswith("moved"):
             vertices = vertices + rng.uniform(-moves, moves, vertices.shape) * np.spacing(np.abs(points).max())
+        misfit = max(misfit, np.sqrt(((vertices - computed) ** 2).sum(1)).max())
         out.append(("unit%d" % unit, vertices, triangles))
-    return out
+    return out, parts_of(points, labels), misfit
+
+
+def parts_of(points, labels):
+    """(volume, area around it) of each part of a unit that hangs together across faces of its cells."""
+    part = np.full(labels.shape, -1)
+    parts = []
+    for start in np.argwhere(labels >= 0):
+        if part[tuple(start)] >= 0:
+            continue
+        number, unit, todo, volume, area = len(parts), labels[tuple(start)], [tuple(start)], 0.0, 0.0
+        part[tuple(start)] = number
+        while todo:
+            cell = todo.pop()
+            for corners, step in FACES:
+                a, b, c, d = (points[tuple(np.array(cell) + CORNERS[k])] for k in corners)
+                index = [tuple(np.array(cell) + CORNERS[k]) for k in corners]
+                pair = [(a, b, c), (a, c, d)] if min(index) in (index[0], index[2]) else [(a, b, d), (b, c, d)]
+                across = tuple(np.array(cell) + step)
+                is_inside = all(0 <= i < n for i, n in zip(across, labels.shape))
+                if is_inside and labels[across] == unit:
+                    if part[across] < 0:
+                        part[across] = number
+                        todo.append(across)
+                    continue
+                for p, q, r in pair:
+                    volume += np.dot(p - points[0, 0, 0], np.cross(q - points[0, 0, 0], r - points[0, 0, 0])) / 6
+                    area += np.linalg.norm(np.cross(q - p, r - p)) / 2
+        parts.append((volume, area))
+    return parts
 
 
 def write(units, path):
@@ -154,6 +194,89 @@ def judge(args, path, folder):
     return "failed", "status %d, %s of %s pairs left" % (made.returncode, left, stats.get("rounding", {}).get("naive_contacts")), stats, seconds
 
 
+def distances(places, vertices, triangles):
+    """Distance of each place from the triangles; all pairs are compared."""
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    ab, ac = b - a, c - a
+    normal = np.cross(ab, ac)
+    square = np.maximum((normal ** 2).sum(1), 1e-300)
+    out = []
+    for p in places:
+        ap = p - a
+        height = (ap * normal).sum(1)
+        v = (np.cross(ap, ac) * normal).sum(1) / square
+        w = (np.cross(ab, ap) * normal).sum(1) / square
+        best = np.where((v >= 0) & (w >= 0) & (v + w <= 1), np.abs(height) / np.sqrt(square), np.inf)
+        for start, end in ((a, b), (b, c), (c, a)):
+            along = end - start
+            t = np.clip(((p - start) * along).sum(1) / np.maximum((along ** 2).sum(1), 1e-300), 0, 1)
+            best = np.minimum(best, np.linalg.norm(p - start - t[:, None] * along, axis=1))
+        out.append(best.min())
+    return np.array(out)
+
+
+def read_surfaces(path):
+    """Vertices of a file, and the triangles of each surface; a triangle has one group for each."""
+    vertices, surfaces, groups = [], collections.defaultdict(list), []
+    for line in pathlib.Path(path).read_text().splitlines():
+        words = line.split()
+        if not words:
+            continue
+        if words[0] == "v":
+            vertices.append([float(w) for w in words[1:4]])
+        elif words[0] == "g":
+            groups = words[1:]
+        elif words[0] == "f":
+            for group in groups:
+                surfaces[group].append([int(w.split("/")[0]) - 1 for w in words[1:]])
+    return np.array(vertices), {name: np.array(faces) for name, faces in surfaces.items()}
+
+
+def moved_too_far(units, path, tolerance, rng):
+    """The farthest of some vertices from the other state of their surface, where it is beyond the tolerance."""
+    vertices, surfaces = read_surfaces(path)
+    worst = 0.0
+    for name, before, triangles in units:
+        after = surfaces.get(name)
+        if after is None:
+            return np.inf
+        there = vertices[np.unique(after)]
+        some = [places[rng.permutation(len(places))[:40]] for places in (there, before)]
+        worst = max(worst, distances(some[0], before, triangles).max(), distances(some[1], vertices, after).max())
+    return worst if worst > tolerance * (1 + 1e-9) else 0.0
+
+
+def judge_joined(args, made, tolerance, path, folder):
+    """(how it ended, what is wrong, statistics, seconds)."""
+    units, parts, _ = made
+    stats, seconds = folder / "stats.json", 0.0
+    told = {}
+    shutil.rmtree(folder / "out", ignore_errors=True)
+    commands = [("volume", folder / "out"), ("arrange", folder / "out.obj")]
+    if args.tetrahedra:
+        commands.append(("tetrahedralize", folder / "out.vtu"))
+    for command, out in commands:
+        begin = time.perf_counter()
+        ran = subprocess.run([args.terrane, command, path, "-o", out, "--tolerance", repr(float(tolerance)), "--threads", str(args.threads),
+                              *(("--stats", stats) if command == "volume" else ()), *args.options.split()], capture_output=True, text=True)
+        if ran.returncode:
+            return "failed", "%s: status %d, %s" % (command, ran.returncode, ran.stderr[-200:].strip()), told, seconds
+        if command == "volume":
+            seconds = time.perf_counter() - begin
+            told = json.loads(stats.read_text())
+    found, wanted = sorted(told["volumes"]["blocks"]), sorted(parts)
+    if len(found) != len(wanted):
+        return "failed", "%d blocks, not %d; %d thin ones left, the least of %.3g" % (
+            len(found), len(wanted), len(told["tolerance"]["left"]), found[0]), told, seconds
+    for have, (want, area) in zip(found, wanted):
+        if abs(have - want) > tolerance * area:
+            return "failed", "volume %.9g, not %.9g" % (have, want), told, seconds
+    worst = moved_too_far(units, folder / "out.obj", tolerance, np.random.default_rng(1))
+    if worst:
+        return "failed", "moved by %.3g, tolerance %.3g" % (worst, tolerance), told, seconds
+    return "joined", "", told, seconds
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--terrane", required=True)
@@ -163,6 +286,8 @@ def main():
     parser.add_argument("--units", type=int, default=0, help="2 to 40 unless given")
     parser.add_argument("--cells", type=int, default=0, help="along each side; 3 to 6 unless given")
     parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--tolerance", type=float, help="in misfits, > 1")
+    parser.add_argument("--tetrahedra", action="store_true", help="with --tolerance: mesh the blocks, too")
     parser.add_argument("--options", default="", help="for terrane arrange")
     parser.add_argument("--keep", type=pathlib.Path, help="keep the models that fail in this folder")
     args = parser.parse_args()
@@ -173,8 +298,13 @@ def main():
         for seed in range(args.seed, args.seed + args.count):
             kind = args.kind or KINDS[seed % len(KINDS)]
             path = folder / ("units%d.obj" % seed)
-            write(model(seed, kind, args.units, args.cells), path)
-            end, what, stats, seconds = judge(args, path, folder)
+            made = model(seed, kind, args.units, args.cells)
+            write(made[0], path)
+            if args.tolerance:
+                tolerance = args.tolerance * max(made[2], 1e-9 * np.abs(made[0][0][1]).max())
+                end, what, stats, seconds = judge_joined(args, made, tolerance, path, folder)
+            else:
+                end, what, stats, seconds = judge(args, path, folder)
             rounding = stats.get("rounding", {})
             row = table[kind]
             row[end].append(seed)
@@ -190,8 +320,8 @@ def main():
                     path.replace(args.keep / path.name)
             path.unlink(missing_ok=True)
     for kind, row in table.items():
-        print("%-13s %4d conforming, %4d named, %4d failed; up to %d triangles, %d pairs, moves %.3g, %.3g s" % (
-            kind, len(row["conforming"]), len(row["named"]), len(row["failed"]), max(row["triangles"]), max(row["pairs"]),
+        print("%-13s %4d joined, %4d conforming, %4d named, %4d failed; up to %d triangles, %d pairs, moves %.3g, %.3g s" % (
+            kind, len(row["joined"]), len(row["conforming"]), len(row["named"]), len(row["failed"]), max(row["triangles"]), max(row["pairs"]),
             max(row["moves"]), max(row["seconds"])))
     return 1 if failures else 0
 
