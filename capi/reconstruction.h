@@ -30,7 +30,7 @@ typedef struct terrane_fill_task {
     double gap_slope;      ///< throw / width from which a hole counts as a fault gap
     double smoothing;      ///< radial basis functions: root mean square misfit to the data; NaN:
                            ///< none; 0: automatic
-    uint32_t rings;        ///< of triangles round the hole, data of kriging
+    uint32_t rings;        ///< least number of rings of data of kriging
     int32_t is_isotropic;  ///< not 0: the variogram is the same in all directions
     int32_t bridge_faults; ///< not 0: fault gaps are filled, too
     int32_t reserved;      ///< 0

@@ -58,14 +58,15 @@ struct FillOptions {
                     true),
               o.gap_slope);
         visit(Field("isotropic", "", "For kriging: the variogram is the same in all directions",
-                    "models with directions count, too"),
+                    "anisotropy is fitted"),
               o.isotropic);
         visit(Field("mesh_size", "LENGTH", "Edge length of the new triangles",
                     "the median edge of the hole's border; down to a quarter of it where flat "
                     "triangles would miss more than the method itself",
                     {}, true),
               o.mesh_size);
-        visit(Field("rings", "N", "For kriging: rings of triangles round the hole that are data",
+        visit(Field("rings", "N",
+                    "For kriging: least number of rings of triangles round the hole that are data",
                     {}, {1, 1000, true}),
               o.rings);
     }
