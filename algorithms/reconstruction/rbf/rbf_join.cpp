@@ -59,6 +59,18 @@ Result<Filling> fill_turned(const Surface& surface, const BorderLoop& loop,
     return filling;
 }
 
+/// Tells whether an edge is steeper than 87 degrees: heights do not tell where a cliff goes.
+bool has_cliff(const rbf::detail::RbfData& data, const Point3& up) {
+    constexpr double steepest = 20;
+    for (const Triangle& t : data.triangles)
+        for (unsigned i = 0; i < 3; ++i) {
+            const Point3 d = minus(data.points[t[(i + 1) % 3]], data.points[t[i]]);
+            const double rise = dot(d, up), square = dot(d, d) - rise * rise;
+            if (rise * rise > steepest * steepest * square) return true;
+        }
+    return false;
+}
+
 /// Fills a graph over x and y, or else over the hole's own plane.
 Result<Filling> fill_graph(const Surface& surface, const BorderLoop& loop,
                            const RbfOptions& options, const Run& run) {
@@ -69,9 +81,11 @@ Result<Filling> fill_graph(const Surface& surface, const BorderLoop& loop,
     if (options.smoothing.value_or(0) > 0) kriging.noise = options.smoothing;
     const auto own = rbf::detail::axes_of(*data);
     const Point3 up{0, 0, own[2].z < 0 ? -1.0 : 1.0};
-    if (rbf::detail::is_graph_along(*data, up)) return fill_by_kriging(surface, loop, kriging, run);
-    if (rbf::detail::is_graph_along(*data, own[2]))
-        return fill_turned(surface, loop, kriging, own, run);
+    const auto is_graph = [&](const Point3& axis) {
+        return rbf::detail::is_graph_along(*data, axis) && !has_cliff(*data, axis);
+    };
+    if (is_graph(up)) return fill_by_kriging(surface, loop, kriging, run);
+    if (is_graph(own[2])) return fill_turned(surface, loop, kriging, own, run);
     return Error{ErrorCode::unsupported, "the surface is no graph next to the hole", ""};
 }
 
