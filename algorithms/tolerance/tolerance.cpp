@@ -24,6 +24,7 @@
 #include <terrane/algorithms/tolerance/detail/owners.hpp>
 #include <terrane/algorithms/tolerance/detail/thin_cells.hpp>
 #include <terrane/algorithms/tolerance/detail/tuning.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane {
 
@@ -119,18 +120,45 @@ std::vector<Surface> owned_surfaces(const Mesh& mesh, const Owners& owners,
     return surfaces;
 }
 
-/// Joins surfaces that move by no more than about `bound`.
-Result<JoinedSurfaces> join_by(const std::vector<Surface>& given, double bound,
-                               const ToleranceOptions& options, const Run& run) {
-    JoinedSurfaces joined{given, {}};
+/// Counts the blocks of a mesh that are thin.
+Result<std::size_t> thin_blocks(const Mesh& mesh, double bound, const Run& run) {
+    const auto volumes = find_volumes(mesh, run);
+    if (!volumes) return volumes.error();
+    std::vector<double> area(volumes->measures.size(), 0.0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto& [a, b, c] = mesh.triangles[t];
+        for (const std::uint32_t side : volumes->of_sides[t])
+            area[side] += area_between(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+    }
+    std::size_t thin = 0;
+    for (std::size_t v = 1; v < area.size(); ++v)
+        if (2 * volumes->measures[v] <= bound * area[v]) ++thin;
+    return thin;
+}
+
+/// Surfaces that were joined once, and whether rounding made thin blocks.
+struct JoinedOnce {
+    JoinedSurfaces joined;
+    bool is_clean = true; ///< conforming
+    bool is_thin = false;
+};
+
+/// Joins surfaces that move by no more than about `bound`. is_first: else only cells that surfaces
+/// enclose are thin, which rounding made.
+Result<JoinedOnce> join_once(const std::vector<Surface>& given, double bound, bool is_first,
+                             const ToleranceOptions& options, const Run& run) {
+    JoinedOnce once{{given, {}}};
+    JoinedSurfaces& joined = once.joined;
     std::vector<bool> closed;
     for (const Surface& s : given)
         closed.push_back(std::ranges::all_of(
             edges_of(s), [](const SurfaceEdge& e) { return e.sides.size() % 2 == 0; }));
     auto all = given;
-    snap_near_vertices(all, bound);
-    joined.report.vertices = join_curves(all, tuning.curve_share * bound);
-    all.push_back(fences_of(all, bound));
+    if (is_first) {
+        snap_near_vertices(all, bound);
+        joined.report.vertices = join_curves(all, tuning.curve_share * bound);
+    }
+    all.push_back(is_first ? fences_of(all, bound) : Surface{});
     auto exact = arrange(all, options.arrange, run);
     if (!exact) return exact.error();
     auto found = join_thin_cells(*exact, closed, bound, run);
@@ -138,7 +166,7 @@ Result<JoinedSurfaces> join_by(const std::vector<Surface>& given, double bound,
     joined.report.cells = found->cells;
     joined.report.volume = found->volume;
     joined.report.left = std::move(found->left);
-    if (found->cells == 0 && joined.report.vertices == 0) return joined;
+    if (found->cells == 0 && joined.report.vertices == 0) return once;
     Owned owned{std::move(*exact), std::move(found->owners)};
     auto fewer = arrange_needed(std::move(all), owned, closed, options, run);
     if (!fewer) return fewer.error();
@@ -153,17 +181,44 @@ Result<JoinedSurfaces> join_by(const std::vector<Surface>& given, double bound,
     const auto owners = owners_of(
         pieces, owned.pieces(places), owned.owners, closed,
         [](std::uint32_t parent) { return parent; }, run);
-    if (!are_closed(pieces, owners, closed, run)) return joined;
+    joined.report.is_refused = !are_closed(pieces, owners, closed, run);
+    if (joined.report.is_refused) return once;
     joined.surfaces = owned_surfaces(mesh, owners, given);
     joined.report.is_joined = true;
-    return joined;
+    once.is_clean = rounded->report.clean;
+    if (!once.is_clean) return once;
+    const auto thin = thin_blocks(mesh, bound, run);
+    if (!thin) return thin.error();
+    once.is_thin = *thin > joined.report.left.size();
+    return once;
 }
 
-/// Whether each surface is shown to be within the bound of where it was, and that of it.
+/// Joins surfaces until nothing thin is left that can be joined.
+Result<JoinedOnce> join_by(const std::vector<Surface>& surfaces, double bound,
+                           const ToleranceOptions& options, const Run& run) {
+    auto all = join_once(surfaces, bound, true, options, run);
+    for (unsigned pass = 1; all && all->is_thin && pass < tuning.most_passes; ++pass) {
+        auto once = join_once(all->joined.surfaces, bound, false, options, run);
+        if (!once) return once;
+        // What rounding makes of narrow gaps may be worse than they were.
+        if (!once->joined.report.is_joined || !once->is_clean || run.stop.stop_requested()) break;
+        ToleranceReport& report = once->joined.report;
+        report.vertices += all->joined.report.vertices;
+        report.cells += all->joined.report.cells;
+        report.volume += all->joined.report.volume;
+        all = std::move(once);
+    }
+    return all;
+}
+
+/// Whether each surface is shown to be within the bound of where it was, and that of it; and where
+/// surfaces were that vanished, others are.
 bool are_within(const std::vector<Surface>& before, const std::vector<Surface>& after, double bound,
                 const Run& run) {
+    const Mesh all = concatenate(after);
+    const Surface together{"", Role::unknown, all.vertices, all.triangles};
     for (std::size_t s = 0; s < before.size(); ++s)
-        if (!is_within(before[s], after[s], bound, run) ||
+        if (!is_within(before[s], after[s].triangles.empty() ? together : after[s], bound, run) ||
             !is_within(after[s], before[s], bound, run))
             return false;
     return true;
@@ -179,20 +234,25 @@ Result<JoinedSurfaces> join_within(std::vector<Surface> surfaces, const Toleranc
         const StageTimer timer(run, "tolerance");
         const Run inner = timer.inside();
         // Moves add up where a surface is near several others: then each may be by half as much.
+        JoinedSurfaces best{{}, {.tolerance = options.tolerance, .is_refused = true}};
         for (double bound = options.tolerance; bound >= options.tolerance / 4; bound /= 2) {
-            auto joined = join_by(surfaces, bound, options, inner);
-            if (!joined) return joined;
-            joined->report.tolerance = joined->report.largest = options.tolerance;
-            if (!joined->report.is_joined ||
-                are_within(surfaces, joined->surfaces, options.tolerance, inner))
-                return joined;
+            auto found = join_by(surfaces, bound, options, inner);
+            if (!found) return found.error();
+            auto& [joined, is_clean, is_thin] = *found;
+            joined.report.tolerance = options.tolerance;
+            for (std::uint32_t s = 0; s < surfaces.size(); ++s)
+                if (joined.surfaces[s].triangles.empty() && !surfaces[s].triangles.empty())
+                    joined.report.vanished.push_back(s);
+            const bool is_shown = !joined.report.is_refused &&
+                                  (!joined.report.is_joined ||
+                                   are_within(surfaces, joined.surfaces, options.tolerance, inner));
             if (run.stop.stop_requested())
                 return Error{ErrorCode::interrupted, "stopped on request", ""};
+            if (is_shown && is_clean) return std::move(joined);
+            if (is_shown && best.report.is_refused) best = std::move(joined);
         }
-        JoinedSurfaces none;
-        none.report.tolerance = options.tolerance;
-        none.surfaces = std::move(surfaces);
-        return none;
+        if (best.report.is_refused) best.surfaces = std::move(surfaces);
+        return best;
     });
 }
 
@@ -201,6 +261,10 @@ std::vector<NamedConstant> tolerance_constants() {
             {"fence_reach", tuning.fence_reach},
             {"fence_spacings", tuning.fence_spacings},
             {"alike", tuning.alike},
+            {"least_gain", tuning.least_gain},
+            {"grid_steps", tuning.grid_steps},
+            {"located_spacings", tuning.located_spacings},
+            {"most_passes", static_cast<double>(tuning.most_passes)},
             {"curve_share", tuning.curve_share}};
 }
 

@@ -12,9 +12,9 @@
 //     surfaces run along are the same triangle in each of them.
 //
 // Guarantees: (1) each point of a surface of the result is within the tolerance of where the surface
-// was, and each point where it was is within the tolerance of it, as is_within() shows for the doubles
-// at the end, by code that shares nothing with the moves. A surface for which that is not shown stays
-// as it was, and so do all others. (2) A closed surface stays closed: boundaries are added to it.
+// was, and each point where it was is within the tolerance of it, or of another surface where nothing is
+// left of it, as is_within() shows for the doubles at the end, by code that shares nothing with the moves.
+// If that is not shown for a surface, nothing is joined. (2) A closed surface stays closed: boundaries are added to it.
 // (3) Thin cells that were left are listed. A thin cell with one surface only, such as a thin unit, is
 // left. Cost: that of two arrangements. The result does not depend on the number of threads.
 #pragma once
@@ -49,13 +49,14 @@ struct ThinCell {
 
 /// What was joined.
 struct ToleranceReport {
-    double tolerance = 0;     ///< as asked for
-    std::size_t vertices = 0; ///< of borders and creases that moved to another surface's
-    std::size_t cells = 0;    ///< thin cells that were joined
-    double volume = 0;        ///< of these, cubic unit
-    double largest = 0;       ///< a bound of all moves that is shown, unit of the surfaces; 0: none
+    double tolerance = 0;         ///< as asked for
+    std::size_t vertices = 0;     ///< of borders and creases that moved to another surface's
+    std::size_t cells = 0;        ///< thin cells that were joined
+    double volume = 0;            ///< of these, cubic unit
     std::vector<ThinCell> left{}; ///< from the largest volume on
-    bool is_joined = false;       ///< false: nothing was near, or the moves were not shown
+    std::vector<std::uint32_t> vanished{}; ///< surfaces that collapsed: others are where they were
+    bool is_joined = false;                ///< false: nothing is near, or is_refused
+    bool is_refused = false; ///< what was joined is not shown to be within the tolerance
 };
 
 /// Surfaces that were joined.

@@ -71,9 +71,12 @@ std::string text_of(const ToleranceReport& report, const Inputs& inputs) {
                     quantities.length(report.tolerance, 4),
                     report.vertices == 1 ? "1 vertex" : fmt::format("{} vertices", report.vertices),
                     counted(report.cells, "thin cell"), quantities.volume(report.volume, 3));
-    if (!report.is_joined && report.vertices + report.cells > 0)
+    if (report.is_refused)
         text = fmt::format("nothing joined within {}: the moves are not shown to be within it\n",
                            quantities.length(report.tolerance, 4));
+    for (const std::uint32_t s : report.vanished)
+        text += fmt::format("  {} vanished: it is thinner, and the same as others now\n",
+                            inputs.labels[s]);
     for (std::size_t i = 0; i < std::min(report.left.size(), most_printed); ++i) {
         const ThinCell& cell = report.left[i];
         text += fmt::format("  left: {} thick, volume {}, at {}, between {}\n",
@@ -92,9 +95,13 @@ void add_statistics(Json& json, const ToleranceReport& report, const Inputs& inp
                         {"volume", cell.volume},
                         {"place", {cell.place.x, cell.place.y, cell.place.z}},
                         {"surfaces", labels_of(cell.surfaces, inputs)}});
-    json["tolerance"] = {{"tolerance", report.tolerance}, {"is_joined", report.is_joined},
-                         {"vertices", report.vertices},   {"cells", report.cells},
-                         {"volume", report.volume},       {"left", std::move(left)}};
+    json["tolerance"] = {{"tolerance", report.tolerance},
+                         {"is_refused", report.is_refused},
+                         {"vanished", labels_of(report.vanished, inputs)},
+                         {"vertices", report.vertices},
+                         {"cells", report.cells},
+                         {"volume", report.volume},
+                         {"left", std::move(left)}};
 }
 
 } // namespace terrane::cli

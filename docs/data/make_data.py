@@ -168,6 +168,46 @@ def licence_body():
     return tsurf("body", "boundary", vertices, triangles)
 
 
+def unit(name, low, high, west, east, cells):
+    """A closed unit between two heights, from 0 to 1200 m north, with cells along each side."""
+    vertices, triangles, number = [], [], {}
+
+    def vertex(i, j, k):
+        if (i, j, k) not in number:
+            x, y = west + (east - west) * i / cells, 1200.0 * j / cells
+            number[i, j, k] = len(vertices)
+            vertices.append((x, y, low(x, y) + (high(x, y) - low(x, y)) * k / cells))
+        return number[i, j, k]
+
+    for i in range(cells):
+        for j in range(cells):
+            for side, turned in ((0, False), (cells, True)):
+                for places in ([(i, j, side), (i, j + 1, side), (i + 1, j + 1, side), (i + 1, j, side)],
+                               [(i, side, j), (i + 1, side, j), (i + 1, side, j + 1), (i, side, j + 1)],
+                               [(side, i, j), (side, i, j + 1), (side, i + 1, j + 1), (side, i + 1, j)]):
+                    a, b, c, d = (vertex(*p) for p in places)
+                    pair = [(a, b, c), (a, c, d)]
+                    triangles += [t[::-1] for t in pair] if turned else pair
+    return name, vertices, triangles
+
+
+def units():
+    """Three closed units that were meshed apart: their contacts nearly coincide."""
+    def contact(x, y):
+        return -1200 + 0.1 * x + 0.05 * y
+
+    parts = [unit("basement", lambda x, y: -2000.0, contact, 0.0, 1600.0, 5),
+             unit("west", contact, lambda x, y: -700.0, 0.0, 900.0, 4),
+             unit("east", contact, lambda x, y: -700.0, 900.03, 1600.0, 3)]
+    lines, first = [], 1
+    for name, vertices, triangles in parts:
+        lines.append("o " + name)
+        lines += ["v %.1f %.1f %.1f" % v for v in vertices]
+        lines += ["f %d %d %d" % tuple(first + v for v in t) for t in triangles]
+        first += len(vertices)
+    return "\n".join(lines) + "\n"
+
+
 def files():
     """The text of each file by name."""
     return {
@@ -179,6 +219,7 @@ def files():
         "salt.ts": sheet("salt", salt_height),
         "shale.ts": sheet("shale", shale_height),
         "body.ts": licence_body(),
+        "units.obj": units(),
         "licence.txt": "# corners of the licence area: x y\n"
                        "200 100\n1900 200\n1700 1400\n900 1300\n300 1450\n",
     }

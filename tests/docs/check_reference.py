@@ -197,6 +197,7 @@ def write_json_files(program, folder):
     run("volume", *model, *box, "-o", "open", "--column", "column.json", "--stats", "open.json")
     run("volume", *model, *box, "-o", "sealed", "--seal", "200", "--seal", "top/fault=10",
         "--stats", "sealed_statistics.json")
+    run("volume", "units.obj", "-o", "joined", "--tolerance", "0.2", "--stats", "joined_statistics.json")
     run("volume", *model, *box, "--suggest-seal", "--stats", "suggest.json")
     run("volume", *model, *box, "-o", "merged", "--seal", "auto", "--min-volume", "4e8", "--stats", "merged.json")
     run("arrange", *model, "-o", "tiles.vtp", "--memory", "1GiB", "--digest", "--volumes", "--stats", "in_tiles.json")
@@ -227,7 +228,7 @@ def write_json_files(program, folder):
     with (folder / "top.ts").open("a") as changed:
         changed.write("\n")
     run("verify", "certificate.json", "--json", out="refuted.json")
-    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "fill.json", "rbf.json",
+    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "joined_statistics.json", "fill.json", "rbf.json",
                   "in_tiles.json", "resolution.json", "open.json", "arrange.json", "stl.json"]
     if has_tetgen(program):
         run("tetrahedralize", *model, *box, "-o", "t.vtu", "--stats", "tetrahedra.json")
@@ -271,7 +272,7 @@ def check_json(program, findings):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for file in (ROOT / "docs" / "data").iterdir():
-            if file.suffix in (".ts", ".asc"):
+            if file.suffix in (".ts", ".asc", ".obj"):
                 (folder / file.name).write_bytes(file.read_bytes())
         written = write_json_files(program, folder)
         true = {page: set().union(*(key_paths(json.loads((folder / f).read_text())) for f in files))
@@ -295,7 +296,7 @@ def check_json(program, findings):
                     or k in ("seconds.tetrahedralize", "seconds.check", "seconds.split", "seconds.optimise")}
         optional |= {k for k in pages["certificate.md"] if k.startswith("tetrahedra")}
     # The model of the pages has no block, and no contact of blocks, that a resolution changes.
-    optional |= {k for k in pages["statistics.md"] if k.startswith(("resolution.blocks[]", "resolution.contacts[]"))}
+    optional |= {k for k in pages["statistics.md"] if k.startswith(("tolerance.left[]", "resolution.blocks[]", "resolution.contacts[]"))}
     for page, documented in pages.items():
         compare_keys(page, documented, true[page], findings, frozenset(optional))
     return sum(len(paths) for paths in true.values())

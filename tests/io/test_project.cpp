@@ -44,7 +44,7 @@ json full() {
         "layers": {"order": [{"surface": "top", "hardness": 1.5},
                              {"surface": "base", "hardness": -2}], "min_thickness": 0.5},
         "volume_of_interest": {"box": {"low": [0, 0, -1.5], "high": [1, 2, 3]}},
-        "extend": 100, "seal": 0.25, "seal_of": {"top": 0, "top/base": 3}, "min_volume": 2.5, "max_move": 0.5,
+        "tolerance": 0.125, "extend": 100, "seal": 0.25, "seal_of": {"top": 0, "top/base": 3}, "min_volume": 2.5, "max_move": 0.5,
         "improve": {"edge_length": 4, "max_deviation": 0.125, "edge_length_of": {"top": 3},
                     "layers_in_gaps": 0.5, "smallest": 0.25, "resolution": 1.5, "dissolve": true},
         "tetrahedra": {"edge_length": 2, "max_volume": 3.5, "quality": 1.4, "split_surfaces": true,
@@ -69,7 +69,7 @@ std::vector<json> samples() {
         all.back()["volume_of_interest"] = json::parse(volume);
     }
     all.push_back(full());
-    for (const char* key : {"unit", "improve", "fill", "layers", "min_volume"})
+    for (const char* key : {"unit", "improve", "fill", "layers", "tolerance", "min_volume"})
         all.back().erase(key);
     all.back()["outputs"]["certificate"] = true;
     all.back()["tetrahedra"]["order"] = 1;

@@ -89,6 +89,12 @@ std::vector<Stage> cutting() {
         },
         [](const Arranged& arranged) { return text_of(arranged.exact); }));
     stages.push_back(stage_of(
+        "join_within", [&f] { return f.surfaces; },
+        [](std::vector<Surface> given) {
+            return join_within(std::move(given), {.tolerance = wide});
+        },
+        [](const JoinedSurfaces& joined) { return text_of(joined.surfaces); }));
+    stages.push_back(stage_of(
         "seal", [&f] { return f.surfaces; },
         [](std::vector<Surface> given) { return seal(std::move(given), {.distance = wide}); },
         [](const Sealed& sealed) { return text_of(sealed.surfaces); }));

@@ -10,6 +10,7 @@
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/mesh/surface_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/tolerance/detail/creases.hpp>
@@ -57,8 +58,10 @@ public:
         for (const SurfaceEdge& e : edges_) {
             if (!e.is_crease) continue;
             const double a = reach(e.ends[0]), b = reach(e.ends[1]);
-            if (a == 0 && b == 0) continue;
-            for (const auto& side : e.sides) append(e, side, a != 0 ? a : b, b != 0 ? b : a, out);
+            const double most = std::max({a, b, reach(middle_of(e.ends[0], e.ends[1]))});
+            if (most == 0) continue;
+            for (const auto& side : e.sides)
+                append(e, side, a != 0 ? a : most, b != 0 ? b : most, out);
         }
     }
 

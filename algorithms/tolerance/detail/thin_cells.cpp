@@ -47,8 +47,7 @@ public:
     CellJoining(const Arrangement& a, const Volumes& volumes, const std::vector<bool>& closed,
                 double bound, const Run& run) :
         a_(a),
-        volumes_(volumes), bound_(bound), run_(run), area_(a.triangles.size()),
-        moved_(a.triangles.size(), 0.0) {
+        volumes_(volumes), bound_(bound), run_(run), area_(a.triangles.size()) {
         result_.owners.resize(a.triangles.size());
         for (std::uint32_t v = 0; v < a.vertices.size(); ++v)
             places_.push_back(a.nearest(VertexId(v)));
@@ -151,7 +150,7 @@ private:
         areas.erase(SurfaceSet{});
         std::vector<std::pair<double, SurfaceSet>> order;
         for (const auto& [surfaces, area] : areas)
-            if (area > of_none) order.emplace_back(area, surfaces);
+            if (area > of_none + tuning.least_gain * cell.area) order.emplace_back(area, surfaces);
         std::ranges::sort(order, std::greater{});
         const auto alike = std::ranges::find_if(order, [&](const auto& one) {
             return one.first < order[0].first - tuning.alike * cell.area;
@@ -182,6 +181,10 @@ private:
         }
         return all;
     }
+    [[nodiscard]] double moved(std::uint32_t t, std::uint32_t surface) const {
+        const auto at = moved_.find({t, surface});
+        return at == moved_.end() ? 0 : at->second;
+    }
     /// Returns how far a surface will have moved if the boundary of the cell is added to it: infinity if more than it may.
     [[nodiscard]] double move_of(std::uint32_t surface, const Cell& cell,
                                  const std::set<std::uint32_t>& own) const {
@@ -191,7 +194,7 @@ private:
         for (const Face& f : cell.faces) {
             const bool is_of = has(f.triangle, surface);
             (is_of ? from : to).push_back(f.triangle);
-            if (is_of) before = std::max(before, moved_[f.triangle]);
+            if (is_of) before = std::max(before, moved(f.triangle, surface));
             for (const std::uint32_t v : a_.triangles[f.triangle])
                 for (const std::uint32_t t : at_vertex_[v])
                     if (!own.contains(t) && has(t, surface)) others.insert(t);
@@ -237,7 +240,7 @@ private:
             // Seen from the other side of the cell, the front of the surface is where it was.
             owners.push_back({surface, f.is_front == faces_cell});
             std::ranges::sort(owners, {}, &Owner::surface);
-            moved_[f.triangle] = std::max(moved_[f.triangle], move);
+            moved_[{f.triangle, surface}] = move;
         }
     }
 
@@ -264,7 +267,9 @@ private:
     const double bound_;
     const Run& run_;
     Ownership result_;
-    std::vector<double> area_, moved_;
+    std::vector<double> area_;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, double>
+        moved_; ///< how far a surface moved to a triangle, where it did
     std::vector<Point3> places_;
     IndexLists<std::uint32_t> at_vertex_; ///< triangles
 };

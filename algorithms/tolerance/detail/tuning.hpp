@@ -19,10 +19,14 @@ struct Tuning {
     /// Interfaces whose areas differ by less than this share of their cell's are alike: that of the
     /// last surface vanishes, so that of two units the first keeps its triangles.
     double alike = 0.1;
+    /// An interface vanishes if all triangles then have less area, by this share of its cell's.
+    double least_gain = 1e-9;
     /// The grid of near vertices has at least so many spacings per tolerance.
     double grid_steps = 64;
     /// Triangles narrower than so many spacings are not told apart by the place of their centres.
     double located_spacings = 4096;
+    /// Surfaces are joined again, so often at most, where rounding made thin blocks.
+    unsigned most_passes = 4;
     /// The share of the tolerance by which vertices of curves may move.
     double curve_share = 0.5;
 };
