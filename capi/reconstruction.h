@@ -23,14 +23,14 @@ typedef struct terrane_fill_task {
     uint32_t surface;      ///< number of the surface; no two tasks have the same
     int32_t use_rbf;       ///< 0: kriging, for z = f(x, y); not 0: radial basis functions, for any
                            ///< surface
-    const char* variogram; ///< model of kriging: "spherical", ...; NULL or "auto": the one that
-                           ///< fits best
+    const char* variogram; ///< model of kriging: "spherical", ...; NULL or "auto": all but
+                           ///< spherical count
     double max_area;       ///< larger holes stay open; squared unit; default: infinite
     double mesh_size;      ///< edge length of the filling; 0: the median edge of the hole's border
     double gap_slope;      ///< throw / width from which a hole counts as a fault gap
     double smoothing;      ///< radial basis functions: root mean square misfit to the data; NaN:
                            ///< none; 0: automatic
-    uint32_t rings;        ///< of triangles round the hole, data of kriging
+    uint32_t rings;        ///< least number of rings of data of kriging
     int32_t is_isotropic;  ///< not 0: the variogram is the same in all directions
     int32_t bridge_faults; ///< not 0: fault gaps are filled, too
     int32_t reserved;      ///< 0

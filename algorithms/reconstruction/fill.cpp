@@ -31,9 +31,11 @@ struct OneFilled {
 Result<OneFilled> by_kriging(const FillOptions& wanted, const Surface& surface,
                              const BorderLoop& loop, std::span<const BorderLoop> loops,
                              const Run& run) {
-    KrigingOptions options{.mesh_size = wanted.mesh_size, .rings = wanted.rings, .loops = loops};
-    if (wanted.model) options.variogram.model = *wanted.model;
-    options.variogram.anisotropy = !wanted.isotropic;
+    const KrigingOptions options{.model = wanted.model,
+                                 .anisotropy = !wanted.isotropic,
+                                 .mesh_size = wanted.mesh_size,
+                                 .rings = wanted.rings,
+                                 .loops = loops};
     auto filling = fill_by_kriging(surface, loop, options, run);
     if (!filling) return filling.error();
     OneFilled filled;
@@ -66,8 +68,9 @@ Result<OneFilled> by_rbf(const FillOptions& wanted, const Surface& surface, cons
         squares += filled.deviation.back() * filled.deviation.back();
     }
     // The mean is that of what was joined, without the margin beyond the border.
-    filled.report.expected_error =
-        std::sqrt(squares / std::max(1.0, static_cast<double>(filled.deviation.size())));
+    if (!filled.deviation.empty())
+        filled.report.expected_error =
+            std::sqrt(squares / static_cast<double>(filled.deviation.size()));
     filled.surface = std::move(joined.surface);
     return filled;
 }

@@ -37,7 +37,7 @@ enum class FillMethod : std::uint8_t {
 /// each member does.
 struct FillOptions {
     FillMethod method = FillMethod::kriging; ///< of all holes of the surface
-    std::optional<VariogramModel> model{};   ///< of kriging; none: the one that fits best
+    std::optional<VariogramModel> model{};   ///< of kriging; none: all count, as likely as they are
     double max_area = HUGE_VAL;              ///< see describe(), squared unit
     double mesh_size = 0;                    ///< see describe()
     std::size_t rings = 5;                   ///< see describe()
@@ -65,7 +65,8 @@ struct FillOptions {
                     "triangles would miss more than the method itself",
                     {}, true),
               o.mesh_size);
-        visit(Field("rings", "N", "For kriging: rings of triangles round the hole that are data",
+        visit(Field("rings", "N",
+                    "For kriging: least number of rings of triangles round the hole that are data",
                     {}, {1, 1000, true}),
               o.rings);
     }

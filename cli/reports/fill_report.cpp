@@ -121,13 +121,21 @@ void add_statistics(Json& json, const FillWork& work) {
                    {"width", loop.width},
                    {"throw", loop.fault_throw},
                    {"centre", {loop.centre.x, loop.centre.y, loop.centre.z}}};
-        if (hole.report)
+        if (hole.report) {
+            Json models = Json::array();
+            for (const ModelShare& m : hole.report->models)
+                models.push_back({{"model", m.model},
+                                  {"weight", m.weight},
+                                  {"height", known(m.height)},
+                                  {"deviation", known(m.deviation)}});
             entry["filled"] = {{"interpolated", hole.report->interpolated},
                                {"area", hole.report->area},
                                {"data", hole.report->data},
                                {"expected_error", known(hole.report->expected_error)},
                                {"validated_error", known(hole.report->validated_error)},
-                               {"model", hole.report->model}};
+                               {"model", hole.report->model},
+                               {"models", std::move(models)}};
+        }
         if (!hole.refused.empty()) entry["refused"] = hole.refused;
         list.push_back(std::move(entry));
     }

@@ -250,7 +250,7 @@ def fill(surface: Any, *, method: str = "kriging", holes: Optional[Sequence[int]
     max_area, mesh_size : float, optional
         Larger holes stay open, squared unit; edge length of the filling, 0: that of the border.
     rings : int, optional
-        For kriging: rings of triangles round the hole that are data, 1 to 1000.
+        For kriging: least number of rings of triangles round the hole that are data, 1 to 1000.
     gap_slope, isotropic : optional
         When a hole is a gap; whether the variogram is the same in all directions.
     bridge_faults : bool, optional

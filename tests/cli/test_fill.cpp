@@ -156,8 +156,15 @@ TEST_CASE("cli: fill foresees its errors, and smooths on request", "[cli][once]"
         const auto holes = Json::parse(folder.read("s.json"))["holes"];
         for (const auto& hole : holes) {
             CHECK(hole["filled"]["expected_error"].get<double>() > 0);
-            CHECK(contains(hole["filled"]["model"].get<std::string>(), "smoothed") ==
-                  (smoothing != "none"));
+            double weight = 0;
+            for (const auto& model : hole["filled"]["models"]) {
+                const auto text = model["model"].get<std::string>();
+                const bool told = contains(text, "nugget 9") || contains(text, "noise 3");
+                CHECK(told == (smoothing == "3"));
+                CHECK(model["deviation"].get<double>() > 0);
+                weight += model["weight"].get<double>();
+            }
+            CHECK(weight == Approx(1));
         }
         std::istringstream csv(folder.read("p.csv"));
         std::string line;

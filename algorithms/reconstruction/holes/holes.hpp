@@ -66,7 +66,15 @@ Result<std::vector<BorderLoop>> find_border_loops(const Surface& surface, const 
 std::vector<NamedConstant> hole_constants();
 
 /// The shapes of variograms, by which kriging fills; the formulas are at Variogram.
-enum class VariogramModel : std::uint8_t { spherical, exponential, gaussian, power, matern };
+enum class VariogramModel : std::uint8_t {
+    spherical,
+    exponential,
+    gaussian,
+    power,
+    matern,
+    thin_plate,
+    cubic
+};
 
 /// Names the model: "spherical", ...
 std::string_view name_of(VariogramModel model);
@@ -74,16 +82,26 @@ std::string_view name_of(VariogramModel model);
 /// The variogram model of this name ("spherical", ...); none for any other word, such as "auto".
 std::optional<VariogramModel> variogram_model_named(std::string_view name);
 
+/// A model that took part in an average, and what it says at the middle of the hole: the new vertex
+/// that is farthest from the border.
+struct ModelShare {
+    std::string model;    ///< the trend, the variogram and its parameters
+    double weight = 0;    ///< of its estimates; all are 1 together
+    double height = 0;    ///< estimated at that place; NaN: there is no new vertex
+    double deviation = 0; ///< standard deviation there, likewise
+};
+
 /// Describes a filling and how far it can be trusted. Lengths are in the unit of the surface.
 struct FillReport {
-    std::size_t data = 0;         ///< points of the surface used as data
-    std::size_t interpolated = 0; ///< vertices that the surface did not have
-    double area = 0;              ///< of the triangles
-    double expected_error = 0;    ///< root mean square of Filling::expected_error over the
-                                  ///< interpolated vertices; NaN if the method predicts none
-    double validated_error = 0;   ///< root mean square error at data that were left out and
-                                  ///< predicted from the others; NaN if not computed
-    std::string model;            ///< the fitted model and its parameters, in a sentence
+    std::size_t data = 0;             ///< points of the surface used as data
+    std::size_t interpolated = 0;     ///< vertices that the surface did not have
+    double area = 0;                  ///< of the triangles
+    double expected_error = 0;        ///< root mean square of Filling::expected_error over the
+                                      ///< interpolated vertices; NaN if the method predicts none
+    double validated_error = 0;       ///< root mean square error at data that were left out and
+                                      ///< predicted from the others; NaN if not computed
+    std::string model;                ///< the models, the likeliest first, in a sentence
+    std::vector<ModelShare> models{}; ///< of a graph: all that were averaged, the likeliest first
     std::vector<std::array<double, 2>>
         variogram{}; ///< of kriging, without the trend: mean distance, half the mean squared
                      ///< difference of heights; ascending; empty: there is none

@@ -4,33 +4,84 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include <terrane/algorithms/mesh/vectors.hpp>
-#include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
-
 namespace terrane {
 namespace {
-
-using kriging::detail::constants;
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-} // namespace
-
-NoiseAlone::NoiseAlone(const VectorXd& contrasts) {
-    const auto n = static_cast<double>(contrasts.size());
-    price = std::log(n) / 2;
-    variance = contrasts.squaredNorm() / n;
-    if (variance > 0) likelihood = -n * std::log(variance) / 2;
+/// Reflects data by the k-th Householder vector, whose first component is 1.
+void reflect(const MatrixXd& vectors, double factor, Index k, double* data) {
+    const Index below = vectors.rows() - k - 1;
+    const auto vector = vectors.col(k).tail(below);
+    Eigen::Map<VectorXd> rest(data + k + 1, below);
+    const double step = factor * (data[k] + vector.dot(rest));
+    data[k] -= step;
+    rest -= step * vector;
 }
 
-double NoiseAlone::probability_of(const LikelyNugget& likely, double parameters) const {
-    return 1 / (1 + std::exp(likelihood + parameters * price - likely.likelihood));
+} // namespace
+
+Contrasts::Contrasts(MatrixXd terms) : vectors_(std::move(terms)), factors_(vectors_.cols()) {
+    for (Index k = 0; k < factors_.size(); ++k) {
+        auto column = vectors_.col(k).tail(vectors_.rows() - k);
+        const double rest = column.tail(column.size() - 1).squaredNorm();
+        factors_[k] = 0;
+        if (!(rest > 0)) continue;
+        const double head = column[0], norm = std::sqrt(head * head + rest);
+        const double diagonal = head > 0 ? -norm : norm;
+        factors_[k] = (diagonal - head) / diagonal;
+        column.tail(column.size() - 1) /= head - diagonal;
+        for (Index j = k + 1; j < factors_.size(); ++j) {
+            auto other = vectors_.col(j).tail(column.size());
+            column[0] = 1;
+            other -= factors_[k] * column.dot(other) * column;
+        }
+        column[0] = diagonal;
+    }
+}
+
+bool Contrasts::determined() const {
+    const auto diagonal = vectors_.diagonal().cwiseAbs();
+    return diagonal.minCoeff() > 1e-10 * diagonal.maxCoeff();
+}
+
+void Contrasts::apply_to(double* data) const {
+    for (Index k = 0; k < factors_.size(); ++k) reflect(vectors_, factors_[k], k, data);
+}
+
+void Contrasts::undo_to(double* data) const {
+    for (Index k = factors_.size(); k-- > 0;) reflect(vectors_, factors_[k], k, data);
+}
+
+void Contrasts::apply(MatrixXd& columns) const {
+    for (Index c = 0; c < columns.cols(); ++c) apply_to(columns.col(c).data());
+}
+
+void Contrasts::undo(MatrixXd& columns) const {
+    for (Index c = 0; c < columns.cols(); ++c) undo_to(columns.col(c).data());
+}
+
+void Contrasts::apply_twice(MatrixXd& symmetric) const {
+    apply(symmetric);
+    symmetric.transposeInPlace();
+    apply(symmetric);
+}
+
+VectorXd Contrasts::trend_of(const VectorXd& numbers) const {
+    const Index m = terms();
+    return vectors_.topLeftCorner(m, m).triangularView<Eigen::Upper>().solve(numbers.head(m));
+}
+
+void Contrasts::reproduce(MatrixXd& terms) const {
+    const Index m = factors_.size();
+    vectors_.topLeftCorner(m, m).transpose().triangularView<Eigen::Lower>().solveInPlace(terms);
 }
 
 TridiagonalKernel::TridiagonalKernel(const MatrixXd& kernel, const VectorXd& contrasts) {
@@ -63,53 +114,28 @@ TridiagonalKernel::Profile TridiagonalKernel::profile(double nugget) const {
     return {-(static_cast<double>(n) * std::log(sill) + logarithms) / 2, sill};
 }
 
-LikelyNugget TridiagonalKernel::most_likely(double most_nugget) const {
+LikelyNugget TridiagonalKernel::most_likely() const {
     LikelyNugget best;
     double best_at = 0;
-    const double low = std::log(constants.least_noise), high = std::log(constants.most_noise);
+    constexpr double least = 1e-10, most = 1e3; // nuggets in mean variances of contrasts
+    const double low = std::log(least), high = std::log(most);
     const auto attempt = [&](double exponent) {
         const double nugget = scale_ * std::exp(exponent);
         const Profile found = profile(nugget);
         if (!(found.likelihood > best.likelihood)) return;
-        if (exponent > low && found.sill * nugget > most_nugget) return;
         best = {found.likelihood, found.sill, found.sill * nugget};
         best_at = exponent;
     };
-    double step = (high - low) / constants.noise_steps;
-    for (int k = 0; k <= constants.noise_steps; ++k) attempt(low + k * step);
-    for (int k = 0; k < constants.noise_halvings; ++k) {
+    constexpr int steps = 48, halvings = 3;
+    double step = (high - low) / steps;
+    for (int k = 0; k <= steps; ++k) attempt(low + k * step);
+    for (int k = 0; k < halvings; ++k) {
         step /= 2;
         const double middle = best_at;
         attempt(std::max(low, middle - step));
         attempt(middle + step);
     }
     return best;
-}
-
-double TridiagonalKernel::missed(double nugget) const {
-    const Index n = diagonal_.size();
-    VectorXd pivots(n), solved(n);
-    for (Index i = 0; i < n; ++i) {
-        const double ratio = i == 0 ? 0 : beside_[i - 1] / pivots[i - 1];
-        pivots[i] = diagonal_[i] + nugget - (i == 0 ? 0 : ratio * beside_[i - 1]);
-        solved[i] = values_[i] - (i == 0 ? 0 : ratio * solved[i - 1]);
-    }
-    for (Index i = n - 1; i >= 0; --i)
-        solved[i] = (solved[i] - (i + 1 == n ? 0 : beside_[i] * solved[i + 1])) / pivots[i];
-    return nugget * solved.norm();
-}
-
-double TridiagonalKernel::freedom(double nugget) const {
-    // The trace of the inverse is the derivative of the logarithm of the determinant.
-    double pivot = 0, slope = 0, trace = 0;
-    for (Index i = 0; i < diagonal_.size(); ++i) {
-        const double square = i == 0 ? 0 : beside_[i - 1] * beside_[i - 1];
-        const double before = i == 0 ? 1 : pivot;
-        slope = 1 + square * slope / (before * before);
-        pivot = diagonal_[i] + nugget - square / before;
-        trace += slope / pivot;
-    }
-    return static_cast<double>(diagonal_.size()) - nugget * trace;
 }
 
 bool cholesky(MatrixXd& matrix, const Run& run) {
@@ -129,94 +155,26 @@ bool cholesky(MatrixXd& matrix, const Run& run) {
     return true;
 }
 
-std::vector<std::uint32_t> well_spread_in_plane(std::span<const Point3> points, std::size_t count) {
-    std::vector<std::uint32_t> chosen;
-    if (points.size() <= count) {
-        for (std::uint32_t i = 0; i < points.size(); ++i) chosen.push_back(i);
-        return chosen;
-    }
-    Point3 mean;
-    for (const Point3& p : points) {
-        const auto n = static_cast<double>(points.size());
-        mean = {mean.x + p.x / n, mean.y + p.y / n, mean.z + p.z / n};
-    }
-    // Squares of distances, in a unit in which they can't overflow.
-    double extent = 0;
-    for (const Point3& p : points)
-        extent = std::max({extent, std::abs(p.x - mean.x), std::abs(p.y - mean.y)});
-    const int exponent = extent > 0 && std::isfinite(extent) ? std::ilogb(extent) : 0;
-    std::vector<double> x, y, distance;
-    for (const Point3& p : points) {
-        x.push_back(std::ldexp(p.x - mean.x, -exponent));
-        y.push_back(std::ldexp(p.y - mean.y, -exponent));
-        distance.push_back(x.back() * x.back() + y.back() * y.back());
-    }
-    constexpr double equal = 1 - 2e-9; // squares differ by more than rounding
-    while (chosen.size() < count) {
-        const double farthest = *std::max_element(distance.begin(), distance.end());
-        if (!(farthest > 0)) break;
-        std::uint32_t best = 0;
-        double height = -1;
-        for (std::uint32_t i = 0; i < points.size(); ++i) {
-            if (distance[i] < equal * farthest) continue;
-            const double off = std::abs(points[i].z - mean.z);
-            if (off <= height) continue;
-            best = i;
-            height = off;
-        }
-        if (chosen.empty())
-            std::fill(distance.begin(), distance.end(), std::numeric_limits<double>::infinity());
-        chosen.push_back(best);
-        const double from_x = x[best], from_y = y[best];
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            const double dx = x[i] - from_x, dy = y[i] - from_y, square = dx * dx + dy * dy;
-            distance[i] = square < distance[i] ? square : distance[i];
-        }
-    }
-    return chosen;
+void divide_by_factor(const MatrixXd& factor, MatrixXd& columns) {
+    factor.triangularView<Eigen::Lower>().solveInPlace(columns);
 }
 
-SpreadPairs well_spread_pairs(std::span<const Point3> points, std::size_t count,
-                              std::size_t pairs) {
-    SpreadPairs result{well_spread_in_plane(points, count), 0};
-    std::vector<bool> taken(points.size(), false);
-    for (const auto i : result.chosen) taken[i] = true;
-    double mean = 0;
-    for (const Point3& p : points) mean += p.z / static_cast<double>(points.size());
-    std::vector<double> gaps;
-    pairs = std::min(pairs, result.chosen.size());
-    for (std::size_t k = 0; k < pairs; ++k) {
-        const Point3 p = points[result.chosen[k]];
-        constexpr double equal = 1 + 1e-9; // distances differ by more than rounding
-        double least = std::numeric_limits<double>::infinity();
-        auto best = static_cast<std::uint32_t>(points.size());
-        for (std::uint32_t i = 0; i < points.size(); ++i) {
-            const double d = length_in_plane(points[i].x - p.x, points[i].y - p.y);
-            if (taken[i] || !(d > 0) || d > equal * least) continue;
-            const bool better = best == points.size() || d * equal < least ||
-                                std::abs(points[i].z - mean) > std::abs(points[best].z - mean);
-            least = std::min(least, d);
-            if (better) best = i;
-        }
-        if (best == points.size()) continue;
-        taken[best] = true;
-        gaps.push_back(least);
-        result.chosen.push_back(best);
-    }
-    if (gaps.empty()) return result;
-    const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-    std::nth_element(gaps.begin(), middle, gaps.end());
-    result.gap = *middle;
+void divide_by_transposed(const MatrixXd& factor, MatrixXd& columns) {
+    factor.transpose().triangularView<Eigen::Upper>().solveInPlace(columns);
+}
+
+MatrixXd squared(const MatrixXd& matrix) {
+    MatrixXd result = MatrixXd::Zero(matrix.cols(), matrix.cols());
+    result.selfadjointView<Eigen::Lower>().rankUpdate(matrix.transpose());
+    result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
     return result;
 }
 
-double rounding_of(std::span<const Point3> data, unsigned degree) {
-    double largest = 0;
-    for (const Point3& p : data) largest = std::max(largest, std::abs(p.z));
-    const double unit = std::nextafter(largest, HUGE_VAL) - largest;
-    // Of the true height, of the estimate, and of a sum before it, and as much again for squares; each
-    // is spread evenly over a unit. That of the data averages out.
-    return unit * std::sqrt(3.0 * degree / 12);
+MatrixXd inverse_of(MatrixXd matrix) {
+    if (!cholesky(matrix, {})) return {};
+    MatrixXd half = MatrixXd::Identity(matrix.rows(), matrix.cols());
+    divide_by_factor(matrix, half);
+    return squared(half);
 }
 
 } // namespace terrane

@@ -1,20 +1,48 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Linear algebra of contrasts: combinations of data that no polynomial of the trend changes.
-// Kriging and radial basis functions share it.
+// Linear algebra of contrasts: combinations of data that no polynomial of the trend changes. What
+// Eigen factorises for kriging is compiled here alone.
 #pragma once
 
 #include <cmath>
-#include <cstdint>
-#include <span>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include <terrane/algorithms/core/run.hpp>
-#include <terrane/kernel/point.hpp>
 
 namespace terrane {
+
+/// An orthogonal basis of the data, in which the first numbers are those of the trend, and the others
+/// contrasts (Householder).
+class Contrasts {
+public:
+    /// `terms`: of the trend, one row per datum; no more columns than rows.
+    explicit Contrasts(Eigen::MatrixXd terms);
+
+    /// Number of terms of the trend.
+    [[nodiscard]] Eigen::Index terms() const { return factors_.size(); }
+    /// Tells whether the data determine the trend.
+    [[nodiscard]] bool determined() const;
+    /// Expresses data, or columns of data, in the basis. Cost: a few operations per number.
+    void apply(Eigen::VectorXd& data) const { apply_to(data.data()); }
+    void apply(Eigen::MatrixXd& columns) const;
+    /// Expresses a symmetric matrix between data in the basis.
+    void apply_twice(Eigen::MatrixXd& symmetric) const;
+    /// Turns numbers in the basis into data.
+    void undo(Eigen::VectorXd& numbers) const { undo_to(numbers.data()); }
+    void undo(Eigen::MatrixXd& columns) const;
+    /// Finds the factors of the terms whose sum has these first numbers in the basis.
+    [[nodiscard]] Eigen::VectorXd trend_of(const Eigen::VectorXd& numbers) const;
+    /// Finds, for columns of terms at places, the first numbers of data weights that reproduce them.
+    void reproduce(Eigen::MatrixXd& terms) const;
+
+private:
+    void apply_to(double* data) const;
+    void undo_to(double* data) const;
+
+    Eigen::MatrixXd vectors_; ///< of the reflections, below the diagonal; above: the triangle
+    Eigen::VectorXd factors_; ///< of the reflections
+};
 
 /// Nugget and sill of a kernel that are most likely.
 struct LikelyNugget {
@@ -23,34 +51,14 @@ struct LikelyNugget {
     double nugget = 0;             ///< variance of single data
 };
 
-/// The hypothesis that contrasts are noise, and the surface the trend.
-struct NoiseAlone {
-    explicit NoiseAlone(const Eigen::VectorXd& contrasts);
-
-    /// Computes how probable it is that the trend leaves a surface: by Akaike's criterion,
-    /// the most likely kernel must be more likely by a factor of e for each of its parameters.
-    [[nodiscard]] double probability_of(const LikelyNugget& likely, double parameters) const;
-
-    double likelihood = -HUGE_VAL; ///< its logarithm, up to the same constant
-    double variance = 0;           ///< of single data
-    double price = 0;              ///< of a parameter, in logarithms of likelihoods
-};
-
 /// Holds the covariance matrix of contrasts in a basis in which it is tridiagonal. The likelihood of
 /// another nugget then costs O(n). Cost of the basis: 4/3 n^3.
 class TridiagonalKernel {
 public:
     TridiagonalKernel(const Eigen::MatrixXd& kernel, const Eigen::VectorXd& contrasts);
 
-    /// Finds the nugget, at most `most_nugget`, and the sill with the largest restricted likelihood
-    /// (Harville 1977).
-    [[nodiscard]] LikelyNugget most_likely(double most_nugget) const;
-    /// Computes the norm of the residual of a fit, for a nugget in sills.
-    [[nodiscard]] double missed(double nugget) const;
-    /// Computes the degrees of freedom that a fit uses beyond the trend, for a nugget in sills.
-    [[nodiscard]] double freedom(double nugget) const;
-    /// Mean of the diagonal.
-    [[nodiscard]] double scale() const { return scale_; }
+    /// Finds the nugget and the sill with the largest restricted likelihood (Harville 1977).
+    [[nodiscard]] LikelyNugget most_likely() const;
 
 private:
     struct Profile {
@@ -68,25 +76,14 @@ private:
 /// and the run was not stopped. Cost: n^3 / 3.
 bool cholesky(Eigen::MatrixXd& matrix, const Run& run);
 
-/// Selects `count` points, each as far as possible from those before it in x and y; the first one
-/// is farthest from the mean. Of points as far as each other the one farthest from the mean height
-/// is taken, so that neither the order of the points decides nor the direction of the axes.
-std::vector<std::uint32_t> well_spread_in_plane(std::span<const Point3> points, std::size_t count);
+/// Divides columns by a Cholesky factor from the left, and by its transpose.
+void divide_by_factor(const Eigen::MatrixXd& factor, Eigen::MatrixXd& columns);
+void divide_by_transposed(const Eigen::MatrixXd& factor, Eigen::MatrixXd& columns);
 
-/// Points from which a covariance can be told.
-struct SpreadPairs {
-    std::vector<std::uint32_t> chosen; ///< well-spread points, then the neighbours of some
-    double gap = 0;                    ///< median distance of those neighbours; 0 if there are none
-};
+/// Computes the product of the transpose of a matrix and itself.
+Eigen::MatrixXd squared(const Eigen::MatrixXd& matrix);
 
-/// Selects `count` well-spread points and, for the first `pairs` of them, the nearest one that
-/// is not taken: without such pairs nobody could tell noise from a surface that is rough within the
-/// distance of well-spread points. Of equally near ones, that farthest from the mean height is
-/// taken.
-SpreadPairs well_spread_pairs(std::span<const Point3> points, std::size_t count, std::size_t pairs);
-
-/// Computes the standard deviation of the error that rounding to doubles adds to estimates of
-/// heights z with a trend of this degree.
-double rounding_of(std::span<const Point3> data, unsigned degree = 1);
+/// Inverts a positive definite matrix; an empty one if it is none.
+Eigen::MatrixXd inverse_of(Eigen::MatrixXd matrix);
 
 } // namespace terrane

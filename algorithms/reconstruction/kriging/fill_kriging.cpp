@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,9 +15,8 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/reconstruction/holes/expected_points.hpp>
 #include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
-#include <terrane/algorithms/reconstruction/kriging/detail/choice.hpp>
-#include <terrane/algorithms/reconstruction/kriging/detail/direction_doubt.hpp>
-#include <terrane/algorithms/reconstruction/kriging/detail/kriging.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/average.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/system.hpp>
 #include <terrane/algorithms/reconstruction/kriging/flat_hole.hpp>
 
@@ -26,49 +26,20 @@ using namespace kriging::detail;
 
 namespace {
 
-/// The model, and what its standard deviations are worth.
-struct FittedModel {
-    Kriging kriging;
-    DirectionDoubt doubt;
-    bool determined = true;
-    double rounding = 0; ///< least expected error
-};
-
-KnownHeights heights_of(const FittedModel& model, std::span<const Point3> places, const Run& run) {
-    KnownHeights known;
-    const auto estimates = model.kriging.at(places, run);
-    const auto doubts = model.doubt.at(places, run);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const Estimate& e = estimates[i];
-        known.heights.push_back(e.value);
-        known.expected.push_back(model.determined
-                                     ? std::hypot(e.standard_deviation, model.rounding, doubts[i])
-                                     : std::numeric_limits<double>::quiet_NaN());
-    }
-    return known;
-}
-
-/// Keeps all data if all can be used at once. Otherwise keeps those at the borders and, of the
-/// others, as many as make `Kriging::most_at_once`, well spread.
-std::vector<Point3> thinned(const std::vector<Point3>& all, std::size_t border) {
-    if (all.size() <= Kriging::most_at_once || border > Kriging::most_at_once) return all;
-    std::vector<Point3> kept(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(border));
-    const auto others = std::span(all).subspan(border);
-    for (const auto i : well_spread_in_plane(others, Kriging::most_at_once - border))
-        kept.push_back(others[i]);
-    return kept;
-}
-
-/// Records the experimental variogram of what the trend leaves of the data, in classes of the
-/// model's distance, and the model at distances up to theirs.
-void record_variogram(std::span<const Point3> data, const Variogram& model, unsigned degree,
+/// Records the experimental variogram of what the trend of the likeliest model leaves of the data,
+/// in classes of its distance, and its variogram at distances up to theirs.
+void record_variogram(std::span<const Point3> data, const WeighedModel& likeliest,
                       FillReport& report) {
     constexpr std::size_t classes = 15, steps = 60;
-    const TrendTerms trend(data, degree);
+    const Variogram& model = likeliest.variogram;
+    const TrendTerms trend(data, likeliest.degree);
     const Eigen::MatrixXd terms = trend.matrix(data);
     Eigen::VectorXd heights(static_cast<Eigen::Index>(data.size()));
     for (std::size_t i = 0; i < data.size(); ++i) heights(static_cast<Eigen::Index>(i)) = data[i].z;
-    const Eigen::VectorXd left = heights - terms * terms.colPivHouseholderQr().solve(heights);
+    const Contrasts contrasts(terms);
+    Eigen::VectorXd numbers = heights;
+    contrasts.apply(numbers);
+    const Eigen::VectorXd left = heights - terms * contrasts.trend_of(numbers);
     std::vector<Point3> residuals(data.begin(), data.end());
     Point3 least = data.front(), largest = data.front();
     for (std::size_t i = 0; i < data.size(); ++i) {
@@ -82,7 +53,7 @@ void record_variogram(std::span<const Point3> data, const Variogram& model, unsi
     struct Class {
         double distance = 0, gamma = 0, pairs = 0;
     };
-    const auto bins = experimental_variogram(residuals, {}, longest);
+    const auto bins = experimental_variogram(residuals, longest);
     double farthest = 0;
     for (const VariogramBin& bin : bins)
         farthest = std::max(farthest, model.distance(bin.dx, bin.dy));
@@ -104,30 +75,55 @@ void record_variogram(std::span<const Point3> data, const Variogram& model, unsi
     }
 }
 
-FittedModel model_of(const FlatHole& hole, const KrigingOptions& options, FillReport& report,
-                     const Run& run) {
-    const auto& data = hole.data();
-    const auto choice = choose_model({data, hole.border(), hole.radius()}, options.variogram, run);
-    FittedModel model{
-        Kriging(thinned(data, hole.border()), choice.variogram, choice.degree, run,
-                choice.validation.noise_share),
-        DirectionDoubt(error_data(data, hole.border(), choice.variogram), choice, run),
-        choice.determined, rounding_of(data, choice.degree)};
-    report.data = data.size();
-    record_variogram(data, choice.variogram, choice.degree, report);
-    report.left_out = choice.validation.left_out;
-    report.validated_error = choice.validation.blocks > 0
-                                 ? choice.validation.error
-                                 : std::numeric_limits<double>::quiet_NaN();
-    report.model =
-        fmt::format("trend of degree {}, {}; ", choice.degree, description(choice.variogram));
-    report.model +=
-        choice.validation.blocks > 0
-            ? fmt::format("blocks as wide as the hole are missed by {}, {} "
-                          "times what the model expects",
-                          figure(choice.validation.error, 4), figure(choice.validation.ratio, 3))
-            : "no blocks as wide as the hole can be left out";
-    return model;
+/// Describes an average in a sentence.
+std::string description(const ModelAverage& average) {
+    const WeighedModel& first = average.models[0];
+    auto text = average.models.size() == 1
+                    ? description(first)
+                    : fmt::format("{} models; the likeliest, {}, counts {}", average.models.size(),
+                                  description(first), figure(first.weight, 2));
+    text += average.blocks > 0
+                ? fmt::format("; blocks as wide as the hole are missed by {}, {} times what is "
+                              "expected",
+                              figure(average.error, 4), figure(average.ratio, 3))
+                : "; no blocks as wide as the hole can be left out";
+    if (std::isfinite(average.rim_ratio))
+        text += fmt::format(", its rim by {} times", figure(average.rim_ratio, 3));
+    if (!average.determined) text += "; too few data to tell an expected error";
+    return text;
+}
+
+/// The interpolated vertex that is farthest from the border; none without any.
+std::optional<Point3> middle_of(const Filling& filling, std::size_t border) {
+    std::optional<Point3> middle;
+    double farthest = -1;
+    const auto& points = filling.surface.vertices;
+    for (std::size_t v = border; v < points.size(); ++v) {
+        double least = HUGE_VAL;
+        for (std::size_t b = 0; b < border; ++b)
+            least =
+                std::min(least, std::hypot(points[b].x - points[v].x, points[b].y - points[v].y));
+        if (!(least > farthest)) continue;
+        farthest = least;
+        middle = points[v];
+    }
+    return middle;
+}
+
+/// Completes the report of a filling.
+void report_models(const FlatHole& hole, const ModelAverage& average,
+                   const AveragedHeights& heights, Filling& filling) {
+    FillReport& report = filling.report;
+    report.data = hole.data().size();
+    report.validated_error = average.error;
+    report.left_out = average.left_out;
+    report.model = description(average);
+    record_variogram(hole.data(), average.models[0], report);
+    const auto middle = middle_of(filling, hole.border());
+    report.models = heights.shares_at(middle.value_or(Point3{}));
+    if (middle) return;
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    for (ModelShare& share : report.models) share.height = share.deviation = unknown;
 }
 
 } // namespace
@@ -146,19 +142,14 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
         // 2. Build the mesh in the plane.
         if (const auto built = hole->triangulate(options.mesh_size, run); !built)
             return built.error();
-        // 3. Estimate the heights.
-        FillReport report;
-        const auto model = model_of(*hole, options, report, run);
+        // 3. Weigh the models, and average what they say of heights.
+        const DataAroundHole around{hole->data(), hole->border(), hole->radius()};
+        const auto average = weigh_models(around, options, run);
         if (run.stop.stop_requested()) return interrupted;
+        const AveragedHeights heights(around, average, run);
         auto filling = hole->filled(
-            [&](std::span<const Point3> places) { return heights_of(model, places, run); }, run);
-        if (!filling) return filling;
-        filling->report.data = report.data;
-        filling->report.validated_error = report.validated_error;
-        filling->report.model = report.model;
-        filling->report.variogram = std::move(report.variogram);
-        filling->report.variogram_model = std::move(report.variogram_model);
-        filling->report.left_out = std::move(report.left_out);
+            [&](std::span<const Point3> places) { return heights.at(places, run); }, run);
+        if (filling) report_models(*hole, average, heights, *filling);
         return filling;
     });
 }

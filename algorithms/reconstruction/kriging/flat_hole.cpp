@@ -154,6 +154,26 @@ bool is_too_flat(const FlatFilling& flat, const HeightSource& source, double mes
     return detail::flatness_outweighs(sags, expected, mesh_size);
 }
 
+double root_mean_square(std::span<const double> values) {
+    const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
+    return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+/// Computes the expected error of triangles between border vertices alone, at their middles: how far
+/// they are from the estimates, and these from the truth.
+double error_of_flat(const FlatFilling& flat, const HeightSource& source) {
+    std::vector<Point3> middles;
+    for (const Triangle& t : flat.triangles) {
+        const Point3 &a = flat.points[t[0]], &b = flat.points[t[1]], &c = flat.points[t[2]];
+        middles.push_back({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3, (a.z + b.z + c.z) / 3});
+    }
+    const auto known = source(middles);
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < middles.size(); ++i)
+        errors.push_back(std::hypot(known.expected[i], known.heights[i] - middles[i].z));
+    return root_mean_square(errors);
+}
+
 double area_of(const Surface& s) {
     double sum = 0;
     for (const Triangle& t : s.triangles)
@@ -181,7 +201,10 @@ FlatHole::~FlatHole() = default;
 Result<FlatHole> FlatHole::of(const Surface& surface, const BorderLoop& loop,
                               std::span<const BorderLoop> loops, std::size_t rings,
                               const Run& run) {
-    auto found = collect_data(surface, loops_within(surface, loop, loops), rings, run);
+    const double edge = loop.length / std::max(1.0, static_cast<double>(loop.vertices.size()));
+    const double reach = constants.reach * std::sqrt(loop.area / std::numbers::pi);
+    const RingRange range{rings, static_cast<std::size_t>(edge > 0 ? reach / edge : 0)};
+    auto found = collect_data(surface, loops_within(surface, loop, loops), range, run);
     if (!found) return found.error();
     auto state = std::make_unique<State>();
     state->named = {surface.name, surface.role, {}, {}};
@@ -241,11 +264,10 @@ Result<Filling> FlatHole::filled(const HeightSource& source, const Run& run) {
         for (Triangle& t : filling.surface.triangles) std::swap(t[1], t[2]);
     filling.report.interpolated = filling.surface.vertices.size() - s.border;
     filling.report.area = area_of(filling.surface);
-    const double squares =
-        std::inner_product(filling.expected_error.begin(), filling.expected_error.end(),
-                           filling.expected_error.begin(), 0.0);
     filling.report.expected_error =
-        squares == 0 ? 0 : std::sqrt(squares / static_cast<double>(filling.report.interpolated));
+        filling.report.interpolated > 0
+            ? root_mean_square(std::span(filling.expected_error).subspan(s.border))
+            : error_of_flat(s.flat, source);
     return filling;
 }
 

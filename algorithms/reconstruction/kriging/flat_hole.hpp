@@ -28,7 +28,8 @@ using HeightSource = std::function<KnownHeights(std::span<const Point3>)>;
 /// A hole seen along z.
 class FlatHole {
 public:
-    /// Collects the corners of `rings` rings of triangles around the hole and around those of all
+    /// Collects the corners of at least `rings` rings of triangles around the hole (more up to two of
+    /// its radii, while there are fewer than 4000) and around those of all
     /// loops that are islands in it. Errors: unsupported if the surface there is no graph
     /// z = f(x, y), with the place; bad_index; nothing_to_do for a loop without area; interrupted.
     static Result<FlatHole> of(const Surface& surface, const BorderLoop& loop,

@@ -10,15 +10,17 @@
 #include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
-#include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 
 namespace terrane {
 namespace {
 
-using kriging::detail::constants;
+/// Classes by distance, and by direction of 15 degrees each; points all pairs of which count.
+constexpr std::size_t distance_classes = 15, direction_classes = 12, most_points = 1500;
 
-constexpr std::array all_models{VariogramModel::spherical, VariogramModel::exponential,
-                                VariogramModel::gaussian, VariogramModel::power};
+/// Those that a user can ask for by name.
+constexpr std::array named_models{VariogramModel::spherical, VariogramModel::exponential,
+                                  VariogramModel::gaussian, VariogramModel::power,
+                                  VariogramModel::matern};
 
 /// Arguments at which the covariance of the matern models is 5 % of the sill.
 constexpr double matern_once = 4.743865, matern_twice = 5.918649;
@@ -47,17 +49,21 @@ double shape(VariogramModel model, double ratio, double exponent) {
         const double a = ratio * (once ? matern_once : matern_twice);
         return 1 - (1 + a + (once ? 0 : a * a / 3)) * std::exp(-a);
     }
+    case VariogramModel::thin_plate:
+        return ratio > 0 ? -ratio * ratio * std::log(ratio) : 0;
+    case VariogramModel::cubic:
+        return -ratio * ratio * ratio;
     case VariogramModel::power:
         break;
     }
-    return std::pow(ratio, exponent);
+    return exponent == 1 ? ratio : std::pow(ratio, exponent);
 }
 
 /// Sums over the pairs of each class.
 class Classes {
 public:
     explicit Classes(double longest) :
-        longest_(longest), bins_(constants.distance_classes * constants.direction_classes) {}
+        longest_(longest), bins_(distance_classes * direction_classes) {}
 
     void add(const Point3& a, const Point3& b) {
         double dx = b.x - a.x, dy = b.y - a.y;
@@ -72,9 +78,8 @@ public:
                             classes - 1);
         };
         const double direction = std::atan2(dy, dx) / std::numbers::pi + 0.5; // in [0, 1]
-        VariogramBin& bin =
-            bins_[at(h / longest_, constants.distance_classes) * constants.direction_classes +
-                  at(direction, constants.direction_classes)];
+        VariogramBin& bin = bins_[at(h / longest_, distance_classes) * direction_classes +
+                                  at(direction, direction_classes)];
         bin.dx += dx;
         bin.dy += dy;
         bin.distance += h;
@@ -97,128 +102,6 @@ private:
     std::vector<VariogramBin> bins_;
 };
 
-struct Fit {
-    Variogram variogram;
-    double misfit = HUGE_VAL;
-};
-
-/// Fits models to bins whose distances are measured with one anisotropy.
-class Fitter {
-public:
-    Fitter(std::span<const VariogramBin> bins, double angle, double ratio, double most_nugget) :
-        angle_(angle), ratio_(ratio), most_nugget_(most_nugget) {
-        Variogram measure;
-        measure.angle = angle;
-        measure.ratio = ratio;
-        for (const VariogramBin& bin : bins) {
-            const double along = length_in_plane(bin.dx, bin.dy);
-            // The mean of vectors is shorter than the mean length, so only its direction is used.
-            const double h =
-                along > 0 ? measure.distance(bin.dx, bin.dy) * bin.distance / along : bin.distance;
-            // The weight does not depend on the anisotropy, so that misfits are comparable.
-            const double weight = static_cast<double>(bin.pairs) / (bin.distance * bin.distance);
-            bins_.push_back({h, bin.gamma, weight});
-            longest_ = std::max(longest_, h);
-        }
-    }
-
-    /// Minimises over the one nonlinear parameter: on a grid, then by golden section between its
-    /// neighbours.
-    [[nodiscard]] Fit best(VariogramModel model) const {
-        const bool power = model == VariogramModel::power;
-        const double low =
-            power ? constants.least_power : std::log(longest_ / constants.range_part);
-        const double high =
-            power ? constants.most_power : std::log(longest_ * constants.range_factor);
-        constexpr int steps = constants.fit_steps;
-        const double step = (high - low) / steps;
-        Fit found;
-        double best_at = low;
-        for (int i = 0; i <= steps; ++i)
-            if (const Fit fit = at(model, low + i * step); fit.misfit < found.misfit) {
-                found = fit;
-                best_at = low + i * step;
-            }
-        double a = std::max(low, best_at - step), b = std::min(high, best_at + step);
-        for (int i = 0; i < constants.fit_refinements; ++i) {
-            const double c = a + (b - a) * 0.382, d = a + (b - a) * 0.618;
-            if (at(model, c).misfit <= at(model, d).misfit)
-                b = d;
-            else
-                a = c;
-        }
-        const Fit refined = at(model, (a + b) / 2);
-        return refined.misfit < found.misfit ? refined : found;
-    }
-
-private:
-    struct Bin {
-        double distance, gamma, weight;
-    };
-
-    /// Fits nugget and sill by weighted least squares, neither negative.
-    [[nodiscard]] Fit at(VariogramModel model, double parameter) const {
-        Fit fit;
-        fit.variogram = {model, 0, 0, longest_, 1, angle_, ratio_};
-        (model == VariogramModel::power ? fit.variogram.exponent : fit.variogram.range) =
-            model == VariogramModel::power ? parameter : std::exp(parameter);
-        double w = 0, ws = 0, wss = 0, wg = 0, wsg = 0;
-        for (const Bin& bin : bins_) {
-            const double s = shape_at(fit.variogram, bin.distance);
-            w += bin.weight;
-            ws += bin.weight * s;
-            wss += bin.weight * s * s;
-            wg += bin.weight * bin.gamma;
-            wsg += bin.weight * s * bin.gamma;
-        }
-        const double determinant = w * wss - ws * ws;
-        double nugget = determinant > 0 ? (wss * wg - ws * wsg) / determinant : 0;
-        double sill = determinant > 0 ? (w * wsg - ws * wg) / determinant : 0;
-        if (nugget < 0 || determinant <= 0) {
-            nugget = 0;
-            sill = wss > 0 ? wsg / wss : 0;
-        } else if (sill < 0) {
-            sill = 0;
-            nugget = wg / w;
-        }
-        if (nugget > most_nugget_) {
-            nugget = most_nugget_;
-            sill = wss > 0 ? (wsg - nugget * ws) / wss : 0;
-        }
-        fit.variogram.nugget = nugget;
-        fit.variogram.sill = std::max(sill, 0.0);
-        fit.misfit = misfit(fit.variogram);
-        return fit;
-    }
-
-    static double shape_at(const Variogram& v, double distance) {
-        return shape(v.model, distance / v.range, v.exponent);
-    }
-
-    [[nodiscard]] double misfit(const Variogram& v) const {
-        double sum = 0;
-        for (const Bin& bin : bins_) {
-            const double off = v.nugget + v.sill * shape_at(v, bin.distance) - bin.gamma;
-            sum += bin.weight * off * off;
-        }
-        return sum;
-    }
-
-    double angle_, ratio_, most_nugget_;
-    double longest_ = 0;
-    std::vector<Bin> bins_;
-};
-
-Fit best_model(std::span<const VariogramBin> bins, const VariogramFitOptions& options, double angle,
-               double ratio) {
-    const Fitter fitter(bins, angle, ratio, options.most_nugget);
-    if (options.model) return fitter.best(*options.model);
-    Fit best;
-    for (const auto model : all_models)
-        if (const Fit fit = fitter.best(model); fit.misfit < best.misfit) best = fit;
-    return best;
-}
-
 } // namespace
 
 std::string_view name_of(VariogramModel model) {
@@ -231,6 +114,10 @@ std::string_view name_of(VariogramModel model) {
         return "gaussian";
     case VariogramModel::matern:
         return "matern";
+    case VariogramModel::thin_plate:
+        return "thin plate";
+    case VariogramModel::cubic:
+        return "cubic";
     case VariogramModel::power:
         break;
     }
@@ -238,7 +125,7 @@ std::string_view name_of(VariogramModel model) {
 }
 
 std::optional<VariogramModel> variogram_model_named(std::string_view name) {
-    for (const auto model : all_models)
+    for (const auto model : named_models)
         if (name_of(model) == name) return model;
     return std::nullopt;
 }
@@ -264,34 +151,14 @@ std::string description(const Variogram& v) {
     return text;
 }
 
-std::vector<VariogramBin>
-experimental_variogram(std::span<const Point3> points,
-                       std::span<const std::array<std::uint32_t, 2>> close, double longest) {
+std::vector<VariogramBin> experimental_variogram(std::span<const Point3> points, double longest) {
     const StandardArithmetic guard;
     Classes classes(longest);
-    const auto chosen = std::min(points.size(), constants.most_variogram_points);
+    const auto chosen = std::min(points.size(), most_points);
     const auto pick = [&](std::size_t k) { return points[k * points.size() / chosen]; };
     for (std::size_t i = 0; i < chosen; ++i)
         for (std::size_t j = i + 1; j < chosen; ++j) classes.add(pick(i), pick(j));
-    for (const auto& [a, b] : close) classes.add(points[a], points[b]);
     return classes.means();
-}
-
-Variogram fit_variogram(std::span<const VariogramBin> bins, const VariogramFitOptions& options) {
-    const StandardArithmetic guard;
-    const auto differs = [](const VariogramBin& bin) { return bin.gamma > 0; };
-    if (std::none_of(bins.begin(), bins.end(), differs))
-        return {options.model.value_or(VariogramModel::spherical)};
-    Fit best = best_model(bins, options, 0, 1);
-    if (!options.anisotropy) return best.variogram;
-    Fit anisotropic;
-    for (double angle = 0; angle < 180; angle += constants.anisotropy_step)
-        for (const double ratio : constants.anisotropy_ratios)
-            if (const Fit fit = best_model(bins, options, angle, ratio);
-                fit.misfit < anisotropic.misfit)
-                anisotropic = fit;
-    return anisotropic.misfit < constants.worth_anisotropy * best.misfit ? anisotropic.variogram
-                                                                         : best.variogram;
 }
 
 } // namespace terrane

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Models how heights differ with distance: the experimental variogram of points and theoretical
-// variograms fitted to it. Source: Cressie, Statistics for Spatial Data (1993), 2.4 and 2.6.
+// variograms. Source: Cressie, Statistics for Spatial Data (1993), 2.4 and 2.6.
 #pragma once
 
 #include <array>
@@ -26,7 +26,11 @@ namespace terrane {
 ///   power        nugget + sill (h/r)^exponent, r a fixed length
 ///   matern       nugget + sill (1 - (1 + a) exp(-a)), a = 4.744 h/r, for exponent 1.5, or
 ///                nugget + sill (1 - (1 + a + a^2/3) exp(-a)), a = 5.919 h/r, for exponent 2.5
-/// All but spherical and power reach 95 % of the sill at the range. Surfaces have one derivative
+///   thin plate   nugget - sill (h/r)^2 log(h/r), r a fixed length
+///   cubic        nugget - sill (h/r)^3, r a fixed length
+/// The last two are minus generalised covariances, for a trend of degree 1 or more; their surfaces
+/// have least bending energy, and one derivative more. The others but spherical and power reach
+/// 95 % of the sill at the range. Surfaces have one derivative
 /// with matern and exponent 1.5, two with 2.5, none with spherical and exponential, all with
 /// gaussian.
 /// h is measured with geometric anisotropy: distances across the main direction are divided by the
@@ -61,25 +65,7 @@ struct VariogramBin {
 
 /// Computes the experimental variogram in 15 distance classes and 12 direction classes; empty ones
 /// are omitted. Pairs are all those of at most 1500 points, evenly spaced, that are no farther
-/// apart than `longest`, plus the `close` pairs. Cost: about a million pairs at most, plus the
-/// close ones.
-std::vector<VariogramBin>
-experimental_variogram(std::span<const Point3> points,
-                       std::span<const std::array<std::uint32_t, 2>> close, double longest);
-
-/// Options of fit_variogram().
-struct VariogramFitOptions {
-    std::optional<VariogramModel> model{}; ///< none: the model that fits best
-    double most_nugget =
-        HUGE_VAL;           ///< unit of z, squared: upper bound of the nugget, if the noise is
-                            ///< known
-    bool anisotropy = true; ///< search for anisotropy; accepted if it reduces the misfit by a fifth
-};
-
-/// Fits a variogram by least squares; bins are weighted by pairs / distance^2. Range, exponent and
-/// anisotropy are searched, nugget and sill are exact for each of them. Bins without any difference
-/// give sill 0.
-Variogram fit_variogram(std::span<const VariogramBin> bins,
-                        const VariogramFitOptions& options = {});
+/// apart than `longest`. Cost: about a million pairs at most.
+std::vector<VariogramBin> experimental_variogram(std::span<const Point3> points, double longest);
 
 } // namespace terrane

@@ -23,12 +23,10 @@
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/reconstruction/holes/expected_points.hpp>
 #include <terrane/algorithms/reconstruction/holes/flatness.hpp>
-#include <terrane/algorithms/reconstruction/kriging/flat_hole.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/data.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/error.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/fit.hpp>
-#include <terrane/algorithms/reconstruction/rbf/detail/heights.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/zero_level.hpp>
 
 namespace terrane {
@@ -125,7 +123,7 @@ private:
     std::map<Cell, Ball> inside_; ///< per cell: the last ball that contains no excluded point
 };
 
-/// Step (6): triangulates the zero level.
+/// Step (5): triangulates the zero level.
 Result<Surface> mesh_zero_level(const Implicit& f, const RbfData& data, const TriangleTree& tree,
                                 double size, const Run& run) {
     DomainMask outside(data, tree, size);
@@ -141,7 +139,6 @@ Result<Surface> mesh_zero_level(const Implicit& f, const RbfData& data, const Tr
 /// A function whose zero level fills the hole, and what is known of it.
 struct FittedLevel {
     Implicit f;                                  ///< of a surface that is no graph
-    std::optional<HeightFit> graph;              ///< none if the data are no graph
     double precision = no_number;                ///< without errors: factor of the power function
     RbfPolynomial polynomial;                    ///< of the power function
     std::vector<std::array<double, 2>> left_out; ///< FillReport::left_out
@@ -154,7 +151,6 @@ struct FittedLevel {
 /// how small triangles need be; for an expected error it is too rough.
 std::vector<double> precision_at(std::span<const Point3> places, const RbfData& data,
                                  const FittedLevel& level, const Run& run) {
-    if (level.graph) return expected_errors(*level.graph, places, run);
     if (!std::isfinite(level.precision)) return std::vector<double>(places.size(), no_number);
     const RbfError error(data, level.polynomial, 0, level.f.nugget);
     auto precision = error.at(places, false, run);
@@ -212,9 +208,7 @@ Result<Surface> mesh_to_size(const Level& level, const BorderLoop& loop, const R
     auto mesh = mesh_zero_level(level.f, level.data, level.tree, size, run);
     if (options.size > 0) return mesh;
     for (unsigned halvings = 0; halvings < detail::most_halvings && size / 2 >= least; ++halvings) {
-        // A graph may be steep, but its noise at the border is no corner.
-        const bool graph = level.fitted.graph.has_value();
-        if (!mesh || !((!graph && cuts_corners(mesh.value(), level, size)) ||
+        if (!mesh || !(cuts_corners(mesh.value(), level, size) ||
                        is_too_flat(mesh.value(), level, size, run)))
             break;
         auto finer = mesh_zero_level(level.f, level.data, level.tree, size / 2, run);
@@ -252,65 +246,7 @@ std::string describe(const RbfReport& r, const RbfForm& form, bool smoothed) {
                                figure(r.largest_error, 2));
 }
 
-/// Computes the root mean square over the vertices over the hole, which are those off the surface.
-double mean_over_hole(const Filling& filling, const TriangleTree& tree, double size) {
-    double squares = 0;
-    std::size_t count = 0;
-    for (std::size_t v = 0; v < filling.expected_error.size(); ++v) {
-        const double over = constants.over_surface * size;
-        if (tree.distance(filling.surface.vertices[v], over) < over) continue;
-        squares += filling.expected_error[v] * filling.expected_error[v];
-        ++count;
-    }
-    return count == 0 ? no_number : std::sqrt(squares / static_cast<double>(count));
-}
-
-Status validate_options(const RbfOptions& o) {
-    const auto bad = [](const char* what) { return Error{ErrorCode::bad_option, what, ""}; };
-    const auto length_or_zero = [](double x) { return x >= 0 && std::isfinite(x); };
-    if (!length_or_zero(o.reach)) return bad("the reach of the data is no number of radii");
-    if (o.most_centres < 10 || o.most_centres > 2000) return bad("centres: 10 to 2000");
-    if (!length_or_zero(o.offset) || !length_or_zero(o.tolerance) || !length_or_zero(o.size))
-        return bad("offset, tolerance and size are lengths");
-    if (o.degree > 8) return bad("the degree of the polynomial is 1 to 8, or 0 for the best");
-    if (o.smoothing && !length_or_zero(*o.smoothing)) return bad("smoothing is a length");
-    if (o.most_vertices < 1) return bad("at least one vertex");
-    return Done{};
-}
-
-/// Describes a graph.
-std::string describe(const RbfReport& r, const HeightFit& fit, bool smoothed) {
-    auto text = fmt::format("heights by kernels {} and degree {}, {} of {} data are centres, ",
-                            name_of(fit.kernel), r.degree, r.centres, r.data);
-    text += smoothed ? fmt::format("smoothed with {:.0f} degrees of freedom", r.freedom)
-                     : fmt::format("noise {}", figure(fit.noise, 2));
-    text +=
-        std::isfinite(fit.validated)
-            ? fmt::format("; blocks as wide as the hole are missed by {}", figure(fit.validated, 4))
-            : "; no blocks as wide as the hole can be left out";
-    if (r.patches > 0)
-        text += fmt::format("; data missed by {} at most, {} patches, then by {}",
-                            figure(r.missed, 2), r.patches, figure(r.largest_error, 2));
-    return text;
-}
-
-/// Steps (2) and (5) of a graph; none if the data are no graph, or if the run is stopped.
-std::optional<FittedLevel> fit_graph(const RbfData& data, const RbfOptions& options,
-                                     RbfReport& report, const Run& run) {
-    const auto axes = graph_axes(data);
-    if (!axes) return std::nullopt;
-    auto fit = fit_heights(data, *axes, options, report, run);
-    if (!fit) return std::nullopt;
-    interpolate_noise(*fit, data, options, report, run);
-    FittedLevel level;
-    level.model = describe(report, *fit, options.smoothing.has_value());
-    level.validated = fit->validated;
-    level.left_out = fit->left_out;
-    level.graph = std::move(fit);
-    return level;
-}
-
-/// Steps (3) to (5) of any surface.
+/// Steps (2) to (4).
 Result<FittedLevel> fit_any(const RbfData& data, const TriangleTree& tree,
                             const RbfOptions& options, RbfReport& report, const Run& run) {
     report = {};
@@ -340,27 +276,21 @@ Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
                                    {options.reach, options.rings, options.long_edges});
     if (!data) return data.error();
     const TriangleTree tree(data.value().points, data.value().triangles);
-    auto fitted = fit_graph(data.value(), options, report, run);
+    const auto fitted = fit_any(data.value(), tree, options, report, run);
     if (run.stop.stop_requested()) return interrupted();
-    if (!fitted) {
-        auto any = fit_any(data.value(), tree, options, report, run);
-        if (!any) return any.error();
-        fitted.emplace(std::move(any).value());
-    }
-    const Level level{*fitted, fitted->graph ? fitted->graph->f : fitted->f, data.value(), tree};
+    if (!fitted) return fitted.error();
+    const Level level{*fitted, fitted->f, data.value(), tree};
     auto mesh = mesh_to_size(level, loop, options, report.size, run);
     if (!mesh) return mesh.error();
     Filling filling;
     filling.surface = std::move(mesh).value();
     filling.surface.name = surface.name;
     filling.surface.role = surface.role;
-    filling.expected_error = fitted->graph
-                                 ? expected_errors(*fitted->graph, filling.surface.vertices, run)
-                                 : std::vector(filling.surface.vertices.size(), no_number);
+    filling.expected_error.assign(filling.surface.vertices.size(), no_number);
     filling.report.data = report.data;
     filling.report.interpolated = filling.surface.vertices.size();
     filling.report.area = area_of(filling.surface);
-    filling.report.expected_error = mean_over_hole(filling, tree, report.size);
+    filling.report.expected_error = no_number;
     filling.report.validated_error = fitted->validated;
     filling.report.left_out = fitted->left_out;
     filling.report.model = fitted->model;
@@ -369,41 +299,20 @@ Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
     return filling;
 }
 
-/// Step (7).
-Result<Filling> fill_valid_graph(const Surface& surface, const BorderLoop& loop,
-                                 const RbfOptions& options, RbfReport& report, const Run& run) {
-    const Error no_graph{ErrorCode::unsupported,
-                         "the surface is no graph z = f(x, y) next to the hole", ""};
-    const auto data =
-        collect_data(surface, loop, options.loops, {options.reach, options.rings, false});
-    if (!data) return data.error();
-    const auto axes = graph_axes(data.value());
-    if (!axes || std::fabs((*axes)[2].z) != 1) return no_graph;
-    auto hole = FlatHole::of(surface, loop, options.loops, 1, run);
-    if (!hole) return hole.error();
-    if (const auto built = hole->triangulate(options.size, run); !built) return built.error();
-    const auto fit = fit_heights(data.value(), *axes, options, report, run);
-    if (run.stop.stop_requested()) return interrupted();
-    if (!fit) return no_graph;
-    auto filling = hole->filled(
-        [&](std::span<const Point3> places) {
-            KnownHeights known{heights_of(*fit, places, run), {}};
-            std::vector<Point3> points(places.begin(), places.end());
-            for (std::size_t i = 0; i < points.size(); ++i) points[i].z = known.heights[i];
-            known.expected = expected_errors(*fit, points, run);
-            return known;
-        },
-        run);
-    if (!filling) return filling;
-    report.size = hole->mesh_size();
-    filling->report.data = report.data;
-    filling->report.validated_error = fit->validated;
-    filling->report.left_out = fit->left_out;
-    filling->report.model = describe(report, *fit, options.smoothing.has_value());
-    return filling;
-}
-
 } // namespace
+
+Status validate_options(const RbfOptions& o) {
+    const auto bad = [](const char* what) { return Error{ErrorCode::bad_option, what, ""}; };
+    const auto length_or_zero = [](double x) { return x >= 0 && std::isfinite(x); };
+    if (!length_or_zero(o.reach)) return bad("the reach of the data is no number of radii");
+    if (o.most_centres < 10 || o.most_centres > 2000) return bad("centres: 10 to 2000");
+    if (!length_or_zero(o.offset) || !length_or_zero(o.tolerance) || !length_or_zero(o.size))
+        return bad("offset, tolerance and size are lengths");
+    if (o.degree > 8) return bad("the degree of the polynomial is 1 to 8, or 0 for the best");
+    if (o.smoothing && !length_or_zero(*o.smoothing)) return bad("smoothing is a length");
+    if (o.most_vertices < 1) return bad("at least one vertex");
+    return Done{};
+}
 
 Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
                             const RbfOptions& options, RbfReport& report, const Run& run) {
@@ -420,16 +329,6 @@ Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
     const StandardArithmetic guard;
     RbfReport report;
     return fill_by_rbf(surface, loop, options, report, run);
-}
-
-Result<Filling> fill_graph_by_rbf(const Surface& surface, const BorderLoop& loop,
-                                  const RbfOptions& options, RbfReport& report, const Run& run) {
-    return guarded("for the filling", "fill", [&]() -> Result<Filling> {
-        report = {};
-        if (const auto good = validate_options(options); !good) return good.error();
-        if (auto sound = check_edge_length(loop, options.size); !sound) return sound.error();
-        return fill_valid_graph(surface, loop, options, report, run);
-    });
 }
 
 std::vector<NamedConstant> rbf_constants() {

@@ -1,37 +1,30 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Fills a hole from the data around it by radial basis functions, for any surface, including folds.
+// Fills a hole from the data around it by an implicit function of space, for any surface, including
+// folds. Graphs are filled by kriging (rbf_join.hpp).
 //
 // Steps:
 //   (1) data: the vertices within `reach` times the hole's radius of its border, measured along the
 //       surface, and at least the first `rings` rings, with normals (detail/data.hpp);
-//   (2) of a graph over the plane of x and y, or else over the hole's own plane: f is the height
-//       above a function of the place in that plane. Its kernel (h, h^2 log h or h^3), the noise of
-//       the data and the degree of its polynomial part are chosen by restricted likelihood and by
-//       leaving out the data next to the hole (detail/heights.hpp). Steps (3) and (4) are for other
-//       surfaces, folds for instance;
-//   (3) constraints: f = 0 at centres; at some of them, well spread, also f = +-d at a distance d
+//   (2) constraints: f = 0 at centres; at some of them, well spread, also f = +-d at a distance d
 //       off the surface along normals, where no other part of it is as near;
-//   (4) centres: well-spread ones first; then, repeatedly, the data at which |f| is largest, until
+//   (3) centres: well-spread ones first; then, repeatedly, the data at which |f| is largest, until
 //       none exceeds `tolerance` or there are `most_centres` (detail/function.hpp). With smoothing,
 //       and where it is better by a quarter: only the well-spread ones, with weights from all data
 //       by penalised least squares (detail/smooth.cpp). The polynomial part (along the hole's
 //       plane, or in space), its degree and the variant are chosen by validation: data nearest to
 //       the hole are left out, as if it were wider by a quarter of its radius, and predicted;
-//   (5) a partition of unity interpolates the remaining errors at the data, even millions of them:
+//   (4) a partition of unity interpolates the remaining errors at the data, even millions of them:
 //       small patches with functions |p - q| of their own, blended, and fading into the hole
 //       (detail/patches.hpp). So every datum is interpolated, whatever the number of centres and
 //       the noise; not with options.smoothing;
-//   (6) the zero level over the hole and a margin beyond it as triangles (detail/zero_level.hpp).
-// The expected error of a graph is that of the filling as an estimate of heights, by a kriging
-// model of the same data (kriging/height_errors.hpp); that of other surfaces is unknown.
-// Guarantees: the same bytes for any number of threads. Invariant, to rounding: the function of a
-// graph, under the order of vertices and triangles, the winding, rotations about z, flips of z,
-// units and shifts. The places of the new vertices lie on a lattice along the axes. The filling
+//   (5) the zero level over the hole and a margin beyond it as triangles (detail/zero_level.hpp).
+// The expected error is unknown.
+// Guarantees: the same bytes for any number of threads. The filling
 // extends at least two edge lengths beyond the border where the surface does; it must be joined
-// (join.hpp). Cost: n^3 / 3 for n constraints, at most 2000; n per lattice point of (6).
-// Source: the paper, 4.1, equation (10), in which all surfaces are as in (3); Wahba (1990) for (2);
-// Carr et al. (2001) for (3) and (4); Ohtake et al. (2003) for (5).
+// (join.hpp). Cost: n^3 / 3 for n constraints, at most 2000; n per lattice point of (5).
+// Source: the paper, 4.1, equation (10), Carr et al. (2001) for (2) and
+// (3); Ohtake et al. (2003) for (4).
 #pragma once
 
 #include <cstddef>
@@ -54,7 +47,7 @@ struct RbfOptions {
     unsigned rings = 4;             ///< least number of rings of vertices that are data
     std::size_t most_centres = 800; ///< on the surface, 10 to 2000
     double offset =
-        0; ///< d of step (3), unit of the surface; 0: the larger of a 20th of the radius and half a
+        0; ///< d of step (2), unit of the surface; 0: the larger of a 20th of the radius and half a
            ///< border edge; less where the surface comes near to itself
     double tolerance = 0; ///< unit of the surface; 0: a thousandth of the median border edge
     double size = 0;      ///< edge length of the filling; 0: the median border edge. That is
@@ -75,8 +68,7 @@ struct RbfOptions {
                              ///< a cliff
 };
 
-/// Quality of the solution of the system of step (2) or (4); see detail/function.hpp. The system of
-/// a graph is not refined, and its residuals are NaN.
+/// Quality of the solution of the system of step (2) or (3); see detail/function.hpp.
 struct RbfSolution {
     std::size_t centres = 0;   ///< of the function
     double condition = 0;      ///< estimate for the positive definite part, in the 1-norm
@@ -91,8 +83,8 @@ struct RbfReport {
     std::size_t centres = 0;  ///< centres on the surface
     std::size_t offsets = 0;  ///< constraints off the surface
     unsigned degree = 0;      ///< of the polynomial part
-    std::size_t patches = 0;  ///< of step (5); 0 if it was not needed
-    double missed = 0;        ///< largest |f| at the data before step (5)
+    std::size_t patches = 0;  ///< of step (4); 0 if it was not needed
+    double missed = 0;        ///< largest |f| at the data before step (4)
     double largest_error = 0; ///< largest |f| at the data at the end: the interpolation error
     double rms_error = 0;     ///< root mean square of f at the data at the end
     double freedom = 0;       ///< degrees of freedom that smoothing leaves; 0 if every datum is
@@ -102,7 +94,10 @@ struct RbfReport {
     RbfSolution solution;     ///< how well the system was solved
 };
 
-/// Fills a hole by steps (1) to (6). Errors: bad_option, bad_index, bad_number; unsupported (an
+/// Checks options. Errors: bad_option.
+Status validate_options(const RbfOptions& options);
+
+/// Fills a hole by steps (1) to (5). Errors: bad_option, bad_index, bad_number; unsupported (an
 /// island that touches the border in a vertex; a zero level too large for its edge length);
 /// nothing_to_do; interrupted, out_of_memory.
 Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
@@ -111,17 +106,6 @@ Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
 /// Fills a hole and describes the fit in `report`.
 Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
                             const RbfOptions& options, RbfReport& report, const Run& run);
-
-/// Fills a hole of a graph z = f(x, y) by steps (1), (2) and
-///   (7) a constrained Delaunay triangulation of the hole, seen along z, with the heights of the
-///       function.
-/// The filling has the exact border, and options.tolerance does not matter: what the function
-/// leaves of noisy data stays at the border. Cost: linear in the border, except for the triangulation.
-/// Errors: those of fill_by_rbf(), and unsupported where the surface is no such graph next to the
-/// hole.
-Result<Filling> fill_graph_by_rbf(const Surface& surface, const BorderLoop& loop,
-                                  const RbfOptions& options, RbfReport& report,
-                                  const Run& run = {});
 
 /// Lists the constants that decide the result and are not options.
 std::vector<NamedConstant> rbf_constants();

@@ -12,11 +12,12 @@ namespace terrane {
 struct FilledByRbf {
     Filling filling;  ///< before joining
     Joined joined;    ///< the surface with the filling
-    RbfReport report; ///< of the fit
+    RbfReport report; ///< of the fit; of a graph, its data alone
 };
 
-/// Runs fill_graph_by_rbf(). Where the surface is no graph z = f(x, y) next to the hole, or what
-/// was made meets another part of it, runs fill_by_rbf() and join_filling(). If the zero level does
+/// Fills a graph over x and y, or else over the hole's own plane, by kriging, whose covariances
+/// are radial basis functions; options.smoothing is then the noise of the data, 0: as is likeliest. Where the surface is no graph next to the hole, or what was made meets another part
+/// of it, runs fill_by_rbf() and join_filling(). If the zero level does
 /// not pass along the border, so that it can't be joined, tries again with options.long_edges, as
 /// the hole may be at a cliff. Errors: those of both; those of the first attempt if neither can be
 /// joined.

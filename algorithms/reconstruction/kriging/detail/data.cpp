@@ -117,8 +117,8 @@ FlatCloud sampled(std::span<const Point3> points, std::span<const Polygon> borde
         for (std::size_t i = 0; i < polygon.size(); ++i) {
             const Point3 &a = points[polygon[i]], &b = points[polygon[(i + 1) % polygon.size()]];
             const double length = std::hypot(b.x - a.x, b.y - a.y);
-            const double steps = std::clamp(std::ceil(constants.border_samples * length / size),
-                                            1.0, constants.most_border_samples);
+            const double steps =
+                std::clamp(std::ceil(constants.border_samples * length / size), 1.0, 1000.0);
             for (double k = 0; k < steps; ++k)
                 cloud.points.push_back(
                     {a.x + (b.x - a.x) * k / steps, a.y + (b.y - a.y) * k / steps});
@@ -261,7 +261,7 @@ bool is_inside(std::span<const Point3> points, const Polygon& polygon, double x,
 }
 
 Result<KrigingData> collect_data(const Surface& surface, std::span<const BorderLoop* const> loops,
-                                 std::size_t rings, const Run& run) {
+                                 const RingRange& range, const Run& run) {
     const Error interrupted{ErrorCode::interrupted, "interrupted", ""};
     const Soup soup = merge_surfaces(std::span(&surface, 1), run);
     if (run.stop.stop_requested()) return interrupted;
@@ -275,8 +275,10 @@ Result<KrigingData> collect_data(const Surface& surface, std::span<const BorderL
         }
     Rings near(soup);
     if (const auto status = near.start(border); !status) return status.error();
-    for (std::size_t ring = 1; ring < rings; ++ring) {
+    for (std::size_t ring = 1; ring < range.rings || ring < range.enough_rings; ++ring) {
         if (run.stop.stop_requested()) return interrupted;
+        // A vertex has two triangles.
+        if (ring >= range.rings && near.triangles().size() > 2 * constants.enough_data) break;
         near.spread();
     }
 

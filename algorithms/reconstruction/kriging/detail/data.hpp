@@ -23,10 +23,16 @@ struct KrigingData {
                                          ///< the third corner of its triangle
 };
 
-/// Collects the corners of `rings` rings of triangles around the loops, as far as they are a graph
+/// Rings of triangles around a hole whose corners are data.
+struct RingRange {
+    std::size_t rings = 5;        ///< at least
+    std::size_t enough_rings = 0; ///< as many, if there are not enough data before
+};
+
+/// Collects the corners of rings of triangles around the loops, as far as they are a graph
 /// over x and y. Errors: unsupported if those next to the border are not; interrupted.
 Result<KrigingData> collect_data(const Surface& surface, std::span<const BorderLoop* const> loops,
-                                 std::size_t rings, const Run& run = {});
+                                 const RingRange& range, const Run& run = {});
 
 /// Places points a mesh size apart within the outer polygon, at least 0.7 mesh sizes from any
 /// border; at most about `most`: the spacing doubles away from the borders where there would be

@@ -35,9 +35,7 @@ TrendTerms::TrendTerms(std::span<const Point3> data, unsigned degree) {
     if (!(scale_ > 0)) scale_ = 1;
     for (size_ = degree == 0 ? 1 : degree == 1 ? 3 : 6; size_ > 1; size_ = size_ == 6 ? 3 : 1) {
         if (size_ >= static_cast<Index>(data.size())) continue;
-        Eigen::ColPivHouseholderQR<MatrixXd> qr(matrix(data));
-        qr.setThreshold(constants.trend_singular);
-        if (qr.rank() == size_) break;
+        if (Contrasts(matrix(data)).determined()) break;
     }
 }
 
@@ -62,41 +60,36 @@ MatrixXd TrendTerms::matrix(std::span<const Point3> data) const {
 System::System(std::span<const Point3> data, const Variogram& model, unsigned degree,
                const Run& run) :
     model_(model),
-    terms_(data, degree) {
+    terms_(data, degree), contrasts_(terms_.matrix(data)) {
     const double angle = model.angle * std::numbers::pi / 180;
     cosine_ = std::cos(angle);
     sine_ = std::sin(angle);
     for (const Point3& p : data) places_.push_back(place(p.x, p.y));
-    const MatrixXd terms = terms_.matrix(data);
-    qr_.compute(terms);
     const auto n = static_cast<Index>(data.size()), m = terms_.size();
     MatrixXd rotated = kernels();
-    rotated.applyOnTheLeft(qr_.householderQ().adjoint());
-    rotated.applyOnTheRight(qr_.householderQ());
+    contrasts_.apply_twice(rotated);
     top_ = rotated.topRows(m);
     const double scale = n > m ? rotated.diagonal().tail(n - m).mean() : 0;
     if (!factorise(rotated.bottomRightCorner(n - m, n - m), scale, run)) return;
     VectorXd z = heights_of(data);
-    z.applyOnTheLeft(qr_.householderQ().adjoint());
+    contrasts_.apply(z);
+    MatrixXd solved = z.tail(n - m);
+    divide_by_factor(factor_, solved);
+    divide_by_transposed(factor_, solved);
     weights_ = VectorXd::Zero(n);
-    VectorXd solved = z.tail(n - m);
-    factor_.triangularView<Eigen::Lower>().solveInPlace(solved);
-    factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(solved);
     weights_.tail(n - m) = solved;
-    const VectorXd rest = z.head(m) - top_.rightCols(n - m) * solved;
-    polynomial_ = qr_.matrixQR().topLeftCorner(m, m).triangularView<Eigen::Upper>().solve(rest);
-    weights_.applyOnTheLeft(qr_.householderQ());
+    polynomial_ = contrasts_.trend_of(z.head(m) - top_.rightCols(n - m) * solved);
+    contrasts_.undo(weights_);
     ready_ = true;
 }
 
 bool System::factorise(const MatrixXd& contrasts, double scale, const Run& run) {
     const double unit = scale > 0 ? scale : 1;
-    for (double addition = constants.least_addition; !run.stop.stop_requested();
-         addition *= constants.addition_growth) {
+    // In sills: first 1e-12, at most 1e-6, by which data are hardly smoothed.
+    for (double addition = 1e-12; addition < 1e-5 && !run.stop.stop_requested(); addition *= 100) {
         factor_ = contrasts;
         factor_.diagonal().array() += addition * unit;
         if (cholesky(factor_, run)) return true;
-        if (addition > constants.most_addition) break;
     }
     return false;
 }
@@ -126,20 +119,10 @@ MatrixXd System::kernels() const {
     return all;
 }
 
-double System::value(double x, double y) const {
-    const Place p = place(x, y);
-    double sum = terms_.at(x, y).dot(polynomial_);
-    for (std::size_t i = 0; i < places_.size(); ++i)
-        sum += weights_[static_cast<Index>(i)] * kernel(places_[i], p);
-    return sum;
-}
-
-std::vector<double> System::standard_deviations(std::span<const Point3> places,
-                                                double noise_share) const {
+std::vector<Estimate> System::at(std::span<const Point3> places, bool deviations) const {
     constexpr std::size_t most_columns = 64; // that the factor meets at once
     const auto n = static_cast<Index>(places_.size()), m = terms_.size();
-    const MatrixXd upper = qr_.matrixQR().topLeftCorner(m, m);
-    std::vector<double> result;
+    std::vector<Estimate> result(places.size());
     for (std::size_t first = 0; first < places.size(); first += most_columns) {
         const auto count = static_cast<Index>(std::min(most_columns, places.size() - first));
         MatrixXd k(n, count), share(m, count);
@@ -149,26 +132,23 @@ std::vector<double> System::standard_deviations(std::span<const Point3> places,
             for (Index i = 0; i < n; ++i)
                 k(i, c) = kernel(places_[static_cast<std::size_t>(i)], at);
             share.col(c) = terms_.at(p.x, p.y);
+            result[first + static_cast<std::size_t>(c)].value =
+                share.col(c).dot(polynomial_) + k.col(c).dot(weights_);
         }
+        if (!deviations) continue;
         // The weights are a share of the trend, which any unbiased estimate has, and contrasts.
-        upper.transpose().triangularView<Eigen::Lower>().solveInPlace(share);
-        k.applyOnTheLeft(qr_.householderQ().adjoint());
+        contrasts_.reproduce(share);
+        contrasts_.apply(k);
         MatrixXd left = k.bottomRows(n - m) - top_.rightCols(n - m).transpose() * share;
-        factor_.triangularView<Eigen::Lower>().solveInPlace(left);
+        divide_by_factor(factor_, left);
         const MatrixXd own = top_.leftCols(m) * share;
-        MatrixXd weights;
-        if (noise_share < 1)
-            weights = factor_.transpose().triangularView<Eigen::Upper>().solve(left);
         for (Index c = 0; c < count; ++c) {
             const double open = share.col(c).dot(own.col(c) - 2 * k.col(c).head(m)),
                          known = left.col(c).squaredNorm();
-            double noise = 0; // that the data do not have
-            if (noise_share < 1)
-                noise = (1 - noise_share) * model_.nugget *
-                        (share.col(c).squaredNorm() + weights.col(c).squaredNorm());
             // Less than the rounding of this difference would be no more than luck.
             const double least = std::numeric_limits<double>::epsilon() * known;
-            result.push_back(std::sqrt(std::max(open - known - noise, least)));
+            result[first + static_cast<std::size_t>(c)].standard_deviation =
+                std::sqrt(std::max(open - known, least));
         }
     }
     return result;
@@ -176,24 +156,29 @@ std::vector<double> System::standard_deviations(std::span<const Point3> places,
 
 MatrixXd System::projection() const {
     const auto n = static_cast<Index>(places_.size()), m = terms_.size();
-    MatrixXd half = MatrixXd::Zero(n - m, n);
-    half.rightCols(n - m).setIdentity();
-    factor_.triangularView<Eigen::Lower>().solveInPlace(half);
-    half.applyOnTheRight(qr_.householderQ().adjoint());
-    return half.transpose() * half;
+    MatrixXd inverse = MatrixXd::Identity(n - m, n - m);
+    divide_by_factor(factor_, inverse);
+    MatrixXd all = MatrixXd::Zero(n, n);
+    all.bottomRightCorner(n - m, n - m) = squared(inverse);
+    contrasts_.undo(all);
+    all.transposeInPlace();
+    contrasts_.undo(all);
+    return all;
 }
 
 Likelihood::Likelihood(std::span<const Point3> data, unsigned degree) :
-    data_(data.begin(), data.end()) {
-    const TrendTerms terms(data, degree);
-    terms_ = terms.size();
-    centre_ = terms.centre();
-    qr_.compute(terms.matrix(data));
+    data_(data.begin(), data.end()), terms_(data, degree), basis_(terms_.matrix(data)),
+    degree_(degree) {
     VectorXd z = heights_of(data);
     const double largest = z.size() > 0 ? z.cwiseAbs().maxCoeff() : 0;
     z.array() -= z.size() > 0 ? z.mean() : 0;
-    z.applyOnTheLeft(qr_.householderQ().adjoint());
-    contrasts_ = z.tail(z.size() - terms_);
+    const double squares = 2 * std::numbers::pi * z.squaredNorm();
+    basis_.apply(z);
+    contrasts_ = z.tail(z.size() - terms_.size());
+    const auto count = static_cast<double>(contrasts_.size());
+    constant_ = -(count * (1 + std::log(2 * std::numbers::pi)) +
+                  static_cast<double>(terms_.size() - 1) * std::log(squares)) /
+                2;
     trend_only_ = contrasts_.size() == 0 ||
                   !(contrasts_.cwiseAbs().maxCoeff() > constants.trend_rounding * largest);
     Point3 low = data[0], high = data[0];
@@ -204,16 +189,26 @@ Likelihood::Likelihood(std::span<const Point3> data, unsigned degree) :
     extent_ = std::hypot(high.x - low.x, high.y - low.y);
 }
 
-Likely Likelihood::at(const Variogram& shape, double most_nugget) const {
+Likely Likelihood::of_noise() const {
+    const auto n = static_cast<double>(contrasts_.size());
+    Variogram noise;
+    noise.range = extent_ > 0 ? extent_ : 1;
+    noise.nugget = n > 0 ? contrasts_.squaredNorm() / n : 0;
+    if (trend_only_) noise.nugget = 0;
+    return {trend_only_ ? HUGE_VAL : constant_ - n * std::log(noise.nugget) / 2, noise, degree_};
+}
+
+Likely Likelihood::at(const Variogram& shape) const {
     Variogram unit = shape;
     unit.nugget = 0;
     unit.sill = 1;
     const auto n = static_cast<Index>(data_.size());
     const double angle = shape.angle * std::numbers::pi / 180, c = std::cos(angle),
                  s = std::sin(angle);
+    const auto [x0, y0] = terms_.centre();
     std::vector<std::array<double, 2>> places;
     for (const Point3& p : data_) {
-        const double dx = p.x - centre_[0], dy = p.y - centre_[1];
+        const double dx = p.x - x0, dy = p.y - y0;
         places.push_back({c * dx + s * dy, (c * dy - s * dx) / shape.ratio});
     }
     MatrixXd kernel = MatrixXd::Zero(n, n);
@@ -225,14 +220,13 @@ Likely Likelihood::at(const Variogram& shape, double most_nugget) const {
             kernel(static_cast<Index>(i), static_cast<Index>(j)) = value;
             kernel(static_cast<Index>(j), static_cast<Index>(i)) = value;
         }
-    kernel.applyOnTheLeft(qr_.householderQ().adjoint());
-    kernel.applyOnTheRight(qr_.householderQ());
-    const Index m = n - terms_;
+    basis_.apply_twice(kernel);
+    const Index m = n - terms_.size();
     if (m < 2) return {};
     const LikelyNugget found =
-        TridiagonalKernel(kernel.bottomRightCorner(m, m), contrasts_).most_likely(most_nugget);
+        TridiagonalKernel(kernel.bottomRightCorner(m, m), contrasts_).most_likely();
     if (!(found.sill > 0)) return {};
-    Likely best{found.likelihood, unit};
+    Likely best{constant_ + found.likelihood, unit, degree_};
     best.variogram.sill = found.sill;
     best.variogram.nugget = found.nugget;
     return best;

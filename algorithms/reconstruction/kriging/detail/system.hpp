@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The system of universal kriging, and the restricted likelihood of a variogram.
+// The system of universal kriging, and the likelihood of a variogram.
 //
 // Both work with contrasts: combinations of the data that no polynomial of the trend changes
 // (Householder), so that they need no covariances but only the variogram, and long ranges do no
@@ -12,9 +12,7 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/QR>
 
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
@@ -40,6 +38,12 @@ private:
     Eigen::Index size_ = 1;
 };
 
+/// A height and its standard deviation.
+struct Estimate {
+    double value = 0;
+    double standard_deviation = 0;
+};
+
 /// The factorised system of universal kriging for all data at once.
 class System {
 public:
@@ -48,10 +52,8 @@ public:
            const Run& run = {});
 
     [[nodiscard]] bool ready() const { return ready_; }
-    [[nodiscard]] double value(double x, double y) const;
-    /// Computes the square roots of the kriging variances, for blocks of places at once.
-    [[nodiscard]] std::vector<double> standard_deviations(std::span<const Point3> places,
-                                                          double noise_share = 1) const;
+    /// Estimates places in blocks, with the square roots of the kriging variances if wanted.
+    [[nodiscard]] std::vector<Estimate> at(std::span<const Point3> places, bool deviations) const;
     /// The matrix P for which P z are the weights of the data: if data B are left out, they are
     /// missed by inverse(P_BB) (P z)_B, with these variances and covariances: inverse(P_BB).
     [[nodiscard]] Eigen::MatrixXd projection() const;
@@ -70,44 +72,45 @@ private:
     TrendTerms terms_;
     std::vector<Place> places_; ///< of the data, turned and stretched so that distances are those
                                 ///< of the variogram
-    Eigen::HouseholderQR<Eigen::MatrixXd> qr_; ///< of the terms at the data
-    Eigen::MatrixXd top_;                      ///< kernels between trend and all rotated data
-    Eigen::MatrixXd factor_;                   ///< lower triangle, of the contrasts
+    Contrasts contrasts_;       ///< of the terms at the data
+    Eigen::MatrixXd top_;       ///< kernels between trend and all rotated data
+    Eigen::MatrixXd factor_;    ///< lower triangle, of the contrasts
     Eigen::VectorXd weights_, polynomial_;
     bool ready_ = false;
 };
 
-/// The variogram of one shape with the largest restricted likelihood.
+/// The variogram of one shape with the largest likelihood.
 struct Likely {
-    double likelihood = -HUGE_VAL; ///< its logarithm, up to a constant of the data
+    double likelihood = -HUGE_VAL; ///< its logarithm
     Variogram variogram;           ///< with nugget and sill
+    unsigned degree = 0;           ///< of the trend
 };
 
-/// Restricted likelihood of variograms for given data.
+/// Likelihood of variograms for given data and a trend of one degree, whose factors, but for that of
+/// degree 0, are spread over the variance of the heights. So trends of several degrees compare.
 class Likelihood {
 public:
     Likelihood(std::span<const Point3> data, unsigned degree);
 
     /// Finds nugget and sill of this shape (its model, range, exponent, angle and ratio) that are
-    /// most likely; the nugget is at most `most_nugget`. Cost: 4/3 n^3, by a tridiagonal form that
-    /// serves all ratios of nugget and sill.
-    [[nodiscard]] Likely at(const Variogram& shape, double most_nugget) const;
+    /// most likely. Cost: 4/3 n^3, by a tridiagonal form that serves all ratios of nugget and sill.
+    [[nodiscard]] Likely at(const Variogram& shape) const;
+    /// The likelihood of noise about the trend, and no field.
+    [[nodiscard]] Likely of_noise() const;
 
     /// Tells whether the data are the trend up to rounding.
     [[nodiscard]] bool trend_only() const { return trend_only_; }
-    /// The variance of the data about the trend, if that leaves nothing but noise, and its
-    /// likelihood.
-    [[nodiscard]] NoiseAlone noise_alone() const { return NoiseAlone(contrasts_); }
     /// Extent of the data: the diagonal of their bounding box.
     [[nodiscard]] double extent() const { return extent_; }
 
 private:
     std::vector<Point3> data_;
-    Eigen::HouseholderQR<Eigen::MatrixXd> qr_;
-    Eigen::Index terms_ = 0;
+    TrendTerms terms_;
+    Contrasts basis_;
+    unsigned degree_;
     Eigen::VectorXd contrasts_;
-    std::array<double, 2> centre_{};
     double extent_ = 0;
+    double constant_ = 0; ///< of all logarithms
     bool trend_only_ = false;
 };
 

@@ -151,46 +151,6 @@ struct RbfConstants : Constants {
     double cut_corner = add("cut_corner", 0.25);
     /// Distance from the surface up to which the filling counts as over it, in edge lengths.
     double over_surface = add("over_surface", 0.5);
-    /// Well-spread data from which the kernel and the degree of a graph are chosen. Larger: slower,
-    /// n^3.
-    std::size_t height_trial = add("height_trial", 112);
-    /// Of these data, those whose nearest neighbour is taken as well.
-    std::size_t height_pairs = add("height_pairs", 48);
-    /// Blocks as wide as the hole that are left out of a graph in turn.
-    std::size_t height_blocks = add("height_blocks", 12);
-    /// Data that are left out of a graph in such blocks, well spread.
-    std::size_t height_validation = add("height_validation", 300);
-    /// Share of the nugget that is noise, by the weights of the data, above which all of it counts
-    /// as such.
-    double least_noise_share = add("least_noise_share", 0.5);
-    /// Least factor of a kernel whose data may as well be noise.
-    double least_share = add("least_share", 1e-6);
-    /// The model of kriging is believed up to this many times the error of the fit at such blocks.
-    double worth_own = add("worth_own", 1.5);
-    /// Kriging tells two models apart if the square of its error at blocks, beyond the noise,
-    /// exceeds this many squares of the noise.
-    double least_excess = add("least_excess", 0.5);
-    /// Noise of the fit, in that of the model of kriging, above which its model is not believed.
-    double most_own_noise = add("most_own_noise", 2);
-    /// Multiplications above which expected errors come from these data alone.
-    double most_operations = add("most_operations", 5e9);
-    /// A block with more than this share of the data is not left out.
-    double most_of_all = add("most_of_all", 0.7);
-    /// Centres of a graph whose data are to be missed by a given amount.
-    std::size_t most_smoothed_heights = add("most_smoothed_heights", 600);
-    /// Slope between two data above which they are no graph: 87 degrees.
-    double steepest_graph = add("steepest_graph", 20);
-    /// Distance of the data from a polynomial, in units, below which it is rounding.
-    double height_rounding = add("height_rounding", 1e-13);
-    /// How far what a graph misses of the data reaches into the hole, in median border edges.
-    /// Larger: noise enters the hole; much less: the filling has spikes at its border.
-    double noise_reach = add("noise_reach", 0.75);
-    /// First addition to the diagonal of a singular system of a graph, in its mean entries.
-    double least_addition = add("least_addition", 1e-13);
-    /// Largest such addition.
-    double most_addition = add("most_addition", 1e-7);
-    /// Growth of such additions.
-    double addition_growth = add("addition_growth", 100);
 };
 
 inline constexpr RbfConstants constants{};

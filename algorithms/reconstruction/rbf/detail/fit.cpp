@@ -21,7 +21,7 @@ Point3 along(const Point3& p, double d, const Point3& direction) {
     return {p.x + d * direction.x, p.y + d * direction.y, p.z + d * direction.z};
 }
 
-/// Returns the number of centres with which step (3) starts.
+/// Returns the number of centres with which step (2) starts.
 std::size_t start_size(const RbfOptions& options) {
     return std::max(constants.least_start, options.most_centres / constants.start_part);
 }
@@ -81,7 +81,7 @@ public:
         data_(data),
         start_(start), form_(form), options_(options), report_(report), run_(run) {}
 
-    /// Fits by steps (3) to (5); without step (5) unless `whole`.
+    /// Fits by steps (2) to (4); without step (4) unless `whole`.
     Result<Implicit> operator()(bool whole) {
         report_.data = data_.points.size();
         choose_start();
@@ -105,12 +105,12 @@ public:
             report_.solution = fit.value().solution;
             report_.centres = centres_;
             if (some() > 1 && add_missed(errors_of(f))) continue;
-            interpolate_rest(f, data_, options_, {}, report_, run_);
+            interpolate_rest(f, data_, options_, report_, run_);
             return f;
         }
     }
 
-    /// Fits without refinement and without step (5).
+    /// Fits without refinement and without step (4).
     Result<Implicit> quick() {
         choose_start();
         if (options_.smoothing) return smoothed(false);
@@ -122,7 +122,7 @@ public:
     }
 
 private:
-    /// Step (3): sets centres and offset constraints.
+    /// Step (2): sets centres and offset constraints.
     void choose_start() {
         is_centre_.assign(data_.points.size(), false);
         for (const std::uint32_t i : start_.centres) add_centre(i);
@@ -162,8 +162,8 @@ private:
         }
     }
 
-    /// Steps (4) and (5) with smoothing: all data, or a sufficient sample, determine the weights of
-    /// the centres of step (3).
+    /// Steps (3) and (4) with smoothing: all data, or a sufficient sample, determine the weights of
+    /// the centres of step (2).
     Result<Implicit> smoothed(bool whole) {
         std::vector<Point3> points(points_.begin(), points_.end());
         std::vector<double> values(values_.begin(), values_.end());
@@ -182,7 +182,7 @@ private:
         f.nugget = fit.value().nugget;
         report_.centres = centres_;
         report_.freedom = fit.value().freedom;
-        if (whole) interpolate_rest(f, data_, options_, {}, report_, run_);
+        if (whole) interpolate_rest(f, data_, options_, report_, run_);
         return f;
     }
 
@@ -195,7 +195,7 @@ private:
         return std::max<std::size_t>(1, data_.points.size() / constants.enough_data);
     }
 
-    /// Step (4): turns the data of largest error into centres, no two of them near each other.
+    /// Step (3): turns the data of largest error into centres, no two of them near each other.
     /// Returns false if all errors are tolerable or the centres are used up.
     bool add_missed(const std::vector<double>& errors) {
         std::vector<std::uint32_t> missed;
@@ -300,7 +300,7 @@ struct Trials {
     Start start;
 };
 
-/// Fits a form and measures its error at the data left out. `quick`: without step (4).
+/// Fits a form and measures its error at the data left out. `quick`: without step (3).
 Result<Trial> try_form(const Trials& trials, const RbfForm& form, bool quick, const Run& run) {
     RbfReport unused;
     const RbfData& data = trials.data;
@@ -411,14 +411,14 @@ std::vector<std::uint32_t> well_spread(const std::vector<Point3>& points, std::s
 }
 
 void interpolate_rest(Implicit& f, const RbfData& data, const RbfOptions& options,
-                      const PatchFade& fade, RbfReport& report, const Run& run) {
+                      RbfReport& report, const Run& run) {
     auto errors = errors_at_data(f, data, 1, run);
     note_errors(errors, report);
     report.missed = report.largest_error;
     if (options.smoothing || report.missed <= tolerance_of(data, options)) return;
     auto wanted = errors;
     for (double& e : wanted) e = -e;
-    f.rest = RbfPatches(data.points, wanted, fade);
+    f.rest = RbfPatches(data.points, wanted);
     report.patches = f.rest.size();
     for_ranges(errors.size(), run, [&](std::size_t a, std::size_t b) {
         for (std::size_t i = a; i < b; ++i) errors[i] += f.rest(data.points[i]);
@@ -456,7 +456,7 @@ Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, co
     }
     if (!options.smoothing &&
         !(least.missed <
-          constants.exact * data.radius)) { // with step (4), and with noise kept out of the
+          constants.exact * data.radius)) { // with step (3), and with noise kept out of the
                                             // hole
         for (const bool smoothed : {false, true}) {
             RbfForm form = best.form;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Fits the function whose zero level fills a hole: steps (3) to (5) of rbf.hpp.
+// Fits the function whose zero level fills a hole: steps (2) to (4) of rbf.hpp.
 #pragma once
 
 #include <array>
@@ -31,8 +31,8 @@ struct RbfForm {
     bool along_axis = false; ///< offset constraints are along the polynomial's third axis, not
                              ///< along normals: f is a height, of which the polynomial can take
                              ///< more than of a distance
-    bool smoothed = false;   ///< step (4) smooths by generalised cross-validation, so that noise of
-                             ///< the data is left to step (5) and does not enter the hole
+    bool smoothed = false;   ///< step (3) smooths by generalised cross-validation, so that noise of
+                             ///< the data is left to step (4) and does not enter the hole
 };
 
 /// Fits the function. `tree`: of the data's triangles; `report` describes the fit. Errors: those of
@@ -67,10 +67,10 @@ bool is_graph_along(const RbfData& data, const Point3& axis);
 /// tenth. Errors: interrupted.
 Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, const Run& run);
 
-/// Step (5): interpolates the errors that were left at the data, if any exceeds the tolerance;
+/// Step (4): interpolates the errors that were left at the data, if any exceeds the tolerance;
 /// `fade` says how far they reach. With options.smoothing, reports them only.
 void interpolate_rest(Implicit& f, const RbfData& data, const RbfOptions& options,
-                      const PatchFade& fade, RbfReport& report, const Run& run);
+                      RbfReport& report, const Run& run);
 
 /// Selects up to `count` of the points marked in `of`, each as far as possible from those before
 /// it.

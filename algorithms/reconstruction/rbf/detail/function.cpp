@@ -18,9 +18,6 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-/// Replaces a squared distance of 0, where the logarithm is not defined.
-constexpr double no_square = std::numeric_limits<double>::min();
-
 /// An unevaluated sum of two doubles, of about 106 bits. It tracks no error bound, unlike
 /// DoubleDouble, and takes a third of the time. Source: Dekker (1971).
 struct Pair {
@@ -235,44 +232,14 @@ void RbfFunction::terms_at(const std::array<double, 3>& p, double* terms) const 
     });
 }
 
-std::string_view name_of(RbfKernel kernel) {
-    switch (kernel) {
-    case RbfKernel::linear:
-        return "h";
-    case RbfKernel::thin_plate:
-        return "h^2 log h";
-    case RbfKernel::cubic:
-        break;
-    }
-    return "h^3";
-}
-
-void RbfFunction::set_graph(unsigned degree, const GraphParts& parts) {
-    basis_.degree = degree;
-    graph_ = true;
-    kernel_ = parts.kernel;
-    std::fill(z_.begin(), z_.end(), 0.0);
-    weights_.clear();
-    for (const double c : parts.weights) weights_.push_back(-c);
-    polynomial_.clear();
-    for (const double c : parts.polynomial) polynomial_.push_back(-c);
-    polynomial_.push_back(1); // of w
-}
-
 double RbfFunction::operator()(const Point3& p) const {
     if (polynomial_.empty()) return 0;
     const auto [u, v, w] = scaled(p);
     using Array = Eigen::Map<const Eigen::ArrayXd>;
     const auto n = static_cast<Eigen::Index>(x_.size());
     const Array cx(x_.data(), n), cy(y_.data(), n), cz(z_.data(), n), c(weights_.data(), n);
-    const auto square = (cx - u).square() + (cy - v).square() + (cz - (graph_ ? 0 : w)).square();
-    double sum = 0;
-    if (kernel_ == RbfKernel::cubic)
-        sum = (c * square * square.sqrt()).sum();
-    else if (kernel_ == RbfKernel::linear)
-        sum = -(c * square.sqrt()).sum();
-    else
-        sum = (c * square * square.max(no_square).log()).sum() / 2;
+    const auto square = (cx - u).square() + (cy - v).square() + (cz - w).square();
+    double sum = (c * square * square.sqrt()).sum();
     const auto powers = Powers({u, v, w}).of;
     auto factor = polynomial_.begin();
     for_each_term(basis_, [&](unsigned i, unsigned j, unsigned k) {
@@ -287,14 +254,10 @@ Point3 RbfFunction::gradient(const Point3& p) const {
     using Array = Eigen::Map<const Eigen::ArrayXd>;
     const auto n = static_cast<Eigen::Index>(x_.size());
     const Array cx(x_.data(), n), cy(y_.data(), n), cz(z_.data(), n), c(weights_.data(), n);
-    const double height = graph_ ? 0 : w;
-    const Eigen::ArrayXd square =
-        ((cx - u).square() + (cy - v).square() + (cz - height).square()).max(no_square);
-    Eigen::ArrayXd slopes = 3 * c * square.sqrt();
-    if (kernel_ == RbfKernel::linear) slopes = -c / square.sqrt();
-    if (kernel_ == RbfKernel::thin_plate) slopes = c * (square.log() + 1);
+    const auto square = (cx - u).square() + (cy - v).square() + (cz - w).square();
+    const Eigen::ArrayXd slopes = 3 * c * square.sqrt();
     std::array<double, 3> g{(slopes * (u - cx)).sum(), (slopes * (v - cy)).sum(),
-                            graph_ ? 0 : (slopes * (w - cz)).sum()};
+                            (slopes * (w - cz)).sum()};
     const auto powers = Powers({u, v, w}).of;
     auto factor = polynomial_.begin();
     for_each_term(basis_, [&](unsigned i, unsigned j, unsigned k) {

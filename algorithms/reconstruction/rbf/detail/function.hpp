@@ -41,26 +41,9 @@ struct RbfPolynomial {
     }
 };
 
-/// The radial part, of the distance h.
-enum class RbfKernel : std::uint8_t {
-    linear,     ///< -h
-    thin_plate, ///< h^2 log h, of thin plate splines
-    cubic,      ///< h^3
-};
-
-/// Names the kernel: "h", "h^2 log h", "h^3".
-std::string_view name_of(RbfKernel kernel);
-
 struct RbfFit;
 struct RbfSetting;
 struct RbfSmoothFit;
-
-/// The parts of a function w - g(u, v): a surface that is a graph over the plane of u and v.
-struct GraphParts {
-    RbfKernel kernel = RbfKernel::cubic; ///< of g, for distances in that plane
-    std::span<const double> weights;     ///< of g, per centre
-    std::span<const double> polynomial;  ///< of g, per term in u and v
-};
 
 class RbfFunction {
 public:
@@ -76,8 +59,6 @@ public:
 
     /// Sets centres and scaling, and no function yet. Returns false if all centres are equal.
     bool set_centres(std::span<const Point3> centres, const RbfPolynomial& basis);
-    /// Makes this w - g(u, v), for the centres that were set and a polynomial of this degree.
-    void set_graph(unsigned degree, const GraphParts& parts);
 
     friend Result<RbfFit> fit_rbf(std::span<const Point3>, std::span<const double>,
                                   const RbfSetting&, const Run&);
@@ -93,8 +74,6 @@ private:
     double scale_ = 1;              ///< half the longest side of the bounding box
     std::vector<double> x_, y_, z_; ///< centres, scaled
     std::vector<double> weights_;   ///< per centre
-    RbfKernel kernel_ = RbfKernel::cubic;
-    bool graph_ = false; ///< distances of the kernel are those in the plane of u and v
     RbfPolynomial basis_;
     std::vector<double> polynomial_; ///< per term: by increasing power of w, then of u, then of v
 };

@@ -35,9 +35,7 @@ Point3 greatest(const Point3& a, const Point3& b) {
 
 } // namespace
 
-RbfPatches::RbfPatches(std::span<const Point3> points, std::span<const double> values,
-                       const PatchFade& fade) :
-    fade_(fade) {
+RbfPatches::RbfPatches(std::span<const Point3> points, std::span<const double> values) {
     if (points.empty()) return;
     Values data{points, values, std::vector<std::uint32_t>(points.size())};
     std::iota(data.order.begin(), data.order.end(), 0U);
@@ -148,7 +146,7 @@ void RbfPatches::bound_balls() {
 
 double RbfPatches::operator()(const Point3& p) const {
     if (nodes_.empty()) return 0;
-    double sum = 0, weights = 0, nearest = HUGE_VAL;
+    double sum = 0, weights = 0;
     std::array<std::uint32_t, 128> open{}; // deeper than any tree of bisections
     std::size_t count = 1;
     while (count > 0) {
@@ -165,20 +163,12 @@ double RbfPatches::operator()(const Point3& p) const {
         double value = patch.constant;
         for (std::size_t i = 0; i < patch.points.size(); ++i) {
             const Point3 d = minus(p, patch.points[i]);
-            const double square = dot(d, d), along = dot(d, fade_.axis);
-            value += patch.weights[i] * std::sqrt(square);
-            nearest = std::min(nearest, square - along * along);
+            value += patch.weights[i] * std::sqrt(dot(d, d));
         }
         sum += w * value;
         weights += w;
     }
-    return faded(sum / std::max(weights, weight(1 / constants.ball_ratio)), nearest);
-}
-
-double RbfPatches::faded(double value, double square) const {
-    if (!(fade_.distance > 0)) return value;
-    const double left = 1 - square / (fade_.distance * fade_.distance);
-    return left > 0 ? value * left * left : 0;
+    return sum / std::max(weights, weight(1 / constants.ball_ratio));
 }
 
 } // namespace terrane::rbf::detail

@@ -13,13 +13,6 @@
 
 namespace terrane::rbf::detail {
 
-/// Where patches fade within less than the reach of their balls: to 0 at this distance from the
-/// nearest point, measured across the axis.
-struct PatchFade {
-    double distance = 0; ///< 0: only at the rim of the balls
-    Point3 axis{};       ///< unit vector
-};
-
 /// Cells of at most 48 points result from bisection at the median. Around each cell is a ball of
 /// one and a half times its radius, with a function sum of w_i |p - p_i| plus a constant that
 /// interpolates the values at all points in the ball. The functions are blended with Wendland
@@ -30,8 +23,7 @@ class RbfPatches {
 public:
     RbfPatches() = default;
     /// The points must be distinct.
-    RbfPatches(std::span<const Point3> points, std::span<const double> values,
-               const PatchFade& fade = {});
+    RbfPatches(std::span<const Point3> points, std::span<const double> values);
 
     [[nodiscard]] std::size_t size() const { return patches_.size(); }
     [[nodiscard]] double operator()(const Point3& p) const;
@@ -63,11 +55,8 @@ private:
     void fit(const Values& data, Patch& patch) const;
     void bound_balls();
 
-    [[nodiscard]] double faded(double value, double square) const;
-
     std::vector<Patch> patches_;
     std::vector<Node> nodes_;
-    PatchFade fade_;
 };
 
 } // namespace terrane::rbf::detail

@@ -13,22 +13,49 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
+#include <terrane/algorithms/reconstruction/kriging/well_spread.hpp>
+
 using namespace terrane;
 
-TEST_CASE("kriging: what a fit misses and its freedom agree with dense algebra", "[kriging]") {
-    srand(5);
-    const Eigen::MatrixXd root = Eigen::MatrixXd::Random(24, 24);
-    const Eigen::MatrixXd kernel = root * root.transpose();
-    const Eigen::VectorXd values = Eigen::VectorXd::Random(24);
-    const TridiagonalKernel form(kernel, values);
-    CHECK(form.scale() == Approx(kernel.diagonal().mean()));
-    for (const double nugget : {1e-6, 0.1, 3.0, 1e4}) {
-        Eigen::MatrixXd system = kernel;
-        system.diagonal().array() += nugget;
-        const Eigen::MatrixXd inverse = system.inverse();
-        CHECK(form.missed(nugget) == Approx((nugget * inverse * values).norm()).epsilon(1e-6));
-        CHECK(form.freedom(nugget) == Approx((kernel * inverse).trace()).epsilon(1e-6));
+TEST_CASE("kriging: contrasts are an orthogonal basis that the trend does not change",
+          "[kriging]") {
+    srand(4);
+    for (const Eigen::Index m : {1, 3, 6}) {
+        const Eigen::MatrixXd terms = Eigen::MatrixXd::Random(20, m);
+        const Contrasts contrasts(terms);
+        CHECK(contrasts.terms() == m);
+        CHECK(contrasts.determined());
+        Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(20, 20), columns = terms;
+        contrasts.apply(basis);
+        CHECK((basis * basis.transpose() - Eigen::MatrixXd::Identity(20, 20)).norm() < 1e-12);
+        contrasts.apply(columns);
+        CHECK(columns.bottomRows(20 - m).norm() < 1e-12);
+        const Eigen::MatrixXd root = Eigen::MatrixXd::Random(20, 20),
+                              kernel = root * root.transpose();
+        Eigen::MatrixXd twice = kernel;
+        contrasts.apply_twice(twice);
+        CHECK((twice - basis * kernel * basis.transpose()).norm() < 1e-11);
+        const Eigen::VectorXd data = Eigen::VectorXd::Random(20);
+        Eigen::VectorXd numbers = data;
+        contrasts.apply(numbers);
+        CHECK((numbers - basis * data).norm() < 1e-12);
+        CHECK((contrasts.trend_of(numbers) - terms.householderQr().solve(data)).norm() < 1e-11);
+        contrasts.undo(numbers);
+        CHECK((numbers - data).norm() < 1e-12);
+        // Weights that reproduce the terms at a place do so at the data.
+        Eigen::MatrixXd place = Eigen::MatrixXd::Random(m, 1), first = place;
+        contrasts.reproduce(first);
+        Eigen::VectorXd weights = Eigen::VectorXd::Zero(20);
+        weights.head(m) = first;
+        contrasts.undo(weights);
+        CHECK((terms.transpose() * weights - place).norm() < 1e-11);
+        CHECK((inverse_of(kernel) * kernel - Eigen::MatrixXd::Identity(20, 20)).norm() < 1e-6);
+        CHECK((squared(root) - root.transpose() * root).norm() < 1e-11);
     }
+    CHECK(inverse_of(-Eigen::MatrixXd::Identity(3, 3)).size() == 0);
+    Eigen::MatrixXd line = Eigen::MatrixXd::Random(20, 3);
+    line.col(2) = 2 * line.col(1);
+    CHECK_FALSE(Contrasts(line).determined());
 }
 
 TEST_CASE("kriging: the most likely nugget is that of a search with dense algebra", "[kriging]") {
@@ -45,33 +72,10 @@ TEST_CASE("kriging: the most likely nugget is that of a search with dense algebr
         return -(30 * std::log(sill) + pivots.array().log().sum()) / 2;
     };
     const TridiagonalKernel form(kernel, values);
-    const auto found = form.most_likely(HUGE_VAL);
+    const auto found = form.most_likely();
     CHECK(found.likelihood == Approx(likelihood(found.nugget / found.sill)));
     for (double factor = 1e-4; factor < 1e4; factor *= 1.3)
-        CHECK(found.likelihood > likelihood(factor * form.scale()) - 0.01);
-    // A bound on the nugget is kept.
-    CHECK(form.most_likely(found.nugget / 10).nugget <= found.nugget / 10);
-}
-
-TEST_CASE("kriging: noise alone is the limit of a large nugget, and a surface must be worth it",
-          "[kriging]") {
-    srand(7);
-    const Eigen::MatrixXd root = Eigen::MatrixXd::Random(40, 40);
-    const Eigen::MatrixXd kernel = root * root.transpose();
-    const Eigen::VectorXd noise = Eigen::VectorXd::Random(40);
-    const NoiseAlone alone(noise);
-    CHECK(alone.variance == Approx(noise.squaredNorm() / 40));
-    const auto likely = TridiagonalKernel(kernel, noise).most_likely(HUGE_VAL);
-    CHECK(likely.likelihood > alone.likelihood - 0.1); // the largest nugget is nearly alone
-    CHECK(alone.probability_of(likely, 2) < 0.6);
-    LikelyNugget even = likely;
-    CHECK(alone.price == Approx(std::log(40) / 2)); // more data, less luck
-    even.likelihood = alone.likelihood + 2 * alone.price;
-    CHECK(alone.probability_of(even, 2) == Approx(0.5));
-    CHECK(alone.probability_of(even, 1) > 0.5);
-    const Eigen::VectorXd surface = 10 * root * Eigen::VectorXd::Random(40);
-    const auto clear = TridiagonalKernel(kernel * kernel, surface).most_likely(HUGE_VAL);
-    CHECK(NoiseAlone(surface).probability_of(clear, 2) > 0.99);
+        CHECK(found.likelihood > likelihood(factor * kernel.diagonal().mean()) - 0.01);
 }
 
 TEST_CASE("kriging: neighbours of well-spread points are as near as any, in any order",

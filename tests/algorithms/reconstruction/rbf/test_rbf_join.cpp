@@ -81,11 +81,18 @@ TEST_CASE("rbf: graphs are filled up to their border, folds and occupied holes a
     const auto crossed = fill_and_join_by_rbf(occupied, hole);
     REQUIRE(!crossed);
     CHECK(crossed.error().code == ErrorCode::improper_contact);
-    // An upright sheet is no graph over x and y.
+    // An upright sheet is no graph over x and y, but over its own plane.
     Surface upright = s;
     for (Point3& p : upright.vertices) p = {p.x, p.z, p.y};
-    const auto level = fill_and_join_by_rbf(upright, hole_of(upright));
-    REQUIRE(level);
-    CHECK(!level.value().filling.exact_border);
-    CHECK(check(std::span(&level.value().joined.surface, 1)).value().clean());
+    const auto turned = fill_and_join_by_rbf(upright, hole_of(upright));
+    REQUIRE(turned);
+    CHECK(turned->filling.exact_border);
+    CHECK(turned->filling.report.expected_error > 0);
+    const Surface& whole = turned->joined.surface;
+    CHECK(std::equal(upright.vertices.begin(), upright.vertices.end(), whole.vertices.begin()));
+    CHECK(holes_of(whole).empty());
+    CHECK(check(std::span(&whole, 1)).value().clean());
+    for (auto v = upright.vertices.size(); v < whole.vertices.size(); ++v)
+        CHECK(whole.vertices[v].y ==
+              Approx(wave(whole.vertices[v].x, whole.vertices[v].z)).margin(0.01));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/reconstruction/kriging/detail/kriging.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/system.hpp>
 
 #include <cmath>
 #include <vector>
@@ -31,6 +31,12 @@ void draw_heights(Random& random, std::vector<Point3>& points, const Variogram& 
     for (Eigen::Index i = 0; i < n; ++i) draw[i] = normal(random);
     const Eigen::VectorXd z = c.llt().matrixL() * draw;
     for (Eigen::Index i = 0; i < n; ++i) points[std::size_t(i)].z = z[i];
+}
+
+Estimate at(const System& system, double x, double y) {
+    REQUIRE(system.ready());
+    const Point3 p{x, y, 0};
+    return system.at(std::span(&p, 1), true)[0];
 }
 
 /// Solves the textbook system with a Lagrange multiplier, in variograms, by full pivoting.
@@ -67,10 +73,10 @@ TEST_CASE("kriging: estimates and variances agree with the textbook system", "[k
             auto data = scattered(random, 25, 100);
             for (Point3& p : data) p.z = random_real(random, -5, 5);
             const Variogram v{model, n % 2 == 0 ? 0.5 : 0.05, 6, 60, 1.2, 30, n % 3 == 0 ? 1 : 0.5};
-            const Kriging kriging(data, v, 0); // a constant does not change the estimate
+            const System kriging(data, v, 0); // a constant does not change the estimate
             for (int k = 0; k < 10; ++k) {
                 const double x = random_real(random, 0, 100), y = random_real(random, 0, 100);
-                const Estimate e = kriging.at(x, y), book = by_the_book(data, v, x, y);
+                const Estimate e = at(kriging, x, y), book = by_the_book(data, v, x, y);
                 CHECK(e.value == Approx(book.value).margin(1e-6));
                 CHECK(e.standard_deviation == Approx(book.standard_deviation).margin(1e-5));
             }
@@ -85,19 +91,19 @@ TEST_CASE("kriging: without a nugget data are interpolated, planes and quadratic
     const auto bowl = [](double x, double y) { return 0.01 * x * x - 0.02 * x * y + y; };
     for (Point3& p : data) p.z = random_real(random, -5, 5);
     const Variogram v{VariogramModel::spherical, 0, 6, 60};
-    const Kriging rough(data, v);
+    const System rough(data, v, 1);
     for (const Point3& p : data) {
-        CHECK(rough.at(p.x, p.y).value == Approx(p.z).margin(1e-6));
-        CHECK(rough.at(p.x, p.y).standard_deviation < 1e-4);
+        CHECK(at(rough, p.x, p.y).value == Approx(p.z).margin(1e-6));
+        CHECK(at(rough, p.x, p.y).standard_deviation < 1e-4);
     }
     for (Point3& p : data) p.z = plane(p.x, p.y);
-    const Kriging flat(data, v);
+    const System flat(data, v, 1);
     for (Point3& p : data) p.z = bowl(p.x, p.y);
-    const Kriging curved(data, v, 2);
+    const System curved(data, v, 2);
     for (int k = 0; k < 20; ++k) {
         const double x = random_real(random, -50, 150), y = random_real(random, -50, 150);
-        CHECK(flat.at(x, y).value == Approx(plane(x, y)).margin(1e-9));
-        CHECK(curved.at(x, y).value == Approx(bowl(x, y)).margin(1e-8));
+        CHECK(at(flat, x, y).value == Approx(plane(x, y)).margin(1e-9));
+        CHECK(at(curved, x, y).value == Approx(bowl(x, y)).margin(1e-8));
     }
 }
 
@@ -109,35 +115,14 @@ TEST_CASE("kriging: the variance predicts the error for fields with this variogr
         auto points = scattered(random, 90, 100);
         draw_heights(random, points, v);
         const std::vector<Point3> data(points.begin(), points.begin() + 70);
-        const Kriging kriging(data, v, 0);
+        const System kriging(data, v, 0);
         for (std::size_t k = 70; k < points.size(); ++k) {
-            const Estimate e = kriging.at(points[k].x, points[k].y);
+            const Estimate e = at(kriging, points[k].x, points[k].y);
             errors += std::pow(e.value - points[k].z, 2);
             expected += e.standard_deviation * e.standard_deviation + v.nugget;
         }
     }
     CHECK(errors / expected == Approx(1).epsilon(0.15));
-}
-
-TEST_CASE("kriging: neighbours give nearly the same estimates as all data at once", "[kriging]") {
-    const auto z = [](double x, double y) { return 10 * std::sin(x / 20) + y * std::cos(x / 30); };
-    std::vector<Point3> few, many;
-    for (int i = 0; i <= 25; ++i)
-        for (int j = 0; j <= 25; ++j) few.push_back({4.0 * i, 4.0 * j, z(4.0 * i, 4.0 * j)});
-    const double step = 100.0 / 60;
-    for (int i = 0; i <= 60; ++i)
-        for (int j = 0; j <= 60; ++j)
-            if (std::hypot(i - 30, j - 30) > 6)
-                many.push_back({step * i, step * j, z(step * i, step * j)});
-    REQUIRE(few.size() <= Kriging::most_at_once);
-    REQUIRE(many.size() > Kriging::most_at_once);
-    const Variogram v{VariogramModel::gaussian, 0, 100, 60};
-    const Kriging all(few, v), local(many, v);
-    for (const double x : {13.0, 41.0, 50.0, 57.0, 77.0})
-        for (const double y : {20.5, 50.0, 53.0}) {
-            CHECK(all.at(x, y).value == Approx(z(x, y)).margin(0.01));
-            CHECK(local.at(x, y).value == Approx(z(x, y)).margin(0.05));
-        }
 }
 
 TEST_CASE("kriging: coincident data, nearly coincident data and a single datum are handled",
@@ -151,13 +136,63 @@ TEST_CASE("kriging: coincident data, nearly coincident data and a single datum a
         data.push_back({once[i].x + 1e-9, once[i].y, once[i].z});
     }
     const Variogram v{VariogramModel::gaussian, 0, 6, 60};
-    const Kriging plain(once, v, 0), repeated(data, v, 0);
+    const System plain(once, v, 0), repeated(data, v, 0);
     const auto bound = [](double d) { return std::isfinite(d) && std::abs(d) < 1000; };
     for (int k = 0; k < 30; ++k) {
         const double x = random_real(random, 0, 100), y = random_real(random, 0, 100);
-        CHECK(bound(repeated.at(x, y).value));
-        CHECK(repeated.at(x, y).standard_deviation >= 0);
+        CHECK(bound(at(repeated, x, y).value));
+        CHECK(at(repeated, x, y).standard_deviation >= 0);
     }
     const std::vector<Point3> one{{1, 2, 3}};
-    CHECK(Kriging(one, v).at(50, 50).value == Approx(3));
+    CHECK(at(System(one, v, 1), 50, 50).value == Approx(3));
+}
+
+TEST_CASE("kriging: data that are left out are missed as a system without them misses them",
+          "[kriging]") {
+    Random random(13);
+    auto data = scattered(random, 30, 100);
+    for (Point3& p : data) p.z = random_real(random, -5, 5);
+    for (const Variogram& v : {Variogram{VariogramModel::exponential, 0.3, 6, 60},
+                               Variogram{VariogramModel::cubic, 0.3, 6, 60}}) {
+        const System all(data, v, 1),
+            fewer(std::vector<Point3>(data.begin() + 5, data.end()), v, 1);
+        const Eigen::MatrixXd projection = all.projection();
+        const Eigen::MatrixXd covariance = projection.topLeftCorner(5, 5).inverse();
+        const Eigen::VectorXd missed = covariance * all.weights().head(5);
+        for (Eigen::Index i = 0; i < 5; ++i) {
+            const Point3& p = data[std::size_t(i)];
+            const auto [value, deviation] = at(fewer, p.x, p.y);
+            CHECK(missed[i] == Approx(p.z - value).epsilon(1e-6));
+            CHECK(covariance(i, i) == Approx(deviation * deviation + v.nugget).epsilon(1e-6));
+        }
+    }
+}
+
+TEST_CASE("kriging: likelihoods of trends of several degrees compare", "[kriging]") {
+    Random random(14);
+    std::normal_distribution<double> normal;
+    for (const unsigned truth : {0U, 1U, 2U}) {
+        auto data = scattered(random, 120, 100);
+        for (Point3& p : data)
+            p.z =
+                (truth > 0 ? 0.1 * p.x : 0) + (truth > 1 ? 0.004 * p.x * p.y : 0) + normal(random);
+        double best = -HUGE_VAL;
+        unsigned found = 3;
+        for (unsigned degree = 0; degree < 3; ++degree)
+            if (const auto likely = Likelihood(data, degree).of_noise(); likely.likelihood > best) {
+                best = likely.likelihood;
+                found = degree;
+                CHECK(likely.degree == degree);
+                if (degree == truth) CHECK(likely.variogram.nugget == Approx(1).epsilon(0.4));
+            }
+        CHECK(found == truth);
+    }
+    // Noise alone is the limit of a field that is mostly noise.
+    auto data = scattered(random, 120, 100);
+    for (Point3& p : data) p.z = normal(random);
+    const Likelihood likelihood(data, 1);
+    const auto with = likelihood.at({VariogramModel::exponential, 0, 1, 50}),
+               none = likelihood.of_noise();
+    CHECK(with.likelihood > none.likelihood - 0.1);
+    CHECK(with.likelihood < none.likelihood + 5);
 }

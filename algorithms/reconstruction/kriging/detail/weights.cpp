@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/reconstruction/kriging/detail/weights.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/core/figure.hpp>
+#include <terrane/algorithms/core/parallel.hpp>
+#include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/system.hpp>
+#include <terrane/algorithms/reconstruction/kriging/well_spread.hpp>
+
+namespace terrane::kriging::detail {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr unsigned highest_degree = 2;
+
+/// A model, and the least degree of a trend that makes its covariance positive definite.
+struct Shape {
+    Variogram variogram;
+    unsigned least_degree = 0;
+};
+
+/// Lists the shapes that are wanted, without ranges.
+std::vector<Shape> shapes(const KrigingOptions& options) {
+    using enum VariogramModel;
+    const auto shape = [](VariogramModel model, double exponent = 1) {
+        Variogram v;
+        v.model = model;
+        v.exponent = exponent;
+        return Shape{v, model == thin_plate || model == cubic ? 1U : 0U};
+    };
+    std::vector<Shape> all{shape(power),       shape(thin_plate),  shape(cubic),
+                           shape(exponential), shape(matern, 1.5), shape(matern, 2.5),
+                           shape(gaussian)};
+    if (!options.model) return all;
+    if (*options.model == spherical) return {shape(spherical)};
+    std::erase_if(all, [&](const Shape& s) { return s.variogram.model != *options.model; });
+    return all;
+}
+
+/// Computes the likelihood of models.
+class Search {
+public:
+    Search(std::span<const Point3> data, const KrigingOptions& options, const Run& run) :
+        options_(options), run_(run) {
+        const auto pairs =
+            well_spread_pairs(data, constants.most_fitted, constants.most_fitted / 2);
+        const auto points = selected(data, pairs.chosen);
+        for (unsigned degree = 0; degree <= highest_degree; ++degree)
+            likelihoods_.emplace_back(points, degree);
+        least_range_ = std::max(constants.least_range * likelihoods_[0].extent(),
+                                constants.gaps_per_range * pairs.gap);
+    }
+
+    /// Returns models, the likeliest first; only the trend of least degree that is the data.
+    std::vector<Likely> operator()() {
+        for (const Likelihood& of : likelihoods_) {
+            if (of.trend_only()) return {of.of_noise()};
+            found_.push_back(of.of_noise());
+        }
+        std::vector<Variogram> first, others;
+        for (const Shape& s : shapes(options_))
+            for (const Variogram& v : ranged(s.variogram)) {
+                first.push_back(v);
+                if (s.least_degree == 0) others.push_back(v);
+            }
+        add(first, 1);
+        add(first, 2);
+        add(others, 0);
+        sort();
+        for (const double part : {2.0, 4.0}) {
+            refine(found_[0], part);
+            sort();
+        }
+        if (options_.anisotropy && found_[0].variogram.sill > 0) turn(found_[0]);
+        sort();
+        return std::move(found_);
+    }
+
+private:
+    void sort() {
+        std::stable_sort(found_.begin(), found_.end(), [](const Likely& a, const Likely& b) {
+            return a.likelihood > b.likelihood;
+        });
+    }
+
+    /// Adds these shapes with a trend of this degree.
+    void add(std::span<const Variogram> all, unsigned degree, double prior = 0) {
+        if (run_.stop.stop_requested()) return;
+        std::vector<Likely> found(all.size());
+        if (run_.progress) run_.progress("variogram", 0);
+        const auto one = [&](std::size_t i) {
+            if (!run_.stop.stop_requested()) found[i] = likelihoods_[degree].at(all[i]);
+        };
+        with_threads(run_, [&] { for_each_index(all.size(), one); });
+        for (Likely& f : found) {
+            f.likelihood -= prior;
+            if (f.variogram.sill > 0) found_.push_back(f);
+        }
+    }
+
+    /// Gives a shape ranges at equal ratios.
+    [[nodiscard]] std::vector<Variogram> ranged(Variogram shape) const {
+        using enum VariogramModel;
+        const double extent = std::max(likelihoods_[0].extent(), 1e-300);
+        shape.range = extent;
+        if (shape.model == power || shape.model == thin_plate || shape.model == cubic)
+            return {shape}; // a mere unit
+        const double most =
+            extent * (shape.model == gaussian ? constants.most_smooth_range : constants.most_range);
+        const double low = std::log(std::min(least_range_, most)), high = std::log(most);
+        std::vector<Variogram> all;
+        for (int k = 0; k < constants.range_steps; ++k) {
+            shape.range = std::exp(low + (high - low) * k / (constants.range_steps - 1));
+            all.push_back(shape);
+        }
+        return all;
+    }
+
+    /// Adds ranges a part of a step from that of a model.
+    void refine(Likely likely, double part) {
+        const auto all = ranged(likely.variogram);
+        if (all.size() < 2 || !(likely.variogram.sill > 0)) return;
+        const double ratio = std::pow(all[1].range / all[0].range, 1 / part);
+        std::vector<Variogram> between{likely.variogram, likely.variogram};
+        between[0].range *= ratio;
+        between[1].range /= ratio;
+        add(between, likely.degree);
+    }
+
+    /// Adds anisotropy to a model. It changes neither the area nor the shape near h = 0. All
+    /// directions together count as one model.
+    void turn(Likely plain) {
+        constexpr int directions = 6;
+        std::vector<Variogram> turned;
+        for (int d = 0; d < directions; ++d) {
+            Variogram v = plain.variogram;
+            v.angle = 180.0 * d / directions;
+            v.ratio = constants.turned_ratio;
+            v.range /= std::sqrt(v.ratio);
+            turned.push_back(v);
+        }
+        add(turned, plain.degree, std::log(directions));
+    }
+
+    const KrigingOptions& options_;
+    const Run& run_;
+    std::vector<Likelihood> likelihoods_; ///< by degree
+    double least_range_ = 0;
+    std::vector<Likely> found_;
+};
+
+/// Data that are left out at a time, as indices.
+struct LeftOut {
+    std::vector<std::vector<Index>> blocks; ///< as wide as the hole, round places of its border
+    std::vector<std::vector<Index>> rims;   ///< all round the hole, as if it were wider
+
+    void add(std::vector<std::vector<Index>>& to, std::vector<Index> some, std::size_t all) const {
+        const auto most = constants.most_of_all * static_cast<double>(all);
+        if (!some.empty() && static_cast<double>(some.size()) <= most)
+            to.push_back(std::move(some));
+    }
+};
+
+LeftOut left_out_of(std::span<const Point3> data, const DataAroundHole& around) {
+    LeftOut left;
+    const auto border = around.data.first(around.border);
+    const auto distance = [](const Point3& p, const Point3& q) {
+        return std::hypot(p.x - q.x, p.y - q.y);
+    };
+    for (const auto b : well_spread_in_plane(border, constants.blocks)) {
+        std::vector<Index> block;
+        for (std::size_t i = 0; i < data.size(); ++i)
+            if (distance(data[i], border[b]) <= around.radius)
+                block.push_back(static_cast<Index>(i));
+        left.add(left.blocks, std::move(block), data.size());
+    }
+    std::vector<double> nearest;
+    for (const Point3& p : data) {
+        nearest.push_back(HUGE_VAL);
+        for (const Point3& q : border) nearest.back() = std::min(nearest.back(), distance(p, q));
+    }
+    for (const double part : {1, 2, 4}) {
+        std::vector<Index> rim;
+        for (std::size_t i = 0; i < data.size(); ++i)
+            if (nearest[i] <= constants.rim / part * around.radius)
+                rim.push_back(static_cast<Index>(i));
+        left.add(left.rims, std::move(rim), data.size());
+    }
+    return left;
+}
+
+/// By how much a model misses the data of a block, and the variances that it expects, with noise.
+struct Missed {
+    VectorXd errors, variances;
+};
+
+/// A model and what it says of data left out.
+struct Judged {
+    WeighedModel model;
+    std::vector<Missed> blocks{}, rims{};
+    double logarithm = -HUGE_VAL; ///< of the weight
+};
+
+bool is_cubic(const Likely& likely) {
+    return likely.variogram.model == VariogramModel::cubic && likely.variogram.sill > 0;
+}
+
+/// Keeps the likeliest models, and the likeliest cubic one.
+std::vector<Likely> chosen(std::vector<Likely> all) {
+    const auto most = std::min(constants.most_models, all.size());
+    auto kept = all.begin() + static_cast<std::ptrdiff_t>(most);
+    const auto cubic = std::find_if(all.begin(), all.end(), is_cubic);
+    if (cubic != all.end() && cubic >= kept) std::iter_swap(kept++, cubic);
+    all.erase(kept, all.end());
+    return all;
+}
+
+/// Finds by how much a system misses data that are left out; none if that can't be told.
+std::vector<Missed> missed_by(const System& system, const MatrixXd& projection,
+                              std::span<const std::vector<Index>> all) {
+    std::vector<Missed> result;
+    for (const auto& some : all) {
+        const MatrixXd covariance = inverse_of(projection(some, some));
+        if (covariance.size() == 0) return {};
+        result.push_back(
+            {covariance * system.weights()(some), covariance.diagonal().cwiseMax(1e-300)});
+    }
+    return result;
+}
+
+Judged judged(const Likely& likely, std::span<const Point3> data, const LeftOut& left,
+              const Run& run) {
+    Judged result{
+        {likely.variogram, likely.degree, 0, 0}, {}, {}, likely.likelihood / constants.temper};
+    if (left.blocks.empty() && left.rims.empty()) return result;
+    const System system(data, likely.variogram, likely.degree, run);
+    if (!system.ready()) return {result.model};
+    const MatrixXd projection = system.projection();
+    result.blocks = missed_by(system, projection, left.blocks);
+    result.rims = missed_by(system, projection, left.rims);
+    double sum = 0;
+    for (const auto& [errors, variances] : result.blocks)
+        sum -= (variances.array().log() + errors.array().square() / variances.array()).mean() / 2;
+    const auto count = static_cast<double>(std::max<std::size_t>(1, left.blocks.size()));
+    result.logarithm += std::min(1.0, constants.most_counted / count) * sum;
+    if (!std::isfinite(result.logarithm)) return {result.model};
+    return result;
+}
+
+/// Turns logarithms into weights, and drops models that have no say and no doubt.
+void weigh(std::vector<Judged>& all) {
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Judged& a, const Judged& b) { return a.logarithm > b.logarithm; });
+    const double best = all[0].logarithm;
+    double sum = 0, kept = 0;
+    for (Judged& j : all)
+        sum += j.model.weight = std::isfinite(best) ? std::exp(j.logarithm - best) : 1;
+    for (Judged& j : all) {
+        const bool counts = j.model.weight >= std::min(1.0, constants.least_weight * sum);
+        kept += j.model.weight *= counts ? 1 : 0;
+    }
+    for (Judged& j : all) j.model.weight /= kept;
+    std::erase_if(all, [](const Judged& j) { return j.model.weight + j.model.doubt == 0; });
+}
+
+/// Finds by how much the average misses data that are left out.
+Missed averaged(std::span<const Judged> all, std::vector<Missed> Judged::*kind, std::size_t k) {
+    const Index size = (all[0].*kind)[k].errors.size();
+    Missed missed{VectorXd::Zero(size), VectorXd::Zero(size)};
+    for (const Judged& j : all) missed.errors += j.model.weight * (j.*kind)[k].errors;
+    for (const Judged& j : all) {
+        const auto& [errors, variances] = (j.*kind)[k];
+        for (Index i = 0; i < size; ++i)
+            missed.variances[i] += j.model.variance_of(variances[i], errors[i] - missed.errors[i]);
+    }
+    return missed;
+}
+
+double square_ratio(const Missed& missed) {
+    return missed.errors.squaredNorm() / missed.variances.sum();
+}
+
+/// Compares what is missed with what is expected.
+void calibrate(std::span<const Judged> all, std::span<const Point3> data, const LeftOut& left,
+               ModelAverage& average) {
+    double ratios = 0, squares = 0, count = 0;
+    for (std::size_t b = 0; b < left.blocks.size(); ++b) {
+        const Missed missed = averaged(all, &Judged::blocks, b);
+        ratios += square_ratio(missed);
+        squares += missed.errors.squaredNorm();
+        count += static_cast<double>(missed.errors.size());
+        for (std::size_t i = 0; i < left.blocks[b].size(); ++i) {
+            const double z = data[static_cast<std::size_t>(left.blocks[b][i])].z;
+            average.left_out.push_back({z, z - missed.errors[static_cast<Index>(i)]});
+        }
+    }
+    const auto n = static_cast<double>(left.blocks.size());
+    const auto trusted = [](double ratio, double blocks) {
+        const double counted = std::min(blocks, constants.most_counted);
+        return (counted * ratio + constants.block_prior) / (counted + constants.block_prior);
+    };
+    double square = 1;
+    average.blocks = left.blocks.size();
+    if (average.blocks > 0) {
+        average.error = std::sqrt(squares / count);
+        average.ratio = std::sqrt(ratios / n);
+        square = std::max(square, trusted(ratios / n, n));
+    }
+    double worst = 0;
+    for (std::size_t r = 0; r < left.rims.size(); ++r)
+        worst = std::max(worst, square_ratio(averaged(all, &Judged::rims, r)));
+    if (!left.rims.empty()) average.rim_ratio = std::sqrt(worst);
+    // What grows by a ratio from outside to the border may do so again to the middle of the hole.
+    square = std::max(square, std::pow(trusted(worst, constants.most_counted), 2));
+    average.factor = std::sqrt(square);
+}
+
+} // namespace
+
+std::vector<Point3> selected(std::span<const Point3> data, std::span<const std::uint32_t> chosen) {
+    std::vector<Point3> result;
+    for (const auto i : chosen) result.push_back(data[i]);
+    return result;
+}
+
+std::string description(const WeighedModel& model) {
+    const auto trend = fmt::format("trend of degree {}, ", model.degree);
+    const Variogram& v = model.variogram;
+    return trend +
+           (v.sill > 0 ? description(v) : fmt::format("noise {}", figure(std::sqrt(v.nugget), 4)));
+}
+
+ModelAverage weigh_models(const DataAroundHole& around, const KrigingOptions& options,
+                          const Run& run) {
+    ModelAverage average;
+    average.determined = around.data.size() >= constants.least_data;
+    auto likely = Search(around.data, options, run)();
+    likely = chosen(likely);
+    if (options.noise)
+        for (Likely& l : likely) l.variogram.nugget = *options.noise * *options.noise;
+    const auto data =
+        selected(around.data, well_spread_in_plane(around.data, constants.block_data));
+    const auto left = left_out_of(data, around);
+    std::vector<Judged> all(likely.size());
+    const auto one = [&](std::size_t i) { all[i] = judged(likely[i], data, left, run); };
+    with_threads(run, [&] { for_each_index(all.size(), one); });
+    if (run.stop.stop_requested()) return average;
+    const auto cubic = std::find_if(likely.begin(), likely.end(), is_cubic);
+    if (cubic != likely.end())
+        all[static_cast<std::size_t>(cubic - likely.begin())].model.doubt = constants.doubt;
+    const auto is_complete = [&](const Judged& j) {
+        return j.blocks.size() == left.blocks.size() && j.rims.size() == left.rims.size();
+    };
+    std::erase_if(all, [&](const Judged& j) { return !is_complete(j); });
+    if (all.empty()) all.push_back({{likely[0].variogram, likely[0].degree, 0, 0}});
+    weigh(all);
+    if (is_complete(all[0])) calibrate(all, data, left, average);
+    for (const Judged& j : all) average.models.push_back(j.model);
+    return average;
+}
+
+} // namespace terrane::kriging::detail

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/reconstruction/kriging/detail/average.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+#include "support/effort.hpp"
+#include "support/points.hpp"
+#include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/system.hpp>
+
+using namespace terrane;
+using namespace terrane::kriging::detail;
+using namespace test_support;
+
+namespace {
+
+constexpr double hole_radius = 60;
+
+/// Points round a hole, those on its border first, and places in it, whose heights are the truth.
+struct Ring {
+    std::vector<Point3> data;
+    std::size_t border = 0;
+    std::vector<Point3> places;
+
+    [[nodiscard]] DataAroundHole around() const { return {data, border, hole_radius}; }
+};
+
+Ring ring_of(Random& random) {
+    Ring ring;
+    std::vector<Point3> outer;
+    for (double x = -130; x < 131; x += 15)
+        for (double y = -130; y < 131; y += 15) {
+            const double r = std::hypot(x, y);
+            const Point3 p{x + random_real(random, -2, 2), y + random_real(random, -2, 2), 0};
+            if (r < hole_radius - 10 && ring.places.size() < 40) ring.places.push_back(p);
+            if (r >= hole_radius && r < hole_radius + 12) ring.data.push_back(p);
+            if (r >= hole_radius + 12) outer.push_back(p);
+        }
+    ring.border = ring.data.size();
+    ring.data.insert(ring.data.end(), outer.begin(), outer.end());
+    return ring;
+}
+
+/// Draws a field with exponential covariance at all points.
+void draw(Random& random, Ring& ring) {
+    std::vector<Point3*> all;
+    for (Point3& p : ring.data) all.push_back(&p);
+    for (Point3& p : ring.places) all.push_back(&p);
+    const auto n = static_cast<Eigen::Index>(all.size());
+    Eigen::MatrixXd c(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < n; ++j) {
+            const Point3 &p = *all[std::size_t(i)], &q = *all[std::size_t(j)];
+            c(i, j) = 100 * std::exp(-std::hypot(p.x - q.x, p.y - q.y) / 80);
+        }
+    std::normal_distribution<double> normal;
+    Eigen::VectorXd free(n);
+    for (Eigen::Index i = 0; i < n; ++i) free[i] = normal(random);
+    const Eigen::VectorXd z = c.llt().matrixL() * free;
+    for (Eigen::Index i = 0; i < n; ++i) all[std::size_t(i)]->z = z[i];
+}
+
+using MakeHeights = std::function<void(Random&, Ring&)>;
+
+/// Heights of a function, with noise of this standard deviation at the data.
+MakeHeights heights(const std::function<double(double, double)>& z, double noise) {
+    return [=](Random& random, Ring& ring) {
+        std::normal_distribution<double> normal(0, 1);
+        for (Point3& p : ring.data) p.z = z(p.x, p.y) + noise * normal(random);
+        for (Point3& p : ring.places) p.z = z(p.x, p.y);
+    };
+}
+
+bool agree(double a, double b) {
+    return std::abs(a - b) <= 1e-6 * (std::abs(a) + std::abs(b));
+}
+
+KnownHeights estimates(const Ring& ring, const KrigingOptions& options = {}) {
+    const auto average = weigh_models(ring.around(), options, {});
+    return AveragedHeights(ring.around(), average, {}).at(ring.places, {});
+}
+
+} // namespace
+
+TEST_CASE("kriging: expected errors are calibrated, with noise and without", "[kriging][once]") {
+    const auto plane = [](double x, double y) { return 0.1 * x - 0.05 * y; };
+    const auto dome = [](double x, double y) {
+        return 20 * std::exp(-(std::pow(x - 15, 2) + y * y) / 12'000);
+    };
+    const std::vector<std::pair<std::string, MakeHeights>> families{
+        {"plane, noise", heights(plane, 1)},
+        {"dome, noise", heights(dome, 1)},
+        {"dome", heights(dome, 0)},
+        {"exponential", draw}};
+    Random random(31);
+    for (const auto& [name, family] : families) {
+        double squares = 0, count = 0, within = 0;
+        for (int n = 0; n < 6; ++n) {
+            Ring ring = ring_of(random);
+            family(random, ring);
+            const auto known = estimates(ring);
+            for (std::size_t k = 0; k < ring.places.size(); ++k) {
+                const double ratio =
+                    std::abs(known.heights[k] - ring.places[k].z) / known.expected[k];
+                squares += ratio * ratio;
+                within += ratio <= 2 ? 1 : 0;
+                ++count;
+            }
+        }
+        CAPTURE(name, std::sqrt(squares / count), within / count);
+        CHECK(std::sqrt(squares / count) < 2);
+        if (name != "dome") CHECK(std::sqrt(squares / count) > 0.1); // it is nearly gaussian
+        CHECK(within / count > 0.8);
+    }
+}
+
+TEST_CASE("kriging: models share the weight, and what parts them is expected as an error",
+          "[kriging]") {
+    Random random(32);
+    Ring ring = ring_of(random);
+    draw(random, ring);
+    const auto average = weigh_models(ring.around(), {}, {});
+    REQUIRE(average.models.size() > 2);
+    CHECK(average.models.size() <= constants.most_models + 1);
+    CHECK(average.blocks > 3);
+    CHECK(average.blocks <= constants.blocks);
+    CHECK(average.factor >= 1);
+    double sum = 0, doubt = 0;
+    for (const WeighedModel& m : average.models) {
+        sum += m.weight;
+        doubt += m.doubt;
+        CHECK((m.weight == 0 || m.weight >= constants.least_weight * 0.5));
+        if (m.doubt > 0) CHECK(m.variogram.model == VariogramModel::cubic);
+        CHECK(description(m).find("trend of degree") == 0);
+    }
+    CHECK(sum == Approx(1));
+    CHECK(doubt == constants.doubt);
+    // The estimate is the weighted mean, and its variance has a part between the models.
+    const AveragedHeights averaged(ring.around(), average, {});
+    const Point3& place = ring.places[7];
+    double mean = 0, variance = 0;
+    const auto shares = averaged.shares_at(place);
+    REQUIRE(shares.size() == average.models.size());
+    for (const ModelShare& s : shares) mean += s.weight * s.height;
+    for (std::size_t m = 0; m < shares.size(); ++m) {
+        const ModelShare& s = shares[m];
+        variance += s.weight * s.deviation * s.deviation +
+                    std::max(s.weight, average.models[m].doubt) * std::pow(s.height - mean, 2);
+    }
+    const auto known = averaged.at(std::span(&place, 1), {});
+    CHECK(known.heights[0] == Approx(mean));
+    CHECK(known.expected[0] == Approx(average.factor * std::sqrt(variance)));
+}
+
+TEST_CASE("kriging: expected errors grow where data that are left out are missed by more",
+          "[kriging]") {
+    const auto factor = [](const ModelAverage& average) {
+        const auto trusted = [](double ratio, double blocks) {
+            const double n = std::min(blocks, constants.most_counted);
+            return (n * ratio * ratio + constants.block_prior) / (n + constants.block_prior);
+        };
+        return std::sqrt(std::max({1.0, trusted(average.ratio, double(average.blocks)),
+                                   std::pow(trusted(average.rim_ratio, 100), 2)}));
+    };
+    // A step next to the hole is as likely for many models; its blocks are missed by more.
+    Random random(39);
+    Ring ring = ring_of(random);
+    heights([](double x, double) { return 20 * std::tanh((x + 75) / 8); }, 0)(random, ring);
+    const auto step = weigh_models(ring.around(), {}, {});
+    CHECK(step.ratio > 0);
+    CHECK(step.factor == Approx(factor(step)));
+    CHECK(step.left_out.size() > 20);
+    // Only the rim of the hole shows that a peak begins.
+    heights([](double x, double y) { return 60 * std::exp(-(x * x + y * y) / (2 * 30 * 30)); },
+            0.05)(random, ring);
+    const auto peak = weigh_models(ring.around(), {}, {});
+    CHECK(peak.rim_ratio > 2);
+    CHECK(peak.factor > peak.rim_ratio);
+    CHECK(peak.factor == Approx(factor(peak)));
+}
+
+TEST_CASE("kriging: planes and paraboloids are known to rounding", "[kriging]") {
+    Random random(40);
+    for (const auto& z : std::vector<std::function<double(double, double)>>{
+             [](double, double) { return 7.0; }, [](double x, double y) { return 3 + 0.2 * x - y; },
+             [](double x, double y) { return 0.01 * x * x - 0.02 * x * y + y; }}) {
+        Ring ring = ring_of(random);
+        heights(z, 0)(random, ring);
+        const auto known = estimates(ring);
+        for (std::size_t k = 0; k < ring.places.size(); ++k) {
+            CHECK(known.heights[k] == Approx(ring.places[k].z).margin(1e-9));
+            CHECK(known.expected[k] < 1e-6);
+        }
+    }
+}
+
+TEST_CASE("kriging: a paraboloid with noise is extrapolated as one, a dome is not", "[kriging]") {
+    Random random(41);
+    double missed = 0;
+    for (int n = 0; n < 4; ++n) {
+        Ring ring = ring_of(random);
+        heights([](double x, double y) { return 0.004 * (x * x + y * y); }, 1)(random, ring);
+        const auto known = estimates(ring);
+        for (std::size_t k = 0; k < ring.places.size(); ++k)
+            missed = std::max(missed, std::abs(known.heights[k] - ring.places[k].z));
+    }
+    CHECK(missed < 3);
+}
+
+TEST_CASE("kriging: neither order nor axes, unit or origin decide the models", "[kriging]") {
+    Random random(32);
+    Ring ring = ring_of(random);
+    draw(random, ring);
+    REQUIRE(ring.data.size() > constants.most_fitted);
+    const auto plain = weigh_models(ring.around(), {}, {});
+    const auto changed = [&](const auto& change) {
+        Ring other = ring;
+        for (Point3& p : other.data) p = change(p);
+        const auto middle = other.data.begin() + static_cast<std::ptrdiff_t>(other.border);
+        std::shuffle(other.data.begin(), middle, random);
+        std::shuffle(middle, other.data.end(), random);
+        return other;
+    };
+    const auto check = [&](const Ring& other, double xy, double z) {
+        const auto c = weigh_models({other.data, other.border, hole_radius * xy}, {}, {});
+        REQUIRE(c.models.size() == plain.models.size());
+        const Variogram &a = c.models[0].variogram, &b = plain.models[0].variogram;
+        CHECK(a.model == b.model);
+        CHECK(agree(a.range, b.range * xy));
+        CHECK(agree(c.models[0].weight, plain.models[0].weight));
+        CHECK(agree(c.error, plain.error * z));
+        CHECK(agree(c.ratio, plain.ratio));
+    };
+    check(changed([](const Point3& p) { return p; }), 1, 1);
+    check(changed([](const Point3& p) { return Point3{-p.y, p.x, p.z}; }), 1, 1);
+    check(changed([](const Point3& p) { return Point3{p.x, p.y, -p.z}; }), 1, 1);
+    check(changed([](const Point3& p) { return Point3{8 * p.x, 8 * p.y, 4 * p.z}; }), 8, 4);
+    check(changed([](const Point3& p) { return Point3{p.x + 5000, p.y - 700, p.z + 40}; }), 1, 1);
+}
+
+TEST_CASE("kriging: the order of the data changes no bit of an estimate", "[kriging]") {
+    Random random(33);
+    Ring ring = ring_of(random);
+    draw(random, ring);
+    ModelAverage average;
+    average.models = {{{VariogramModel::matern, 0.1, 90, 300, 1.5, 30, 0.5}, 1, 0.7},
+                      {{VariogramModel::thin_plate, 0.1, 9, 300}, 1, 0.3}};
+    const auto first = AveragedHeights(ring.around(), average, {}).at(ring.places, {});
+    std::shuffle(ring.data.begin(), ring.data.end(), random);
+    const auto second = AveragedHeights(ring.around(), average, {}).at(ring.places, {});
+    CHECK(first.heights == second.heights);
+    CHECK(first.expected == second.expected);
+}
+
+TEST_CASE("kriging: grooves are followed, and other models are not silenced", "[kriging]") {
+    const auto grooves = [](double x, double y) { return std::sin(x / 25) + 0.0005 * x * y / 60; };
+    Random random(38);
+    Ring ring = ring_of(random);
+    heights(grooves, 0.02)(random, ring);
+    const auto turned = [](const ModelAverage& average) {
+        double weight = 0;
+        for (const WeighedModel& m : average.models)
+            if (m.variogram.ratio < 1) weight += m.weight;
+        return weight;
+    };
+    CHECK(turned(weigh_models(ring.around(), {}, {})) > 0.5);
+    CHECK(turned(weigh_models(ring.around(), {.anisotropy = false}, {})) == 0);
+}
+
+TEST_CASE("kriging: only models that are wanted take part", "[kriging]") {
+    Random random(42);
+    Ring ring = ring_of(random);
+    draw(random, ring);
+    const auto models = [&](const KrigingOptions& options) {
+        std::vector<VariogramModel> found;
+        for (const WeighedModel& m : weigh_models(ring.around(), options, {}).models)
+            if (m.variogram.sill > 0) found.push_back(m.variogram.model);
+        REQUIRE(!found.empty());
+        return found;
+    };
+    using enum VariogramModel;
+    for (const auto model : {spherical, exponential, matern, gaussian, power})
+        for (const auto found : models({.model = model})) CHECK(found == model);
+    for (const WeighedModel& m : weigh_models(ring.around(), {.noise = 3.0}, {}).models)
+        CHECK(m.variogram.nugget == 9);
+}
+
+TEST_CASE("kriging: with few data no expected error is told", "[kriging]") {
+    Random random(34);
+    Ring ring = ring_of(random);
+    draw(random, ring);
+    const DataAroundHole few{std::span(ring.data).first(constants.least_data - 1), 8, hole_radius};
+    const auto average = weigh_models(few, {}, {});
+    CHECK(!average.determined);
+    const auto known = AveragedHeights(few, average, {}).at(ring.places, {});
+    for (const double e : known.expected) CHECK(std::isnan(e));
+    for (const double z : known.heights) CHECK(std::isfinite(z));
+}
+
+TEST_CASE("kriging: next to long borders the filling meets data that are not taken", "[kriging]") {
+    const auto wave = [](double x, double y) { return std::sin(x / 3) + y / 10; };
+    std::vector<Point3> data;
+    constexpr int around = 1400;
+    for (const double radius : {100.0, 101.0})
+        for (int i = 0; i < around; ++i) {
+            const double angle = 2 * M_PI * i / around, x = radius * std::cos(angle),
+                         y = radius * std::sin(angle);
+            data.push_back({x, y, wave(x, y)});
+        }
+    REQUIRE(data.size() > constants.most_at_once);
+    ModelAverage average;
+    average.models = {{{VariogramModel::exponential, 0, 1, 60}, 1, 1}};
+    const AveragedHeights heights({data, around, 100}, average, {});
+    double missed = 0;
+    std::vector<Point3> places(data.begin(), data.begin() + around);
+    const auto known = heights.at(places, {});
+    for (std::size_t i = 0; i < places.size(); ++i)
+        missed = std::max(missed, std::abs(known.heights[i] - places[i].z));
+    CHECK(missed < 1e-6);
+    // Noise is not carried on.
+    average.models[0].variogram.nugget = 1e6;
+    CHECK(std::abs(AveragedHeights({data, around, 100}, average, {}).at(places, {}).heights[0] -
+                   places[0].z) > 1e-3);
+}
+
+TEST_CASE("kriging: a stop request ends the search for models at once", "[kriging]") {
+    Random random(35);
+    Ring ring = ring_of(random);
+    draw(random, ring);
+    std::stop_source source;
+    int reports = 0;
+    Run run;
+    run.stop = source.get_token();
+    run.progress = [&](std::string_view, double) {
+        ++reports;
+        source.request_stop();
+    };
+    weigh_models(ring.around(), {}, run);
+    CHECK(reports == 1);
+    // A stopped factorisation is no system.
+    const Variogram v{VariogramModel::exponential, 0, 1, 100};
+    CHECK(!System(ring.data, v, 1, run).ready());
+    CHECK(System(ring.data, v, 1).ready());
+}
