@@ -108,13 +108,12 @@ private:
             project.uncertainty = uncertainty_of(in_, *v, base_);
         const bool turned = std::any_of(project.surfaces.begin(), project.surfaces.end(),
                                         [](const ProjectSurfaces& s) { return s.depth; });
-        const bool changed = turned || project.tolerance || !project.unit.empty() || !project.fill.empty() ||
-                             project.layers || project.improve;
+        const bool changed = turned || project.tolerance || !project.unit.empty() ||
+                             !project.fill.empty() || project.layers || project.improve;
         if (project.outputs.certificate && changed)
-            in_.fail(
-                "outputs.certificate",
-                "must be false with unit, fill, layers, tolerance, improve or depth: a certificate is about "
-                "whole surfaces as their files have them");
+            in_.fail("outputs.certificate", "must be false with unit, fill, layers, tolerance, "
+                                            "improve or depth: a certificate is about "
+                                            "whole surfaces as their files have them");
         check_tetrahedra_formats(project);
         const std::string& parts = project.outputs.blocks;
         if (project.outputs.certificate && !parts.empty() && !is_certified(parts))

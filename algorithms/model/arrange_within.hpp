@@ -76,12 +76,12 @@ std::vector<NamedConstant> small_block_constants();
 
 /// Options of arrange_within().
 struct ArrangeWithinOptions {
-    ArrangeOptions arrange{};    ///< for every arrangement that is made
-    RoundingOptions rounding{};  ///< for the final rounding
-    double tolerance = 0;        ///< surfaces that are nearer are joined first, see join_within(), and
-                                 ///< gaps as wide are sealed unless `seal` or its rules say
-                                 ///< otherwise; unit of the input; 0: none
-    double seal = 0;             ///< largest width of gaps to close, unit of the input; 0: none
+    ArrangeOptions arrange{};   ///< for every arrangement that is made
+    RoundingOptions rounding{}; ///< for the final rounding
+    double tolerance = 0; ///< surfaces that are nearer are joined first, see join_within(), and
+                          ///< gaps as wide are sealed unless `seal` or its rules say
+                          ///< otherwise; unit of the input; 0: none
+    double seal = 0;      ///< largest width of gaps to close, unit of the input; 0: none
     bool seal_automatic = false; ///< the distance is chosen by choose_seal(); `seal` is ignored
     double extend = 0;     ///< longest extension of horizons that end inside, unit of the input; 0:
                            ///< none
