@@ -2,12 +2,14 @@
 #include <terrane/capi/sealing.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <utility>
 
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
+#include <terrane/algorithms/tolerance/tolerance.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>
@@ -138,6 +140,20 @@ terrane_code terrane_choose_seal(const terrane_arrangement* arrangement,
                                   : terrane::median_edge_length(needed(surfaces, "surfaces").list);
         const auto choice = must(terrane::choose_seal(exact, median, run_of(run)));
         *distance = choice.distance;
+    });
+}
+
+terrane_code terrane_join_within(const terrane_surfaces* surfaces, double tolerance,
+                                 const terrane_run* run, size_t* left, terrane_surfaces** out,
+                                 terrane_error** error) {
+    if (left) *left = 0;
+    return produce(out, error, [&] {
+        auto joined = must(terrane::join_within(needed(surfaces, "surfaces").list,
+                                                {.tolerance = tolerance}, run_of(run)));
+        auto handle = std::make_unique<terrane_surfaces>();
+        handle->list = std::move(joined.surfaces);
+        if (left) *left = joined.report.is_refused ? SIZE_MAX : joined.report.left.size();
+        return handle;
     });
 }
 

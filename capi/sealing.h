@@ -114,6 +114,15 @@ TERRANE_API terrane_code terrane_choose_seal(const terrane_arrangement* arrangem
                                              const terrane_run* run, double* distance,
                                              terrane_error** error);
 
+/// Joins what is nearer than `tolerance` (> 0, unit of the input): borders and creases of surfaces, and
+/// gaps and overlaps that are thinner. No surface moves by more. Sets *left to the number of thin gaps,
+/// overlaps and units that were not joined, or SIZE_MAX if nothing was, since the moves were not shown
+/// to be within the tolerance; left may be NULL. Free the surfaces with terrane_surfaces_free. Errors:
+/// BAD_OPTION, those of terrane_arrange and terrane_round.
+TERRANE_API terrane_code terrane_join_within(const terrane_surfaces* surfaces, double tolerance,
+                                             const terrane_run* run, size_t* left,
+                                             terrane_surfaces** out, terrane_error** error);
+
 /// Extends horizons that end inside a volume of interest to its boundary, by at most `limit` (> 0,
 /// unit of the input). `boundary` lists the numbers of the surfaces that bound the volume,
 /// ascending. Free the result with terrane_extended_free. Errors: BAD_OPTION, BAD_INDEX,

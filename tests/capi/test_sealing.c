@@ -51,6 +51,25 @@ static void test_gaps(void) {
     terrane_surfaces_free(s);
 }
 
+static void test_tolerance(void) {
+    terrane_surfaces* s = NULL;
+    WORKS(terrane_surfaces_new(&s, &error));
+    add_square(s, "a", TERRANE_ROLE_UNKNOWN, 0, 10, 4, 0);
+    add_square(s, "b", TERRANE_ROLE_UNKNOWN, 0.01, 10, 3, 0);
+    terrane_surfaces* joined = NULL;
+    size_t left = 7, before = 0, after = 0;
+    WORKS(terrane_join_within(s, 0.1, NULL, &left, &joined, &error));
+    CHECK(left == 0);
+    const double* const a = terrane_surfaces_vertices(joined, 0, &before);
+    const double* const b = terrane_surfaces_vertices(joined, 1, &after);
+    CHECK(before == after && before >= 4);
+    for (size_t i = 0; i < 3 * before && i < 3 * after; ++i) CHECK(a[i] == b[i]);
+    terrane_surfaces_free(joined);
+    FAILS(TERRANE_BAD_OPTION, terrane_join_within(s, 0, NULL, NULL, &joined, &error));
+    FAILS(TERRANE_BAD_ARGUMENT, terrane_join_within(NULL, 1, NULL, NULL, &joined, &error));
+    terrane_surfaces_free(s);
+}
+
 static void test_choice(void) {
     terrane_surfaces* const s = with_gap(0.01);
     terrane_arrangement* a = NULL;
@@ -117,6 +136,7 @@ static void test_extension(void) {
 
 void test_sealing(void) {
     test_gaps();
+    test_tolerance();
     test_choice();
     test_extension();
 }
