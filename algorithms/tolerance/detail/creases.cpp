@@ -20,13 +20,13 @@ Point3 normal_of(const Surface& s, std::uint32_t triangle) {
 }
 
 std::vector<SurfaceEdge> edges_of(const Surface& s) {
-    std::vector<std::pair<Segment, SurfaceEdge::Side>> sides;
+    std::vector<std::pair<EdgeEnds, SurfaceEdge::Side>> sides;
     sides.reserve(3 * s.triangles.size());
     for (std::uint32_t t = 0; t < s.triangles.size(); ++t)
         for (unsigned k = 0; k < 3; ++k) {
             const Point3 &p = s.vertices[s.triangles[t][k]],
                          &q = s.vertices[s.triangles[t][(k + 1) % 3]];
-            if (p != q) sides.push_back({segment(p, q), {t, k, p < q}});
+            if (p != q) sides.push_back({ends_of(p, q), {t, k, p < q}});
         }
     std::ranges::stable_sort(sides, {}, [](const auto& side) { return side.first; });
     std::vector<SurfaceEdge> edges;

@@ -14,9 +14,9 @@
 namespace terrane::tolerance::detail {
 
 /// Two places, the lesser one first.
-using Segment = std::array<Point3, 2>;
+using EdgeEnds = std::array<Point3, 2>;
 
-inline Segment segment(const Point3& a, const Point3& b) {
+inline EdgeEnds ends_of(const Point3& a, const Point3& b) {
     return {std::min(a, b), std::max(a, b)};
 }
 
@@ -41,7 +41,7 @@ struct SurfaceEdge {
         unsigned corner; ///< the edge runs from this one to the next
         bool forward;    ///< from the lesser place to the other
     };
-    Segment ends{};
+    EdgeEnds ends{};
     std::vector<Side> sides{};
     bool is_crease = false; ///< or border: not of two triangles that meet at a small angle
 };

@@ -19,16 +19,16 @@
 namespace terrane::tolerance::detail {
 namespace {
 
-Point3 nearest_on(const Segment& s, const Point3& p) {
+Point3 nearest_on(const EdgeEnds& s, const Point3& p) {
     const Point3 d = minus(s[1], s[0]);
     const double square = dot(d, d);
     return along(s[0], square > 0 ? std::clamp(dot(minus(p, s[0]), d) / square, 0.0, 1.0) : 0.0, d);
 }
 
-Point3 least_of(const Segment& s) {
+Point3 least_of(const EdgeEnds& s) {
     return {std::min(s[0].x, s[1].x), std::min(s[0].y, s[1].y), std::min(s[0].z, s[1].z)};
 }
-Point3 most_of(const Segment& s) {
+Point3 most_of(const EdgeEnds& s) {
     return {std::max(s[0].x, s[1].x), std::max(s[0].y, s[1].y), std::max(s[0].z, s[1].z)};
 }
 
@@ -37,30 +37,30 @@ class Curves {
 public:
     Curves(double size, double bound) : size_(size), bound_(bound) {}
 
-    void add(const Segment& s, std::size_t surface) {
+    void add(const EdgeEnds& s, std::size_t surface) {
         for (const Point3& p : s) points_[cube_of(p)].insert(p);
         if (auto& owners = surfaces_[s]; owners.insert(surface).second && owners.size() == 1)
             for_cubes(least_of(s), most_of(s), 0, [&](const Cube& c) { segments_[c].insert(s); });
     }
     /// Divides a segment; returns the surfaces that have it.
-    std::set<std::size_t> divide(const Segment& s, const Point3& place) {
+    std::set<std::size_t> divide(const EdgeEnds& s, const Point3& place) {
         const std::set<std::size_t> owners = std::move(surfaces_[s]);
         surfaces_.erase(s);
         for_cubes(least_of(s), most_of(s), 0, [&](const Cube& c) { segments_[c].erase(s); });
         for (const std::size_t surface : owners) {
-            add(segment(s[0], place), surface);
-            add(segment(place, s[1]), surface);
+            add(ends_of(s[0], place), surface);
+            add(ends_of(place, s[1]), surface);
         }
         return owners;
     }
     [[nodiscard]] std::optional<Point3> nearest_point(const Point3& p) const {
         return nearest(points_, p, [](const Point3& q) { return q; });
     }
-    [[nodiscard]] std::optional<Segment> nearest_segment(const Point3& p) const {
-        return nearest(segments_, p, [&](const Segment& s) { return nearest_on(s, p); });
+    [[nodiscard]] std::optional<EdgeEnds> nearest_edge(const Point3& p) const {
+        return nearest(segments_, p, [&](const EdgeEnds& s) { return nearest_on(s, p); });
     }
     /// Returns the points that are near the inside of a segment, ascending from its first end.
-    [[nodiscard]] std::vector<Point3> points_along(const Segment& s) const {
+    [[nodiscard]] std::vector<Point3> points_along(const EdgeEnds& s) const {
         std::set<Point3> found;
         for_cubes(least_of(s), most_of(s), bound_, [&](const Cube& c) {
             const auto at = points_.find(c);
@@ -110,8 +110,8 @@ private:
 
     const double size_, bound_;
     std::map<Cube, std::set<Point3>> points_;
-    std::map<Cube, std::set<Segment>> segments_;
-    std::map<Segment, std::set<std::size_t>> surfaces_; ///< that have a segment
+    std::map<Cube, std::set<EdgeEnds>> segments_;
+    std::map<EdgeEnds, std::set<std::size_t>> surfaces_; ///< that have a segment
 };
 
 /// A surface whose borders and creases can be divided.
@@ -123,13 +123,13 @@ public:
                 for (const SurfaceEdge::Side& side : e.sides)
                     triangles_[e.ends].push_back(side.triangle);
     }
-    [[nodiscard]] std::vector<Segment> curves() const {
-        std::vector<Segment> list;
+    [[nodiscard]] std::vector<EdgeEnds> curves() const {
+        std::vector<EdgeEnds> list;
         for (const auto& [edge, triangles] : triangles_) list.push_back(edge);
         return list;
     }
     /// Divides an edge, which gets vertices at these places, in the order from its first end.
-    void divide(const Segment& edge, std::span<const Point3> places) {
+    void divide(const EdgeEnds& edge, std::span<const Point3> places) {
         const auto first = static_cast<std::uint32_t>(s_.vertices.size());
         s_.vertices.insert(s_.vertices.end(), places.begin(), places.end());
         const auto at = triangles_.extract(edge);
@@ -137,7 +137,7 @@ public:
             for (unsigned k = 0; k < 3; ++k) {
                 const auto [a, b, c] = std::array{s_.triangles[t][k], s_.triangles[t][(k + 1) % 3],
                                                   s_.triangles[t][(k + 2) % 3]};
-                if (segment(s_.vertices[a], s_.vertices[b]) != edge) continue;
+                if (ends_of(s_.vertices[a], s_.vertices[b]) != edge) continue;
                 std::vector<std::uint32_t> chain(places.size());
                 std::iota(chain.begin(), chain.end(), first);
                 if (s_.vertices[a] != edge[0]) std::ranges::reverse(chain);
@@ -162,12 +162,12 @@ private:
             std::ranges::replace(last->second, t,
                                  static_cast<std::uint32_t>(s_.triangles.size() - 1));
     }
-    [[nodiscard]] Segment between(std::uint32_t a, std::uint32_t b) const {
-        return segment(s_.vertices[a], s_.vertices[b]);
+    [[nodiscard]] EdgeEnds between(std::uint32_t a, std::uint32_t b) const {
+        return ends_of(s_.vertices[a], s_.vertices[b]);
     }
 
     Surface& s_;
-    std::map<Segment, std::vector<std::uint32_t>> triangles_; ///< of borders and creases
+    std::map<EdgeEnds, std::vector<std::uint32_t>> triangles_; ///< of borders and creases
 };
 
 /// Joins the curves of surface after surface to those before.
@@ -189,10 +189,10 @@ public:
             return a == b || b == c || c == a;
         });
         Creased& creased = surfaces_.emplace_back(s);
-        for (const Segment& edge : creased.curves())
+        for (const EdgeEnds& edge : creased.curves())
             if (const auto near = curves_.points_along(edge); !near.empty())
                 creased.divide(edge, near);
-        for (const Segment& edge : creased.curves()) curves_.add(edge, surfaces_.size() - 1);
+        for (const EdgeEnds& edge : creased.curves()) curves_.add(edge, surfaces_.size() - 1);
         return static_cast<std::size_t>(std::ranges::count_if(
             places, [](const auto& move) { return move.first != move.second; }));
     }
@@ -200,7 +200,7 @@ public:
 private:
     Point3 place_for(const Point3& p) {
         if (const auto point = curves_.nearest_point(p)) return *point;
-        const auto on = curves_.nearest_segment(p);
+        const auto on = curves_.nearest_edge(p);
         if (!on) return p;
         const Point3 place = nearest_on(*on, p);
         if (place != (*on)[0] && place != (*on)[1])
