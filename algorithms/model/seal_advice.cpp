@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/model/seal_advice.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 
 #include <algorithm>
 #include <utility>

@@ -169,7 +169,7 @@ void add_method(CLI::App& app, FillCommand& command) {
         ->check(one_of({"kriging", "rbf"}));
     add_value(app, "--model", command.variogram, "MODEL",
               "Of the variogram of kriging: auto, spherical, exponential, gaussian, matern, power "
-              "(default: auto, all but spherical count, as likely as they are)")
+              "auto: all but spherical count, as likely as they are (default: auto)")
         ->check(one_of({"auto", "spherical", "exponential", "gaussian", "matern", "power"}));
     add_value(app, "--smoothing", command.smoothing, "none|auto|LENGTH",
               "Of rbf: none; auto, as much as predicts data best from others; or the root "

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include <terrane/algorithms/model/seal_advice.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/cli/options/files.hpp>
 
 namespace terrane::cli {

@@ -6,7 +6,6 @@
 #include <string>
 
 #include <terrane/algorithms/model/arrange_within.hpp>
-#include <terrane/algorithms/model/seal_advice.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
 

@@ -30,6 +30,8 @@ std::string path_of(const CertificateRequest& request, const std::string& name) 
 std::vector<InputFile> read_inputs(const CertificateRequest& request,
                                    const Certificate& certificate) {
     const FileOptions& given = request.files;
+    if (!given.input_format.empty() && !format_named(given.input_format))
+        refuse(ErrorCode::unknown_format, "unknown format " + given.input_format, "");
     std::vector<fs::path> paths(given.inputs.begin(), given.inputs.end());
     if (paths.empty())
         for (const CertifiedInput& input : certificate.inputs)

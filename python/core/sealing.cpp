@@ -6,7 +6,6 @@
 
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
-#include <terrane/algorithms/model/seal_advice.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
 

@@ -71,8 +71,8 @@ class FillReport(NamedTuple):
     --------
     >>> holed = ...
     >>> report = terrane.fill(holed).holes[0].report
-    >>> report.interpolated, report.model.split(',')[0]
-    (0, 'trend of degree 1')
+    >>> report.interpolated, report.model.split(';')[0]
+    (0, '13 models')
     """
 
     data: int

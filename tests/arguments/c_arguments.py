@@ -32,7 +32,7 @@ MAY_BE_NULL = {"run", "error", "count", "length", "options", "search", "format",
                "block_count", "column", "improved", "rules", "size_of", "size_in", "split", "inputs", "edge_length_of", "merged",
                "surfaces_or_null", "holes", "layered", "layers", "growth", "volume_files", "model_folder", "tetrahedra", "model"}
 #: Limits, which a number may exceed so far that nothing reaches them.
-LIMITS = {"limit", "max_area", "max_move", "max_rounds", "max_deviation", "max_change", "max_volume", "max_volume_change", "time_limit",
+LIMITS = {"limit", "tolerance", "max_area", "max_move", "max_rounds", "max_deviation", "max_change", "max_volume", "max_volume_change", "time_limit",
           "max_triangles", "max_edge", "gap_slope", "curve_length", "growth", "smallest", "thickness_share", "rings"}
 LARGE = {"inf", "1e+308", "2147483647"}
 #: Members that are of another function, which takes the same struct.
@@ -70,6 +70,7 @@ GOOD = {
     "terrane_cut_to_volume.arrangement": lambda lib: lib.handle("terrane_arrangement"),
     "terrane_make_model.arrangement": lambda lib: lib.c.terrane_cut_arrangement(lib.handle("terrane_cut")),
     "terrane_simplified_keeps_resolution.improved": lambda lib: lib.improved_simplified(), "terrane_make_model.improved": lambda lib: None, "terrane_choose_seal.edge_length": lambda lib: 0.0,
+    "terrane_join_within.tolerance": lambda lib: 0.01,
     "terrane_box_boundary.low": lambda lib: lib.array(ctypes.c_double, [0, 0, 0]),
     "terrane_box_boundary.high": lambda lib: lib.array(ctypes.c_double, [1, 1, 1]),
     "terrane_volumes_exact.volume": lambda lib: 1,

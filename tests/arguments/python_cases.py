@@ -150,11 +150,11 @@ FUNCTIONS = {
     "distance": (lambda f: dict(from_surface=f.surfaces[0], to_surface=f.surfaces[1]), {}),
     "holes": (lambda f: dict(surface=f.holed), {"gap_slope": None, "outer": True}),
     "fill": (lambda f: dict(surface=f.holed), {
-        "method": "rbf", "holes": [], "model": "spherical", "max_area": 0.1, "mesh_size": 0.2, "rings": 2, "gap_slope": None,
+        "method": None, "holes": [], "model": "spherical", "max_area": 0.1, "mesh_size": 0.2, "rings": None, "gap_slope": None,
         "isotropic": None, "bridge_faults": None, "smoothing": (0.5, {"method": "rbf"})}),
     "layers": (lambda f: dict(surfaces=f.crossing, order=[("low", 1.0), ("high", 0.5)]), {"min_thickness": 0.1, "max_move": None}),
     "model": (lambda f: dict(surfaces=f.surfaces, box=BOX), {
-        "seal": None, "extend": None, "min_volume": 15.0,
+        "seal": None, "tolerance": None, "extend": None, "min_volume": 15.0,
         "column": [{"unit": "upper", "surface": "top"}, {"unit": "middle", "surface": "base"}, {"unit": "lower"}], "max_rounds": None,
         "max_move": None}),
     "tetrahedralize": (lambda f: dict(model=f.even), {

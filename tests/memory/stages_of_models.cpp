@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include <terrane/algorithms/model/seal_advice.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/quality/bounds_back.hpp>
 #include <terrane/algorithms/tetrahedra/edge_nodes.hpp>

@@ -11,7 +11,7 @@
 
 #include "support/shapes.hpp"
 #include "support/solids.hpp"
-#include <terrane/algorithms/model/seal_advice.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 
 using namespace terrane;
 using namespace test_support;
