@@ -30,7 +30,6 @@
 #include <terrane/algorithms/verify/certificate.hpp>
 #include <terrane/algorithms/verify/verdict.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
-#include <terrane/algorithms/volumes/point_location.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/io/certificate.hpp>
 #include <terrane/io/exact_text.hpp>

@@ -11,7 +11,6 @@
 
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/volumes/point_location.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>

@@ -14,7 +14,7 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>
-#include <terrane/algorithms/volumes/point_location.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/io/grids/grid.hpp>
 
 namespace terrane {

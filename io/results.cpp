@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/guarded.hpp>
-#include <terrane/algorithms/volumes/point_location.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/certify.hpp>
 #include <terrane/io/files.hpp>

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/volumes/point_location.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>

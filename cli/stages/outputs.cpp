@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/volumes/point_location.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/cli/reports/arranged_report.hpp>
 #include <terrane/cli/session/console.hpp>

@@ -7,7 +7,7 @@
 #include <string>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/volumes/point_location.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane {
 

@@ -6,7 +6,7 @@
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/structure/build_structure.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
-#include <terrane/algorithms/volumes/point_location.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 
 #include "handles.hpp"
 #include "structure.hpp"

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/volumes/point_location.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane::tetgen::detail {
 namespace {

@@ -19,7 +19,6 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
-#include <terrane/algorithms/volumes/point_location.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane::tetgen::detail {

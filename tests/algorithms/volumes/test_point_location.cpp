@@ -2,7 +2,7 @@
 //
 // The blocks of many points, judged by boxes, by shifted points, and by volume_around, which follows
 // other lines and looks at all triangles.
-#include <terrane/algorithms/volumes/point_location.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 
 #include <cmath>
 #include <stop_token>

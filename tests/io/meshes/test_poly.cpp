@@ -11,7 +11,7 @@
 #include "support/files.hpp"
 #include "support/rounded.hpp"
 #include "support/solids.hpp"
-#include <terrane/algorithms/volumes/point_location.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/io/files.hpp>
 
 #include "support/samples.hpp"
