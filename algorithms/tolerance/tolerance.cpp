@@ -50,7 +50,8 @@ struct Owned {
 
 /// Marks the input triangles that something of the result is part of, or ends at.
 std::vector<bool> needed_inputs(const Owned& owned, const Run& run) {
-    const auto& [a, owners] = owned;
+    const Arrangement& a = owned.exact; // clang's lambdas take no names of a structured binding
+    const Owners& owners = owned.owners;
     std::vector<bool> needed(a.input_corners().size(), false);
     const auto need = [&](std::uint32_t t) {
         for (const std::uint32_t p : a.parents_of[t]) needed[p] = true;

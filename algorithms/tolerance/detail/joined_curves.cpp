@@ -44,7 +44,7 @@ public:
     }
     /// Divides a segment; returns the surfaces that have it.
     std::set<std::size_t> divide(const EdgeEnds& s, const Point3& place) {
-        const std::set<std::size_t> owners = std::move(surfaces_[s]);
+        std::set<std::size_t> owners = std::move(surfaces_[s]);
         surfaces_.erase(s);
         for_cubes(least_of(s), most_of(s), 0, [&](const Cube& c) { segments_[c].erase(s); });
         for (const std::size_t surface : owners) {
