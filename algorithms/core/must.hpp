@@ -25,9 +25,9 @@ T must(Result<T> result) {
 
 /// The same, with another place in the error.
 template <class T>
-T must(Result<T> result, std::string place) {
-    if (!result) result.error().place = std::move(place);
-    return must(std::move(result));
+T must(Result<T> result, const std::string& place) {
+    if (!result) throw Failure{{result.error().code, result.error().sentence, place}};
+    return std::move(result).value();
 }
 
 /// Throws an error; without a code, that about an option.
