@@ -16,7 +16,7 @@ namespace terrane::cli {
 /// Adds the model's counts, volumes and times to the statistics.
 void add_statistics(Json& statistics, const Model& model);
 
-/// Judges the leaks of an arrangement, unless it was sealed, no surface ends, or that fails.
+/// Judges the leaks of an arrangement. Returns none if it was sealed, if no surface ends, or on an error.
 std::optional<LeakAdvice> judge_leaks(const Arranged& arranged, const Model& model,
                                       Session& session);
 

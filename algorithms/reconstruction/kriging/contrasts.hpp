@@ -83,7 +83,7 @@ void divide_by_transposed(const Eigen::MatrixXd& factor, Eigen::MatrixXd& column
 /// Computes the product of the transpose of a matrix and itself.
 Eigen::MatrixXd squared(const Eigen::MatrixXd& matrix);
 
-/// Inverts a positive definite matrix; an empty one if it is none.
+/// Inverts a matrix. Returns an empty one if the matrix is not positive definite.
 Eigen::MatrixXd inverse_of(Eigen::MatrixXd matrix);
 
 } // namespace terrane
