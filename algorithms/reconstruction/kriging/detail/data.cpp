@@ -59,12 +59,14 @@ public:
         return check_folds(wanted);
     }
 
-    void spread() {
+    /// Returns false if no further triangle is reached.
+    bool spread() {
         std::vector<std::uint32_t> last;
         last.swap(ring_);
         for (const auto t : last)
             for (const auto other : beside_[t])
                 if (!reached_[other]) reach(other);
+        return !ring_.empty();
     }
 
     [[nodiscard]] const std::vector<std::uint32_t>& triangles() const { return all_; }
@@ -275,11 +277,12 @@ Result<KrigingData> collect_data(const Surface& surface, std::span<const BorderL
         }
     Rings near(soup);
     if (const auto status = near.start(border); !status) return status.error();
-    for (std::size_t ring = 1; ring < range.rings || ring < range.enough_rings; ++ring) {
+    for (std::size_t ring = 1; ring < range.rings || static_cast<double>(ring) < range.enough_rings;
+         ++ring) {
         if (run.stop.stop_requested()) return interrupted;
         // A vertex has two triangles.
         if (ring >= range.rings && near.triangles().size() > 2 * constants.enough_data) break;
-        near.spread();
+        if (!near.spread()) break;
     }
 
     KrigingData data;

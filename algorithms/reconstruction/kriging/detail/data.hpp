@@ -25,8 +25,8 @@ struct KrigingData {
 
 /// Rings of triangles around a hole whose corners are data.
 struct RingRange {
-    std::size_t rings = 5;        ///< at least
-    std::size_t enough_rings = 0; ///< as many, if there are not enough data before
+    std::size_t rings = 5;   ///< at least
+    double enough_rings = 0; ///< as many, if there are not enough data before
 };
 
 /// Collects the corners of rings of triangles around the loops, as far as they are a graph
