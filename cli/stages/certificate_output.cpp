@@ -2,7 +2,6 @@
 #include <terrane/cli/stages/certificate_output.hpp>
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 #include <vector>
 
