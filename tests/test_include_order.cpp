@@ -106,7 +106,7 @@ TEST_CASE("includes: a reader of the API finds few headers in each tier", "[once
 
 TEST_CASE("includes: the producer does not use the verifier", "[once]") {
     // Reads the files of a certificate for the verifier, in the program and the interfaces alone.
-    const std::string reading = "io/verifier_input.hpp";
+    const std::string reading = "io/judgement.hpp";
     for (const std::string folder : {"kernel", "algorithms", "io"})
         for (const fs::path& file : sources_in(folder)) {
             const auto name = fs::relative(file, root).generic_string();

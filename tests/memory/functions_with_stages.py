@@ -49,6 +49,7 @@ WITHIN = {
     "step": "arrange_in_tiles",
     "validate_options": "fill_by_rbf",
     "visit": "arrange_in_tiles",
+    "size_of_file": "judge",
     "simplify_for": "simplify_to",
     "surface_of_grid": "parse_surfaces, asc",
     "surfaces_of": "parse_surfaces, asc",
@@ -69,8 +70,8 @@ WITHIN = {
     "write_model_files": "write_model_folder",
     "write_tetrahedra_files": "write_tetrahedra",
 }
-# Parts of readers of grids, of tiles, of PieceJoiner and of flat holes; they return errors to those.
-PARTS = {"add", "check_steps", "count", "deliver", "filled", "finish", "integer", "load", "make_room", "number", "of", "save",
+# Parts of readers of grids, of tiles, of judgements, of PieceJoiner and of flat holes; they return errors to those.
+PARTS = {"add", "check_steps", "count", "deliver", "filled", "finish", "input", "inputs", "integer", "load", "make_room", "number", "of", "place_of", "save",
          "step_of", "take_messages", "triangulate"}
 # Readers of one format each: parse_surfaces, with the name of the format.
 FORMATS = {

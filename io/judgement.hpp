@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Judges a certificate by its files: reads them with the readers of io/, within limits, and asks the verifier, which
+// alone judges. None of this is code of the verifier, and the library does not contain it: it would need the verifier.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/verify/stoppable.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/files.hpp>
+#include <terrane/io/judgement_limits.hpp>
+#include <terrane/io/reading.hpp>
+
+namespace terrane {
+
+/// Returns the exact result as a claim.
+inline ArrangementClaim claim_of(const Arrangement& a) {
+    ArrangementClaim claim;
+    for (std::uint32_t v = 0; v < a.vertices.size(); ++v)
+        claim.vertices.push_back(a.construction(VertexId(v)));
+    claim.triangles = a.triangles;
+    claim.parents_of = a.parents_of;
+    claim.intersection_edges = a.intersection_edges;
+    claim.degenerate = a.degenerate;
+    claim.duplicates = a.inputs.duplicates;
+    return claim;
+}
+
+/// How the input files of a certificate are read, and how the caller names that.
+struct CertifiedReading {
+    std::optional<Format> format{}; ///< none: that of each file's name
+    ReadOptions options{};
+    const char* paths_name = "";                  ///< of a wrong number of files
+    std::array<const char*, 2> option_names = {}; ///< see check_reading()
+};
+
+/// A certificate to judge.
+struct JudgementRequest {
+    std::filesystem::path certificate;            ///< file; - is standard input
+    std::vector<std::filesystem::path> inputs{};  ///< none: those that the certificate names
+    std::vector<std::filesystem::path> outputs{}; ///< in place of those that they are most like
+    /// The files that the certificate names are in this folder. Empty: in that of the certificate, and
+    /// not reached through links.
+    std::filesystem::path folder{};
+    CertifiedReading reading{};
+    VerifyOptions options{};
+    JudgementLimits limits{};
+};
+
+/// An input file, as it was read.
+struct JudgedInput {
+    std::string path;
+    std::uint64_t bytes = 0;
+    std::string sha256; ///< empty: of another size than stated, and not read
+};
+
+/// An output file, as it was found.
+struct JudgedOutput {
+    std::size_t number = 0; ///< in the certificate
+    std::string path;       ///< where it was looked for
+    std::string missing;    ///< why it could not be read; empty: it was
+    OutputVerdict verdict;
+
+    [[nodiscard]] bool verified() const {
+        return missing.empty() && verdict.violations.empty() &&
+               verdict.check != OutputCheck::hash_only;
+    }
+};
+
+/// All that was found.
+struct Judgement {
+    Certificate certificate;
+    Verdict verdict;
+    std::vector<JudgedInput> inputs;   ///< in the order of the certificate
+    std::vector<JudgedOutput> outputs; ///< all of the certificate; none if that is refuted
+
+    [[nodiscard]] std::vector<Violation> violations() const {
+        auto all = verdict.violations;
+        for (const JudgedOutput& output : outputs)
+            all.insert(all.end(), output.verdict.violations.begin(),
+                       output.verdict.violations.end());
+        return all;
+    }
+    /// Whether nothing is refuted, and at least one output file, and each, was compared.
+    [[nodiscard]] bool verified() const {
+        return violations().empty() && !outputs.empty() &&
+               std::ranges::all_of(outputs, &JudgedOutput::verified);
+    }
+};
+
+namespace detail {
+
+/// Reads the files of a certificate. A name in it can lead to any file of the machine, so only files in its folder are
+/// opened, unless the caller names others; and only as much is read as the certificate states.
+class CertifiedFiles {
+public:
+    CertifiedFiles(const JudgementRequest& request, const Certificate& certificate) :
+        request_(request), certificate_(certificate),
+        folder_(request.certificate == "-" ? std::filesystem::path()
+                                           : request.certificate.parent_path()) {}
+
+    /// Reads the input files. A file whose hash differs from the certificate's need not parse: the verifier rejects it
+    /// by its hash.
+    [[nodiscard]] Result<std::vector<InputFile>> inputs(std::vector<JudgedInput>& judged) const {
+        const auto& stated = certificate_.inputs;
+        const CertifiedReading& reading = request_.reading;
+        const bool named = !request_.inputs.empty();
+        if (named && request_.inputs.size() != stated.size())
+            return Error{ErrorCode::bad_option,
+                         "the certificate is about " + std::to_string(stated.size()) +
+                             (stated.size() == 1 ? " file, not " : " files, not ") +
+                             std::to_string(request_.inputs.size()),
+                         reading.paths_name};
+        std::vector<std::optional<Format>> formats;
+        for (const CertifiedInput& input : stated)
+            formats.push_back(reading.format ? reading.format : format_of(input.name));
+        if (const auto sound = check_reading(formats, reading.options, reading.option_names);
+            !sound)
+            return sound.error();
+        std::vector<InputFile> files;
+        for (std::size_t i = 0; i < stated.size(); ++i) {
+            auto path = named ? request_.inputs[i] : place_of(stated[i].name);
+            if (!path) return path.error();
+            auto file = input(stated[i], *path, formats[i]);
+            if (!file) return file.error();
+            judged.push_back({path->string(), file->bytes, file->sha256});
+            files.push_back(std::move(*file));
+        }
+        return files;
+    }
+
+    /// Judges all output files.
+    [[nodiscard]] std::vector<JudgedOutput> outputs() const {
+        const auto& stated = certificate_.outputs;
+        std::vector<std::optional<std::filesystem::path>> named(stated.size());
+        OutputVerifier verifier(certificate_);
+        std::vector<JudgedOutput> judged;
+        for (const auto& path : request_.outputs) {
+            const auto i = output_like(path, named);
+            if (!named[i])
+                named[i] = path;
+            else // a second copy
+                judged.push_back(judge_output(verifier, i, path));
+        }
+        for (std::size_t i = 0; i < stated.size(); ++i) {
+            if (!named[i] && stated[i].name == "-") {
+                judged.push_back({i, "standard output", "give it with --output", {}});
+                continue;
+            }
+            const auto path = named[i] ? Result(*named[i]) : place_of(stated[i].name);
+            judged.push_back(path ? judge_output(verifier, i, *path)
+                                  : JudgedOutput{i, stated[i].name, path.error().sentence, {}});
+        }
+        return judged;
+    }
+
+private:
+    /// Returns the place of a file that the certificate names. Errors: cannot_open if it may not be there.
+    [[nodiscard]] Result<std::filesystem::path> place_of(const std::string& name) const {
+        namespace fs = std::filesystem;
+        std::error_code failed;
+        // A folder that is still to get its name cannot be gone through.
+        fs::path path = folder_ / name;
+        if (!folder_.empty() && !fs::is_directory(folder_, failed)) path = path.lexically_normal();
+        if (const char* const why = flaw_of(name, path))
+            return Error{ErrorCode::cannot_open, why, path.string()};
+        return path;
+    }
+
+    /// Tells why a file that the certificate names is not opened; nullptr: it is.
+    [[nodiscard]] const char* flaw_of(const std::filesystem::path& name,
+                                      const std::filesystem::path& path) const {
+        namespace fs = std::filesystem;
+        constexpr const char* outside =
+            "is outside of the certificate's folder: name the files, or a folder that has them";
+        std::error_code failed;
+        if (!request_.folder.empty()) {
+            const fs::path base = fs::weakly_canonical(fs::absolute(request_.folder), failed);
+            const fs::path place =
+                fs::weakly_canonical(fs::absolute(path), failed).lexically_relative(base);
+            return failed || place.empty() || *place.begin() == ".." ? outside : nullptr;
+        }
+        if (name.is_absolute() || std::ranges::find(name, "..") != name.end()) return outside;
+        fs::path at = folder_;
+        for (const fs::path& part : name)
+            if (fs::is_symlink(at /= part, failed))
+                return "is reached by a link: name the files, or a folder that has them";
+        return nullptr;
+    }
+
+    [[nodiscard]] Result<InputFile> input(const CertifiedInput& stated,
+                                          const std::filesystem::path& path,
+                                          std::optional<Format> format) const {
+        const auto size = size_of_file(path);
+        if (!size) return size.error();
+        if (*size != stated.bytes) return InputFile{"", *size, {}};
+        const auto contents = read_within(path, *size, request_.limits);
+        if (!contents) return contents.error();
+        if (!format)
+            return Error{ErrorCode::unknown_format, "no format that can be read has this extension",
+                         stated.name};
+        auto surfaces = parse_surfaces(*contents, stated.name, *format, request_.reading.options);
+        InputFile file = input_file(*contents, {});
+        if (surfaces)
+            file.surfaces = std::move(*surfaces);
+        else if (file.sha256 == stated.sha256)
+            return surfaces.error();
+        return file;
+    }
+
+    [[nodiscard]] JudgedOutput judge_output(OutputVerifier& verifier, std::size_t number,
+                                            const std::filesystem::path& path) const {
+        const CertifiedOutput& stated = certificate_.outputs[number];
+        JudgedOutput judged{number, path.string(), {}, {}};
+        const auto size = size_of_file(path);
+        if (size && *size != stated.bytes) {
+            judged.verdict.violations = {{Rule::R21_output,
+                                          {static_cast<std::uint32_t>(number)},
+                                          path.string() + " has " + std::to_string(*size) +
+                                              " bytes, not " + std::to_string(stated.bytes)}};
+            return judged;
+        }
+        const auto contents = size ? read_within(path, *size, request_.limits) : size.error();
+        if (contents)
+            judged.verdict = verifier(*contents, number);
+        else
+            judged.missing = contents.error().sentence;
+        return judged;
+    }
+
+    /// Returns the output in whose place a file is judged: the one with its bytes, else the first with its extension
+    /// for which none is named, else the first.
+    [[nodiscard]] std::size_t
+    output_like(const std::filesystem::path& path,
+                const std::vector<std::optional<std::filesystem::path>>& named) const {
+        const auto& outputs = certificate_.outputs;
+        const auto found_if = [&](const auto& fits) {
+            std::size_t i = 0;
+            while (i < outputs.size() && !fits(i)) ++i;
+            return i;
+        };
+        if (const auto size = size_of_file(path); size)
+            if (const auto contents = read_within(path, *size, request_.limits); contents) {
+                const auto hash = input_file(*contents, {}).sha256;
+                const auto same =
+                    found_if([&](std::size_t i) { return outputs[i].sha256 == hash && !named[i]; });
+                if (same < outputs.size()) return same;
+            }
+        const auto alike = found_if([&](std::size_t i) {
+            return std::filesystem::path(outputs[i].name).extension() == path.extension() &&
+                   !named[i];
+        });
+        return alike < outputs.size() ? alike : 0;
+    }
+
+    const JudgementRequest& request_;
+    const Certificate& certificate_;
+    std::filesystem::path folder_;
+};
+
+inline Result<Judgement> judged_within(const JudgementRequest& request) {
+    const bool standard = request.certificate == "-";
+    const auto size = standard ? Result<std::uint64_t>(0) : size_of_file(request.certificate);
+    if (!size) return size.error();
+    const auto text = read_within(request.certificate, *size, request.limits);
+    if (!text) return text.error();
+    auto certificate =
+        parse_certificate(*text, standard ? "standard input" : request.certificate.string());
+    if (!certificate) return certificate.error();
+    const CertifiedFiles files(request, *certificate);
+    std::vector<JudgedInput> read;
+    const auto inputs = files.inputs(read);
+    if (!inputs) return inputs.error();
+    if (!request.outputs.empty() && certificate->outputs.empty())
+        return Error{ErrorCode::bad_option, "the certificate names no output file", "--output"};
+    auto verdict = verify_certificate(*inputs, *certificate, request.options);
+    auto outputs = verdict.violations.empty() ? files.outputs() : std::vector<JudgedOutput>();
+    return Judgement{std::move(*certificate), std::move(verdict), std::move(read),
+                     std::move(outputs)};
+}
+
+} // namespace detail
+
+/// Judges a certificate, its input files and all of its output files. Errors: cannot_open (also what is no regular file,
+/// and what the certificate names outside of its folder or through links); those of parse_certificate; unknown_format;
+/// bad_option where there are other files than the certificate is about, and those of check_reading; those of parsing an
+/// input file that has the stated hash; timed_out and out_of_memory at the limits; interrupted.
+inline Result<Judgement> judge(const JudgementRequest& request, const std::stop_token& stop = {}) {
+    const auto& [time, memory] = request.limits;
+    if (!(time > 0) || !(memory > 0))
+        return Error{ErrorCode::bad_option, "must be positive", time > 0 ? "memory" : "time"};
+    return guarded("for the judgement", "verify", [&]() -> Result<Judgement> {
+        detail::JudgementWatch watch(request.limits, stop);
+        auto judged = stoppable(watch.token(), [&] { return detail::judged_within(request); });
+        if (const auto& reached = watch.end(); !judged && reached) return *reached;
+        return judged;
+    });
+}
+
+} // namespace terrane
