@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The keyword arguments of stages: ``threads`` and ``progress``, which all have, and options that the library describes."""
+"""The keyword arguments of stages: ``threads`` and ``progress``, which all have, and described options."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ Progress = Callable[[str, float], Any]
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 _TYPES = {"double": "float", "other value": "float", "uint32_t": "int", "bool": "bool"}
+_WORDS = {"false": "False", "true": "True"}
 
 
 def cores() -> int:
@@ -48,11 +49,15 @@ def how(threads: Optional[int], progress: Any) -> _core.HowToRun:
 
 
 def describing(fields: Sequence[Dict[str, Any]]) -> Callable[[Function], Function]:
-    """Return a decorator that lists described options in a docstring, except for those that it has, instead of OPTIONS."""
+    """Return a decorator that lists described options, if a docstring lacks them, where it says OPTIONS."""
     def describe(function: Function) -> Function:
         doc = function.__doc__ or ""
-        lines = [f"    {f['name']} : {_TYPES[f['type']]}, optional\n        {f['text']}; default: {f['default']}.\n"
-                 for f in fields if f["type"] in _TYPES and f"\n    {f['name']} :" not in doc]
+        lines = []
+        for field in fields:
+            name, default = field["name"], _WORDS.get(field["default"], field["default"])
+            if field["type"] in _TYPES and f"\n    {name} :" not in doc:
+                lines.append(f"    {name} : {_TYPES[field['type']]}, optional\n"
+                             f"        {field['text']}; default: {default}.\n")
         function.__doc__ = doc.replace("    OPTIONS\n", "".join(lines))
         return function
     return describe
