@@ -49,9 +49,10 @@ struct CertifiedReading {
 
 /// A certificate to judge.
 struct JudgementRequest {
-    std::filesystem::path certificate;            ///< file; - is standard input
-    std::vector<std::filesystem::path> inputs{};  ///< none: those that the certificate names
-    std::vector<std::filesystem::path> outputs{}; ///< in place of those that they are most like
+    std::filesystem::path certificate;             ///< file; - is standard input
+    std::vector<std::filesystem::path> inputs{};   ///< none: those that the certificate names
+    std::vector<std::filesystem::path> expected{}; ///< files that must be among the inputs
+    std::vector<std::filesystem::path> outputs{};  ///< in place of those that they are most like
     /// The files that the certificate names are in this folder. Empty: in that of the certificate, and
     /// not reached through links.
     std::filesystem::path folder{};
@@ -140,6 +141,22 @@ public:
             files.push_back(std::move(*file));
         }
         return files;
+    }
+
+    /// Adds a violation for each expected file that is none of the inputs that were read.
+    [[nodiscard]] Status check_expected(const std::vector<JudgedInput>& read,
+                                        std::vector<Violation>& violations) const {
+        for (const auto& path : request_.expected) {
+            const auto size = size_of_file(path);
+            if (!size) return size.error();
+            const auto contents = read_within(path, *size, request_.limits);
+            if (!contents) return contents.error();
+            const auto hash = input_file(*contents, {}).sha256;
+            if (std::ranges::find(read, hash, &JudgedInput::sha256) == read.end())
+                violations.push_back(
+                    {Rule::R9_inputs, {}, path.string() + " is not an input of the certificate"});
+        }
+        return Done{};
     }
 
     /// Judges all output files.
@@ -287,6 +304,8 @@ inline Result<Judgement> judged_within(const JudgementRequest& request) {
     if (!request.outputs.empty() && certificate->outputs.empty())
         return Error{ErrorCode::bad_option, "the certificate names no output file", "--output"};
     auto verdict = verify_certificate(*inputs, *certificate, request.options);
+    if (const auto checked = files.check_expected(read, verdict.violations); !checked)
+        return checked.error();
     auto outputs = verdict.violations.empty() ? files.outputs() : std::vector<JudgedOutput>();
     return Judgement{std::move(*certificate), std::move(verdict), std::move(read),
                      std::move(outputs)};
