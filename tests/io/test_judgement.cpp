@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include <terrane/io/certify.hpp>
-#include <terrane/io/judgement.hpp>
+#include <terrane/io/judgement/judgement.hpp>
 
 namespace fs = std::filesystem;
 using namespace terrane;
