@@ -11,7 +11,7 @@
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
-#include <terrane/io/judgement.hpp>
+#include <terrane/io/judgement/judgement.hpp>
 
 namespace terrane::capi::detail {
 namespace {

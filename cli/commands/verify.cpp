@@ -15,7 +15,7 @@ struct VerifyCommand {
     JudgementRequest request;
     FileOptions files;
     std::string certificate;
-    std::vector<std::string> outputs;
+    std::vector<std::string> outputs, expected;
     std::string folder;
     bool json = false;
 };
@@ -59,6 +59,7 @@ ExitStatus verify_file(VerifyCommand command) {
         refuse(ErrorCode::unknown_format, "unknown format " + files.input_format, "");
     request.certificate = command.certificate;
     request.inputs.assign(files.inputs.begin(), files.inputs.end());
+    request.expected.assign(command.expected.begin(), command.expected.end());
     request.outputs.assign(command.outputs.begin(), command.outputs.end());
     request.folder = command.folder;
     request.reading = {format_named(files.input_format),
@@ -93,6 +94,8 @@ Command verify_command(CLI::App& program) {
         ->required();
     add_value(*app, "IN", options->files.inputs, "FILE", "The input files");
     add_reading(*app, options->files);
+    add_value(*app, "--expect-input", options->expected, "FILE",
+              "A file that must be among the inputs, wherever those are read; may be repeated");
     add_value(*app, "--output", options->outputs, "FILE",
               "An output file that is not where the certificate says; may be repeated");
     add_value(*app, "--folder", options->folder, "DIR",

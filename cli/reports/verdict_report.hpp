@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include <terrane/io/judgement.hpp>
+#include <terrane/io/judgement/judgement.hpp>
 
 namespace terrane::cli {
 

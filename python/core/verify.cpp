@@ -7,7 +7,7 @@
 
 #include <terrane/algorithms/verify/stoppable.hpp>
 #include <terrane/algorithms/verify/verify.hpp>
-#include <terrane/io/judgement.hpp>
+#include <terrane/io/judgement/judgement.hpp>
 
 #include "handles.hpp"
 #include "surfaces.hpp"

@@ -43,7 +43,7 @@ HOW = {"--threads", "--quiet", "--color", "--search", "--check", "--stats", "--s
        "--suggest-seal", "--corner", "--keep-unverified", "--max-volume-change", "--least-quality", "--max-triangles",
        "--crease-angle", "--curve-angle", "--thickness-share", "--growth", "--smallest", "--layers-in-gaps", "--turn", "--passes",
        "--max-deviation", "--max-change", "--hard", "--soft", "--bridge-faults", "--gap-slope", "--extend", "--edge-length-of",
-       "--size-of", "--dissolve", "--resolution", "--min-volume", "--tolerance", "--time", "--no-optimise", "--optimise"}
+       "--size-of", "--dissolve", "--resolution", "--min-volume", "--tolerance", "--time", "--expect-input", "--no-optimise", "--optimise"}
 #: A value that makes sense ("" for flags), and what it needs besides.
 SENSE = {
     "--depth": ("", "IN=seabed.asc"), "--max-edge": ("90", "IN=points.csv"), "--box": (BOX[6:], ""),

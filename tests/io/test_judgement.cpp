@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include <terrane/io/certify.hpp>
-#include <terrane/io/judgement.hpp>
+#include <terrane/io/judgement/judgement.hpp>
 
 namespace fs = std::filesystem;
 using namespace terrane;
@@ -171,6 +171,32 @@ TEST_CASE("judgement: all outputs are judged, whichever are named") {
     CHECK(judged->outputs[0].verified());
     CHECK_FALSE(judged->outputs[1].verified());
     CHECK_FALSE(judged->verified());
+}
+
+TEST_CASE("judgement: a certificate about another file than expected is refuted") {
+    const CertifiedFolder made;
+    const fs::path copy = made.folder / "copy.obj", other = made.folder / "other.obj";
+    fs::copy_file(made.input, copy);
+    std::ofstream(other) << read_file(made.input).value() << "# one\n";
+    CHECK(judge({.certificate = made.certificate, .expected = {copy}})->verified());
+    const auto judged = judge({.certificate = made.certificate, .expected = {copy, other}});
+    REQUIRE(judged);
+    REQUIRE(judged->violations().size() == 1);
+    CHECK(judged->violations()[0].rule == Rule::R9_inputs);
+    CHECK_FALSE(judge({.certificate = made.certificate, .expected = {made.folder / "none"}}));
+}
+
+TEST_CASE("judgement: a certificate about no file is refuted") {
+    const CertifiedFolder made;
+    std::string text = read_file(made.certificate).value();
+    const auto from = text.find("\"inputs\":["), to = text.find("],\n\"outputs\"");
+    REQUIRE(from < to);
+    text.replace(from, to - from, "\"inputs\":[");
+    std::ofstream(made.certificate) << text;
+    const auto judged = made.judged();
+    REQUIRE(judged);
+    REQUIRE(!judged->violations().empty());
+    CHECK(judged->violations()[0].sentence == "there is no input file");
 }
 
 TEST_CASE("judgement: limits of time and memory, and the caller's stop") {

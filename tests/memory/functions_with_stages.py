@@ -70,8 +70,8 @@ WITHIN = {
     "write_model_files": "write_model_folder",
     "write_tetrahedra_files": "write_tetrahedra",
 }
-# Parts of readers of grids, of tiles, of judgements, of PieceJoiner and of flat holes; they return errors to those.
-PARTS = {"add", "check_steps", "count", "deliver", "filled", "finish", "input", "inputs", "integer", "load", "make_room", "number", "of", "place_of", "save",
+# Parts of readers of grids, of tiles, of PieceJoiner and of flat holes; they return errors to those.
+PARTS = {"add", "check_steps", "count", "deliver", "filled", "finish", "integer", "load", "make_room", "number", "of", "save",
          "step_of", "take_messages", "triangulate"}
 # Readers of one format each: parse_surfaces, with the name of the format.
 FORMATS = {

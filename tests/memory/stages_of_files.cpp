@@ -9,7 +9,7 @@
 #include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/io/certify.hpp>
 #include <terrane/io/gocad/gocad_model.hpp>
-#include <terrane/io/judgement.hpp>
+#include <terrane/io/judgement/judgement.hpp>
 #include <terrane/io/meshes/pvtp.hpp>
 #include <terrane/io/points/outline.hpp>
 #include <terrane/io/points/shape_outline.hpp>

@@ -1,107 +1,28 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-//
-// Judges a certificate by its files: reads them with the readers of io/, within limits, and asks the verifier, which
-// alone judges. None of this is code of the verifier, and the library does not contain it: it would need the verifier.
-#pragma once
+#include <terrane/io/judgement/judgement.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <span>
-#include <string>
+#include <system_error>
 #include <utility>
-#include <vector>
 
-#include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
-#include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/verify/stoppable.hpp>
-#include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
-#include <terrane/io/files.hpp>
-#include <terrane/io/judgement_limits.hpp>
-#include <terrane/io/reading.hpp>
+#include <terrane/io/judgement/detail/watch.hpp>
 
 namespace terrane {
 
-/// Returns the exact result as a claim.
-inline ArrangementClaim claim_of(const Arrangement& a) {
-    ArrangementClaim claim;
-    for (std::uint32_t v = 0; v < a.vertices.size(); ++v)
-        claim.vertices.push_back(a.construction(VertexId(v)));
-    claim.triangles = a.triangles;
-    claim.parents_of = a.parents_of;
-    claim.intersection_edges = a.intersection_edges;
-    claim.degenerate = a.degenerate;
-    claim.duplicates = a.inputs.duplicates;
-    return claim;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Reads a file of this size. Errors: those of read_file; out_of_memory if it is beyond the limit.
+Result<std::string> read_within(const fs::path& path, std::uint64_t size,
+                                const JudgementLimits& limits) {
+    if (static_cast<double>(size) > limits.memory)
+        return Error{ErrorCode::out_of_memory, "is larger than the memory that may be used",
+                     path.string()};
+    return read_file(path);
 }
-
-/// How the input files of a certificate are read, and how the caller names that.
-struct CertifiedReading {
-    std::optional<Format> format{}; ///< none: that of each file's name
-    ReadOptions options{};
-    const char* paths_name = "";                  ///< of a wrong number of files
-    std::array<const char*, 2> option_names = {}; ///< see check_reading()
-};
-
-/// A certificate to judge.
-struct JudgementRequest {
-    std::filesystem::path certificate;            ///< file; - is standard input
-    std::vector<std::filesystem::path> inputs{};  ///< none: those that the certificate names
-    std::vector<std::filesystem::path> outputs{}; ///< in place of those that they are most like
-    /// The files that the certificate names are in this folder. Empty: in that of the certificate, and
-    /// not reached through links.
-    std::filesystem::path folder{};
-    CertifiedReading reading{};
-    VerifyOptions options{};
-    JudgementLimits limits{};
-};
-
-/// An input file, as it was read.
-struct JudgedInput {
-    std::string path;
-    std::uint64_t bytes = 0;
-    std::string sha256; ///< empty: of another size than stated, and not read
-};
-
-/// An output file, as it was found.
-struct JudgedOutput {
-    std::size_t number = 0; ///< in the certificate
-    std::string path;       ///< where it was looked for
-    std::string missing;    ///< why it could not be read; empty: it was
-    OutputVerdict verdict;
-
-    [[nodiscard]] bool verified() const {
-        return missing.empty() && verdict.violations.empty() &&
-               verdict.check != OutputCheck::hash_only;
-    }
-};
-
-/// All that was found.
-struct Judgement {
-    Certificate certificate;
-    Verdict verdict;
-    std::vector<JudgedInput> inputs;   ///< in the order of the certificate
-    std::vector<JudgedOutput> outputs; ///< all of the certificate; none if that is refuted
-
-    [[nodiscard]] std::vector<Violation> violations() const {
-        auto all = verdict.violations;
-        for (const JudgedOutput& output : outputs)
-            all.insert(all.end(), output.verdict.violations.begin(),
-                       output.verdict.violations.end());
-        return all;
-    }
-    /// Whether nothing is refuted, and at least one output file, and each, was compared.
-    [[nodiscard]] bool verified() const {
-        return violations().empty() && !outputs.empty() &&
-               std::ranges::all_of(outputs, &JudgedOutput::verified);
-    }
-};
-
-namespace detail {
 
 /// Reads the files of a certificate. A name in it can lead to any file of the machine, so only files in its folder are
 /// opened, unless the caller names others; and only as much is read as the certificate states.
@@ -109,8 +30,7 @@ class CertifiedFiles {
 public:
     CertifiedFiles(const JudgementRequest& request, const Certificate& certificate) :
         request_(request), certificate_(certificate),
-        folder_(request.certificate == "-" ? std::filesystem::path()
-                                           : request.certificate.parent_path()) {}
+        folder_(request.certificate == "-" ? fs::path() : request.certificate.parent_path()) {}
 
     /// Reads the input files. A file whose hash differs from the certificate's need not parse: the verifier rejects it
     /// by its hash.
@@ -142,10 +62,26 @@ public:
         return files;
     }
 
+    /// Adds a violation for each expected file that is none of the inputs that were read.
+    [[nodiscard]] Status check_expected(const std::vector<JudgedInput>& read,
+                                        std::vector<Violation>& violations) const {
+        for (const auto& path : request_.expected) {
+            const auto size = size_of_file(path);
+            if (!size) return size.error();
+            const auto contents = read_within(path, *size, request_.limits);
+            if (!contents) return contents.error();
+            const auto hash = input_file(*contents, {}).sha256;
+            if (std::ranges::find(read, hash, &JudgedInput::sha256) == read.end())
+                violations.push_back(
+                    {Rule::R9_inputs, {}, path.string() + " is not an input of the certificate"});
+        }
+        return Done{};
+    }
+
     /// Judges all output files.
     [[nodiscard]] std::vector<JudgedOutput> outputs() const {
         const auto& stated = certificate_.outputs;
-        std::vector<std::optional<std::filesystem::path>> named(stated.size());
+        std::vector<std::optional<fs::path>> named(stated.size());
         OutputVerifier verifier(certificate_);
         std::vector<JudgedOutput> judged;
         for (const auto& path : request_.outputs) {
@@ -169,8 +105,7 @@ public:
 
 private:
     /// Returns the place of a file that the certificate names. Errors: cannot_open if it may not be there.
-    [[nodiscard]] Result<std::filesystem::path> place_of(const std::string& name) const {
-        namespace fs = std::filesystem;
+    [[nodiscard]] Result<fs::path> place_of(const std::string& name) const {
         std::error_code failed;
         // A folder that is still to get its name cannot be gone through.
         fs::path path = folder_ / name;
@@ -181,9 +116,7 @@ private:
     }
 
     /// Tells why a file that the certificate names is not opened; nullptr: it is.
-    [[nodiscard]] const char* flaw_of(const std::filesystem::path& name,
-                                      const std::filesystem::path& path) const {
-        namespace fs = std::filesystem;
+    [[nodiscard]] const char* flaw_of(const fs::path& name, const fs::path& path) const {
         constexpr const char* outside =
             "is outside of the certificate's folder: name the files, or a folder that has them";
         std::error_code failed;
@@ -201,8 +134,7 @@ private:
         return nullptr;
     }
 
-    [[nodiscard]] Result<InputFile> input(const CertifiedInput& stated,
-                                          const std::filesystem::path& path,
+    [[nodiscard]] Result<InputFile> input(const CertifiedInput& stated, const fs::path& path,
                                           std::optional<Format> format) const {
         const auto size = size_of_file(path);
         if (!size) return size.error();
@@ -222,7 +154,7 @@ private:
     }
 
     [[nodiscard]] JudgedOutput judge_output(OutputVerifier& verifier, std::size_t number,
-                                            const std::filesystem::path& path) const {
+                                            const fs::path& path) const {
         const CertifiedOutput& stated = certificate_.outputs[number];
         JudgedOutput judged{number, path.string(), {}, {}};
         const auto size = size_of_file(path);
@@ -243,9 +175,8 @@ private:
 
     /// Returns the output in whose place a file is judged: the one with its bytes, else the first with its extension
     /// for which none is named, else the first.
-    [[nodiscard]] std::size_t
-    output_like(const std::filesystem::path& path,
-                const std::vector<std::optional<std::filesystem::path>>& named) const {
+    [[nodiscard]] std::size_t output_like(const fs::path& path,
+                                          const std::vector<std::optional<fs::path>>& named) const {
         const auto& outputs = certificate_.outputs;
         const auto found_if = [&](const auto& fits) {
             std::size_t i = 0;
@@ -260,18 +191,17 @@ private:
                 if (same < outputs.size()) return same;
             }
         const auto alike = found_if([&](std::size_t i) {
-            return std::filesystem::path(outputs[i].name).extension() == path.extension() &&
-                   !named[i];
+            return fs::path(outputs[i].name).extension() == path.extension() && !named[i];
         });
         return alike < outputs.size() ? alike : 0;
     }
 
     const JudgementRequest& request_;
     const Certificate& certificate_;
-    std::filesystem::path folder_;
+    fs::path folder_;
 };
 
-inline Result<Judgement> judged_within(const JudgementRequest& request) {
+Result<Judgement> judged_within(const JudgementRequest& request) {
     const bool standard = request.certificate == "-";
     const auto size = standard ? Result<std::uint64_t>(0) : size_of_file(request.certificate);
     if (!size) return size.error();
@@ -287,24 +217,34 @@ inline Result<Judgement> judged_within(const JudgementRequest& request) {
     if (!request.outputs.empty() && certificate->outputs.empty())
         return Error{ErrorCode::bad_option, "the certificate names no output file", "--output"};
     auto verdict = verify_certificate(*inputs, *certificate, request.options);
+    if (const auto checked = files.check_expected(read, verdict.violations); !checked)
+        return checked.error();
     auto outputs = verdict.violations.empty() ? files.outputs() : std::vector<JudgedOutput>();
     return Judgement{std::move(*certificate), std::move(verdict), std::move(read),
                      std::move(outputs)};
 }
 
-} // namespace detail
+} // namespace
 
-/// Judges a certificate, its input files and all of its output files. Errors: cannot_open (also what is no regular file,
-/// and what the certificate names outside of its folder or through links); those of parse_certificate; unknown_format;
-/// bad_option where there are other files than the certificate is about, and those of check_reading; those of parsing an
-/// input file that has the stated hash; timed_out and out_of_memory at the limits; interrupted.
-inline Result<Judgement> judge(const JudgementRequest& request, const std::stop_token& stop = {}) {
+ArrangementClaim claim_of(const Arrangement& exact) {
+    ArrangementClaim claim;
+    for (std::uint32_t v = 0; v < exact.vertices.size(); ++v)
+        claim.vertices.push_back(exact.construction(VertexId(v)));
+    claim.triangles = exact.triangles;
+    claim.parents_of = exact.parents_of;
+    claim.intersection_edges = exact.intersection_edges;
+    claim.degenerate = exact.degenerate;
+    claim.duplicates = exact.inputs.duplicates;
+    return claim;
+}
+
+Result<Judgement> judge(const JudgementRequest& request, const std::stop_token& stop) {
     const auto& [time, memory] = request.limits;
     if (!(time > 0) || !(memory > 0))
         return Error{ErrorCode::bad_option, "must be positive", time > 0 ? "memory" : "time"};
     return guarded("for the judgement", "verify", [&]() -> Result<Judgement> {
         detail::JudgementWatch watch(request.limits, stop);
-        auto judged = stoppable(watch.token(), [&] { return detail::judged_within(request); });
+        auto judged = stoppable(watch.token(), [&] { return judged_within(request); });
         if (const auto& reached = watch.end(); !judged && reached) return *reached;
         return judged;
     });
