@@ -73,7 +73,7 @@ void judge_outputs(const fs::path& folder, const Certificate& certificate,
         const OutputVerdict found = verifier(*contents, i);
         add(found.violations, verdict);
         if (found.violations.empty() && found.check == OutputCheck::hash_only)
-            refuse(name + ": there is no reader for its format", i);
+            refuse(name + ": the verifier has no writer for its format", i);
     }
 }
 

@@ -16,6 +16,7 @@
 #include <terrane/algorithms/pipeline/project.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/io/project.hpp>
+#include <terrane/io/structure_json.hpp>
 
 namespace terrane {
 
@@ -27,6 +28,9 @@ struct ModelReports {
     const std::optional<SealReport>& sealed; ///< the report of sealing; none: not sealed
     const std::optional<LeakAdvice>& leaks;  ///< leaks that were judged; none: they were not
 };
+
+/// Returns what model.json says of a model beyond its structure, but for the names of files.
+StructureExtras extras_of(const ModelReports& reports);
 
 /// A file of the folder of a model.
 struct ModelFile {

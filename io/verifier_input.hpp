@@ -50,7 +50,7 @@ inline Result<InputFile> read_stated(const CertifiedInput& stated,
     if (!contents) return contents.error();
     if (!format)
         return Error{ErrorCode::unknown_format, "no format that can be read has this extension",
-                     stated.name};
+                     path.string()};
     auto surfaces = parse_surfaces(*contents, stated.name, *format, options);
     InputFile file = input_file(*contents, {});
     if (surfaces)
@@ -76,8 +76,8 @@ read_certified(const Certificate& certificate, const std::vector<std::filesystem
                          std::to_string(paths.size()),
                      reading.paths_name};
     std::vector<std::optional<Format>> formats;
-    for (const CertifiedInput& input : inputs)
-        formats.push_back(reading.format ? reading.format : format_of(input.name));
+    for (const std::filesystem::path& path : paths)
+        formats.push_back(reading.format ? reading.format : format_of(path));
     if (const auto sound = check_reading(formats, reading.options, reading.option_names); !sound)
         return sound.error();
     std::vector<InputFile> files;

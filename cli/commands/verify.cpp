@@ -20,11 +20,13 @@ struct VerifyCommand {
 constexpr auto verify_footer =
     R"(A certificate says how a mesh follows from its input files. It is judged with rational
 arithmetic, by code that shares nothing with what made it. IN are the input files in the order of
-the certificate; without IN they are looked for in its folder, under the names that it gives. What
-changed how they were read (--depth, --max-edge, --input-format) must be given here, too.
+the certificate; without IN they are looked for in its folder, under the names that it gives. Their
+formats are those of their own names. What changed how they were read (--depth, --max-edge,
+--input-format) must be given here, too.
 
-The output files that the certificate names are read and compared with it: every coordinate and
-every triangle, bit for bit. Name a file that was moved with --output.
+The verifier makes the output files that the certificate names anew and compares them byte for byte;
+formats that it does not write are bound by their SHA-256 only. Name a file that was moved with
+--output; the others are judged where the certificate says.
 
 The verifier computes how far the mesh is from the inputs. It accepts at most 2^-20 of the diagonal
 of the box around them or, if that is more, 2^-40 of their largest coordinate. Where surfaces were

@@ -78,15 +78,19 @@ std::vector<JudgedOutput> judge_outputs(const CertificateRequest& request,
     if (!request.outputs.empty() && outputs.empty())
         refuse("the certificate names no output file", "--output");
     OutputVerifier verifier(certificate);
-    for (const std::string& path : request.outputs)
-        judged.push_back(judge_output(verifier, output_like(certificate, path), path));
-    if (request.outputs.empty())
-        for (std::size_t i = 0; i < outputs.size(); ++i) {
-            const auto path = path_of(request, outputs[i].name);
-            judged.push_back(outputs[i].name == "-"
-                                 ? JudgedOutput{i, "standard output", "give it with --output", {}}
-                                 : judge_output(verifier, i, path));
-        }
+    std::vector<bool> is_given(outputs.size());
+    for (const std::string& path : request.outputs) {
+        const std::size_t i = output_like(certificate, path);
+        judged.push_back(judge_output(verifier, i, path));
+        is_given[i] = true;
+    }
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        if (is_given[i]) continue;
+        const auto path = path_of(request, outputs[i].name);
+        judged.push_back(outputs[i].name == "-"
+                             ? JudgedOutput{i, "standard output", "give it with --output", {}}
+                             : judge_output(verifier, i, path));
+    }
     return judged;
 }
 

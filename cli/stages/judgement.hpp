@@ -17,7 +17,7 @@ namespace terrane::cli {
 struct CertificateRequest {
     std::string certificate;          ///< file; - is standard input
     FileOptions files;                ///< inputs; none: those that the certificate names
-    std::vector<std::string> outputs; ///< files to judge; none: those that the certificate names
+    std::vector<std::string> outputs; ///< files that are not where the certificate says
     VerifyOptions options;
 };
 
