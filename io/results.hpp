@@ -16,9 +16,10 @@
 #include <terrane/algorithms/pipeline/project.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/io/project.hpp>
-#include <terrane/io/structure_json.hpp>
 
 namespace terrane {
+
+struct StructureExtras;
 
 // The folder of files that a model is written to, as `terrane volume` makes it.
 

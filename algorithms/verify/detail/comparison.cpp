@@ -12,10 +12,12 @@ namespace terrane::verifier {
 
 namespace {
 
-/// Returns the start of a text, up to the end of its line, for people to read.
-std::string excerpt(std::string_view text) {
+/// Returns the line of a text that has the byte at a place, or what follows it, for people to read.
+std::string excerpt(std::string_view text, std::size_t at) {
     constexpr std::size_t most = 40;
-    return "\"" + std::string(text.substr(0, std::min(text.find('\n'), most))) + "\"";
+    const std::size_t start = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
+    const std::string_view shown = text.substr(at - start < most ? start : at);
+    return "\"" + std::string(shown.substr(0, std::min(shown.find('\n'), most))) + "\"";
 }
 
 } // namespace
@@ -33,7 +35,7 @@ Comparison& Comparison::operator<<(std::string_view text) {
     if (at_ == file_.size()) fail("the file ends too early");
     const bool is_text = text.find_first_of(std::string_view("\0", 1)) == std::string_view::npos;
     fail(text[wrong] == '\n' ? "the line must end here"
-         : is_text           ? excerpt(text.substr(wrong)) + " is needed"
+         : is_text           ? excerpt(text, wrong) + " is needed"
                              : "another byte is needed");
 }
 

@@ -142,6 +142,7 @@ public:
     /// Adds cells of as many corners each.
     void add_cells(const auto& cells, std::uint8_t type) {
         for (const auto& cell : cells) {
+            look_for_stop();
             corners_.insert(corners_.end(), cell.begin(), cell.end());
             ends_.push_back(static_cast<std::int64_t>(corners_.size()));
             types_.push_back(type);

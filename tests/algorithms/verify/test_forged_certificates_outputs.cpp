@@ -146,17 +146,17 @@ TEST_CASE("forged output files: each character of VTP that is not compressed") {
 }
 
 TEST_CASE("forged output files: OBJ") {
-    check_files("obj", {{"another coordinate", "v 8 0 0", "v 8 0 1", "line 2, byte 13: \"0\""},
+    check_files("obj", {{"another coordinate", "v 8 0 0", "v 8 0 1", "line 2, byte 15: \"0\""},
                         {"minus zero", "v 0 0 0", "v 0 -0 0", "line 1, byte 5: \"0\""},
                         {"another decimal of the same number", "v 8 0 0", "v 8.0 0 0", "line 2"},
                         {"a vertex too many", "v 8 0 0\n", "v 8 0 0\nv 8 0 0\n", "line 3"},
                         {"a vertex less", "v 8 0 0\n", "", "line 2"},
                         {"a weight", "v 8 0 0\n", "v 8 0 0 1\n", "line 2"},
-                        {"a comment", "g top", "# top\ng top", "line 10"},
+                        {"a comment", "g top", "# top\ng top", "line 15"},
                         {"two blanks", "v 8 0 0", "v  8 0 0", "line 2"},
-                        {"another group", "g base", "g top_1", "line 12, byte "},
-                        {"a group less", "g base\n", "", "line 12"},
-                        {"a normal", "\nf ", "\nvn 0 0 1\nf ", "line 11"},
+                        {"another group", "g base", "g top_1", "line 25, byte "},
+                        {"a group less", "g base\n", "", "line 25"},
+                        {"a normal", "\nf ", "\nvn 0 0 1\nf ", "line 16"},
                         {"carriage returns", "v 8 0 0\n", "v 8 0 0\r\n",
                          "line 2, byte 16: the line must end here"}});
     const Subject s = subject(named(), {"obj"});
@@ -168,7 +168,7 @@ TEST_CASE("forged output files: OBJ") {
 
 TEST_CASE("forged output files: OFF, STL as text, TSurf, VTP") {
     check_files("off", {{"a comment", "OFF\n", "OFF\n# 1\n", "line 2"},
-                        {"another corner", "\n3 0 ", "\n4 0 ", "line 12"},
+                        {"another corner", "\n3 0 ", "\n4 0 ", "line 17"},
                         {"with colours", "OFF\n", "COFF\n", "line 1, byte 1: \"OFF\" is needed"}});
     check_files("stl-ascii", {{"another name", "solid base", "solid wall", "line "},
                               {"a normal", "normal 0 0 1", "normal 0 0 2", "line 2"},
