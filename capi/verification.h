@@ -40,7 +40,7 @@ TERRANE_API terrane_code terrane_verify_arrangement(const terrane_surfaces* surf
 TERRANE_API terrane_code terrane_verify_mesh(const terrane_mesh* mesh, terrane_verdict** out,
                                              terrane_error** error);
 /// Judges a certificate from the input files, and the output files that it names, which are next to
-/// it. An output file that is missing, or of a format that the verifier does not read, is a
+/// it. An output file that is missing, or of a format that the verifier does not write, is a
 /// violation. Errors: CANNOT_OPEN, BAD_SYNTAX, BAD_OPTION (the number of input files), those of
 /// reading.
 TERRANE_API terrane_code terrane_verify_certificate(const char* path,

@@ -52,19 +52,19 @@ file(READ ${WORK}/out/c.json certificate)
 string(REPLACE ${old_hash} ${new_hash} sealed "${certificate}")
 file(WRITE ${WORK}/out/sealed.json "${sealed}")
 expect(1 verify out/sealed.json)
-expect_text("another corner than in the certificate")
+expect_text("R21: mesh.obj: obj, line ")
 file(COPY_FILE ${WORK}/moved.obj ${WORK}/out/mesh.obj)
 expect(0 verify out/c.json)
 
-# Every format that the verifier reads, and one that it does not.
+# Every format that the verifier writes, and one that it does not.
 expect(0 arrange input.obj -o out/m.obj -o out/m.off -o out/m.ply -o out/m.vtp -o out/m.ts
-       -o out/m.stl --certificate out/m.json)
+       -o out/m.stl -o out/m.msh -o out/m.inp --certificate out/m.json)
 expect(0 verify out/m.json)
 expect_text("m.stl: holds these triangles rounded to float32")
 expect(0 arrange input.obj --ascii -o out/m.stl --certificate out/m.json)
 expect(0 verify out/m.json)
 expect_text("m.stl: holds these triangles: every byte")
-expect(0 arrange input.obj -o out/m.msh --certificate out/m.json)
+expect(0 arrange input.obj -o out/m.mesh --certificate out/m.json)
 expect(2 verify out/m.json)
 expect_text("NOT verified: its SHA-256 is that of the certificate")
 expect(0 arrange input.obj --format obj -o - --certificate out/m.json)
