@@ -11,7 +11,7 @@
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
-#include <terrane/io/verifier_input.hpp>
+#include <terrane/io/judgement/judgement.hpp>
 
 namespace terrane::capi::detail {
 namespace {
@@ -19,7 +19,16 @@ namespace {
 namespace fs = std::filesystem;
 
 terrane_verify_options default_verifying() noexcept {
-    return {sizeof(terrane_verify_options), nullptr, 0, default_reading(), -1, -1};
+    const JudgementLimits limits;
+    return {sizeof(terrane_verify_options),
+            nullptr,
+            0,
+            default_reading(),
+            -1,
+            -1,
+            nullptr,
+            limits.time,
+            limits.memory};
 }
 
 void add(const std::vector<Violation>& violations, terrane_verdict& verdict) {
@@ -33,60 +42,39 @@ std::unique_ptr<terrane_verdict> verdict_of(const std::vector<Violation>& violat
     return verdict;
 }
 
-std::vector<InputFile> read_inputs(const fs::path& folder, const terrane_verify_options& options,
-                                   const Certificate& certificate) {
-    need_array(options.inputs, options.input_count, "options.inputs");
-    std::vector<fs::path> paths;
-    if (options.inputs)
-        for (const char* path : std::span(options.inputs, options.input_count))
-            paths.emplace_back(needed_text(path, "options.inputs"));
-    else
-        for (const CertifiedInput& input : certificate.inputs) paths.push_back(folder / input.name);
-    const auto reading = reading_of(&options.reading);
-    return must(read_certified(certificate, paths,
-                               {reading.format,
-                                reading.options,
-                                "options.inputs",
-                                {"options.reading.depth", "options.reading.max_edge"}}));
-}
-
-/// Judges the output files that a certificate names; one that can't be judged is a violation, too.
-void judge_outputs(const fs::path& folder, const Certificate& certificate,
-                   terrane_verdict& verdict) {
-    const auto refuse = [&](const std::string& sentence, std::uint32_t output) {
-        verdict.items.push_back({"output", sentence, {output}});
-    };
-    if (certificate.outputs.empty())
+/// Returns what is known of the output files; one that can't be judged is a violation, too.
+void add_outputs(const Judgement& judged, terrane_verdict& verdict) {
+    if (judged.outputs.empty())
         verdict.items.push_back({"output", "the certificate names no output file", {}});
-    OutputVerifier verifier(certificate);
-    for (std::uint32_t i = 0; i < certificate.outputs.size(); ++i) {
-        const std::string& name = certificate.outputs[i].name;
-        if (name == "-") {
-            refuse("the certificate names standard output", i);
-            continue;
-        }
-        const auto contents = read_file(folder / name);
-        if (!contents) {
-            refuse(contents.error().message(), i);
-            continue;
-        }
-        const OutputVerdict found = verifier(*contents, i);
-        add(found.violations, verdict);
-        if (found.violations.empty() && found.check == OutputCheck::hash_only)
-            refuse(name + ": the verifier has no writer for its format", i);
+    for (const JudgedOutput& output : judged.outputs) {
+        add(output.verdict.violations, verdict);
+        if (output.verified() || !output.verdict.violations.empty()) continue;
+        verdict.items.push_back(
+            {"output",
+             output.path + ": " +
+                 (output.missing.empty() ? "the verifier has no writer for its format" : output.missing),
+             {static_cast<std::uint32_t>(output.number)}});
     }
 }
 
-std::unique_ptr<terrane_verdict> judge(const char* path, const terrane_verify_options* given) {
-    const fs::path file = needed_file(path);
+std::unique_ptr<terrane_verdict> judge_file(const char* path, const terrane_verify_options* given) {
     const auto options = options_of(given, default_verifying());
-    const auto text = must(read_file(file));
-    const auto certificate = must(parse_certificate(text, file.string()));
-    const auto inputs = read_inputs(file.parent_path(), options, certificate);
-    const VerifyOptions limits{number_or_default(options.max_deviation, "options.max_deviation"),
-                               number_or_default(options.max_change, "options.max_change")};
-    auto verdict = verdict_of(verify_certificate(inputs, certificate, limits).violations);
-    if (verdict->items.empty()) judge_outputs(file.parent_path(), certificate, *verdict);
+    const auto reading = reading_of(&options.reading);
+    JudgementRequest request{
+        .certificate = needed_file(path),
+        .reading = {reading.format,
+                    reading.options,
+                    "options.inputs",
+                    {"options.reading.depth", "options.reading.max_edge"}},
+        .options = {number_or_default(options.max_deviation, "options.max_deviation"),
+                    number_or_default(options.max_change, "options.max_change")},
+        .limits = {options.time, options.memory}};
+    need_array(options.inputs, options.input_count, "options.inputs");
+    for (const char* input : std::span(options.inputs, options.inputs ? options.input_count : 0))
+        request.inputs.emplace_back(needed_text(input, "options.inputs"));
+    const auto judged = must(judge(request));
+    auto verdict = verdict_of(judged.verdict.violations);
+    if (verdict->items.empty()) add_outputs(judged, *verdict);
     return verdict;
 }
 
@@ -125,7 +113,7 @@ terrane_code terrane_verify_mesh(const terrane_mesh* mesh, terrane_verdict** out
 
 terrane_code terrane_verify_certificate(const char* path, const terrane_verify_options* options,
                                         terrane_verdict** out, terrane_error** error) {
-    return produce(out, error, [&] { return judge(path, options); });
+    return produce(out, error, [&] { return judge_file(path, options); });
 }
 
 void terrane_verdict_free(terrane_verdict* verdict) {

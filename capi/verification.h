@@ -25,6 +25,10 @@ typedef struct terrane_verify_options {
     double max_deviation;         ///< the largest that is accepted; < 0: the default
     double max_change;            ///< the largest limit of a change that is accepted; < 0: the
                                   ///< default
+    const char* folder;           ///< the folder that has the files which the certificate names;
+                                  ///< NULL: its own, without links
+    double time;                  ///< processor seconds that it may take; TIMED_OUT beyond
+    double memory;                ///< bytes that it may take; OUT_OF_MEMORY beyond
 } terrane_verify_options;
 
 /// Gives options their defaults. Errors: BAD_ARGUMENT.
@@ -39,10 +43,10 @@ TERRANE_API terrane_code terrane_verify_arrangement(const terrane_surfaces* surf
 /// Judges whether a mesh of doubles is conforming. Errors: BAD_ARGUMENT, OUT_OF_MEMORY.
 TERRANE_API terrane_code terrane_verify_mesh(const terrane_mesh* mesh, terrane_verdict** out,
                                              terrane_error** error);
-/// Judges a certificate from the input files, and the output files that it names, which are next to
-/// it. An output file that is missing, or of a format that the verifier does not write, is a
-/// violation. Errors: CANNOT_OPEN, BAD_SYNTAX, BAD_OPTION (the number of input files), those of
-/// reading.
+/// Judges a certificate from the input files, and the output files that it names. Files that it names
+/// are opened in that folder only. An output file that is missing, or of a
+/// format that the verifier does not write, is a violation. Errors: CANNOT_OPEN, BAD_SYNTAX,
+/// BAD_OPTION (the number of input files), those of reading, TIMED_OUT, OUT_OF_MEMORY.
 TERRANE_API terrane_code terrane_verify_certificate(const char* path,
                                                     const terrane_verify_options* options,
                                                     terrane_verdict** out, terrane_error** error);

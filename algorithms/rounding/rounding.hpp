@@ -55,13 +55,13 @@ struct VanishedRegions {
 struct RoundingReport {
     bool clean = false;  ///< conforming, by exact check of the doubles
     unsigned rounds = 0; ///< number of snapping rounds
-    /// Pairs that meet improperly at the nearest doubles. If they are least_sampled or more, there may
-    /// be more: if a sample of the triangles has so many, the input is moved at once.
+    /// Number of pairs that meet improperly at the nearest doubles; a lower bound from least_sampled on,
+    /// where the pairs of a sample of the triangles decide that the input is moved at once.
     std::size_t naive_contacts = 0;
     static constexpr std::size_t least_sampled = 256;
     static constexpr std::size_t most_counted = 100'000;
-    /// Remaining contacts; triangles of the mesh. If they are more than most_counted, there may be
-    /// more: they are then the first ones, in the order of their triangles.
+    /// Remaining contacts, by triangles of the mesh: all, or the first most_counted in the order of
+    /// their triangles.
     std::vector<ImproperContact> contacts;
     /// No point of the mesh is farther from the input triangles that it is part of, and no point of
     /// an input triangle is farther from its parts, except for vanished ones; unit of the input.

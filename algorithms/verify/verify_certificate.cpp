@@ -33,6 +33,7 @@ std::string difference(const InputFile& file, const CertifiedInput& stated) {
 
 void check_inputs(std::span<const InputFile> files, const std::vector<CertifiedInput>& stated,
                   Violations& found) {
+    if (stated.empty()) found.push_back({Rule::R9_inputs, {}, "there is no input file"});
     if (files.size() != stated.size())
         found.push_back(
             {Rule::R9_inputs,

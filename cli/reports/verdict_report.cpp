@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/cli/reports/verdict_report.hpp>
 
+#include <algorithm>
 #include <set>
 #include <span>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/cli/options/statistics.hpp>
+#include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/styles.hpp>
 
 namespace terrane::cli {
@@ -68,7 +70,8 @@ std::string doubles_text(const Judgement& judged) {
     auto text = counted(rounded->triangles.size(), "triangle") + " of doubles, " +
                 (rounded->clean ? "conforming" : "not conforming, as it says");
     text += measured.deviation > 0
-                ? fmt::format(", at most {} from the exact result", figure(measured.deviation, 3))
+                ? fmt::format(", at most {} from the exact result ({} is accepted)",
+                              figure(measured.deviation, 3), figure(measured.max_deviation, 3))
                 : ", at their exact places";
     if (measured.vanished > 0)
         text += fmt::format("; {} vanished", counted(measured.vanished, "input triangle"));
@@ -214,6 +217,9 @@ std::string verdict_text(const Judgement& judged, const std::string& name) {
         const std::string cells =
             judged.certificate.tetrahedra() != nullptr ? "tetrahedra" : "triangles";
         text += blocks_text(judged);
+        for (const JudgedInput& input : judged.inputs)
+            text += fmt::format("{}: read, {} bytes, sha256:{}\n", one_line(input.path),
+                                input.bytes, input.sha256);
         for (const JudgedOutput& output : judged.outputs)
             text += output_text(output, judged.certificate.outputs[output.number].format, cells);
         if (judged.outputs.empty())
@@ -234,8 +240,8 @@ std::string verdict_json(const Judgement& judged) {
     Json json{{"valid", violations.empty()}, {"digest", judged.certificate.digest},
               {"deviation", nullptr},        {"max_deviation", nullptr},
               {"vanished", nullptr},         {"change", nullptr},
-              {"max_change", nullptr},       {"outputs", Json::array()},
-              {"violations", Json::array()}};
+              {"max_change", nullptr},       {"inputs", Json::array()},
+              {"outputs", Json::array()},    {"violations", Json::array()}};
     if (const auto& measured = judged.verdict.measured) {
         json["deviation"] = measured->deviation;
         json["max_deviation"] = measured->max_deviation;
@@ -252,6 +258,9 @@ std::string verdict_json(const Judgement& judged) {
         json["change"] = change->limit;
         json["max_change"] = change->max_limit;
     }
+    for (const JudgedInput& input : judged.inputs)
+        json["inputs"].push_back(
+            {{"file", input.path}, {"bytes", input.bytes}, {"sha256", input.sha256}});
     for (const JudgedOutput& output : judged.outputs)
         json["outputs"].push_back({{"name", judged.certificate.outputs[output.number].name},
                                    {"file", output.path},

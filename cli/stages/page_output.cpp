@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/cli/reports/verdict_report.hpp>
 #include <terrane/cli/session/styles.hpp>
-#include <terrane/cli/stages/judgement.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 
 namespace terrane::cli {
@@ -69,14 +69,11 @@ std::string unreadable(const FileOptions& files, const std::string& certificate)
 
 page::CertificateVerdict judged_by_verifier(const FileOptions& files,
                                             const std::string& certificate) {
-    CertificateRequest request{certificate, files, {}, {}};
-    request.files.inputs.clear(); // those that the certificate names
-    try {
-        const auto judged = judge_certificate(request);
-        return {certificate, judged.violations().empty(), lines_of(judged, certificate)};
-    } catch (const Failure& failure) {
-        return {certificate, std::nullopt, {"Not judged: " + failure.error.message()}};
-    }
+    const auto judged = judge({.certificate = certificate,
+                               .folder = "/",
+                               .reading = {format_named(files.input_format), files.read}});
+    if (!judged) return {certificate, std::nullopt, {"Not judged: " + judged.error().message()}};
+    return {certificate, judged->violations().empty(), lines_of(*judged, certificate)};
 }
 
 /// Returns what differs from run to run: seconds by stage, memory, threads.

@@ -211,6 +211,16 @@ Status write_with(const fs::path& path, std::string_view contents, FileSet* set)
 
 } // namespace
 
+Result<std::uint64_t> size_of_file(const fs::path& path) {
+    const fs::path here = FileSet::current() != nullptr ? FileSet::current()->where(path) : path;
+    struct stat info {};
+    const int code = ::stat(here.c_str(), &info) != 0 ? errno : 0;
+    if (code == 0 && S_ISREG(info.st_mode)) return static_cast<std::uint64_t>(info.st_size);
+    return Error{ErrorCode::cannot_open,
+                 code != 0 ? "cannot be read: " + reason(code) : "is no regular file",
+                 final_path_of(path).string()};
+}
+
 Result<std::string> read_file(const fs::path& path) {
     const bool standard = path == "-";
     const fs::path here = FileSet::current() != nullptr ? FileSet::current()->where(path) : path;

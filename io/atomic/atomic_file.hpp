@@ -3,6 +3,7 @@
 // Files are read as a whole, and written as a whole or not at all.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -10,6 +11,10 @@
 #include <terrane/algorithms/core/result.hpp>
 
 namespace terrane {
+
+/// Returns the number of bytes of a regular file, without opening it. Errors: cannot_open, also for what is no regular
+/// file, such as a device or a pipe.
+Result<std::uint64_t> size_of_file(const std::filesystem::path& path);
 
 /// Returns the bytes of a file; "-" is standard input. Errors: cannot_open.
 Result<std::string> read_file(const std::filesystem::path& path);

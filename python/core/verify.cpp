@@ -7,8 +7,7 @@
 
 #include <terrane/algorithms/verify/stoppable.hpp>
 #include <terrane/algorithms/verify/verify.hpp>
-#include <terrane/io/atomic/atomic_file.hpp>
-#include <terrane/io/verifier_input.hpp>
+#include <terrane/io/judgement/judgement.hpp>
 
 #include "handles.hpp"
 #include "surfaces.hpp"
@@ -18,8 +17,6 @@ namespace terrane::python {
 using namespace py::literals;
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// (rule, elements, sentence)
 py::list to_list(const std::vector<Violation>& violations) {
@@ -47,71 +44,32 @@ py::list verify_mesh(const MeshPointer& mesh, const HowToRun& how) {
     }));
 }
 
-/// An output file as it was found.
-struct JudgedFile {
-    std::string path;
-    std::string check; ///< "missing: ..." where it could not be read
-    std::vector<Violation> violations;
-};
-
-/// What is found about a certificate and the files that it names.
-struct Judgement {
-    std::vector<Violation> violations;
-    std::vector<JudgedFile> outputs;
-    std::optional<Measured> measured;
-    std::string digest;
-};
-
-std::vector<JudgedFile> judge_outputs(const Certificate& certificate, const fs::path& folder) {
+/// "every byte", "inflated", ..., "missing: ..." where it could not be read
+std::string check_of(const JudgedOutput& output) {
     constexpr std::array<const char*, 4> checks{"every byte", "inflated", "float32", "hash only"};
-    OutputVerifier verifier(certificate);
-    std::vector<JudgedFile> judged;
-    for (std::size_t i = 0; i < certificate.outputs.size(); ++i) {
-        const fs::path path = folder / certificate.outputs[i].name;
-        const auto contents = read_file(path);
-        if (!contents) {
-            judged.push_back({path.string(), "missing: " + contents.error().sentence, {}});
-            continue;
-        }
-        auto verdict = verifier(*contents, i);
-        judged.push_back({path.string(), checks[static_cast<std::size_t>(verdict.check)],
-                          std::move(verdict.violations)});
-    }
-    return judged;
-}
-
-Judgement judge(const fs::path& path, const std::vector<std::string>& inputs,
-                const VerifyOptions& options) {
-    const auto text = must(read_file(path));
-    const auto certificate = must(parse_certificate(text, path.string()));
-    std::vector<fs::path> paths(inputs.begin(), inputs.end());
-    if (paths.empty())
-        for (const CertifiedInput& input : certificate.inputs)
-            paths.push_back(path.parent_path() / input.name);
-    const auto files = must(read_certified(certificate, paths, {.paths_name = "inputs"}));
-    auto verdict = verify_certificate(files, certificate, options);
-    Judgement found{std::move(verdict.violations), {}, verdict.measured, certificate.digest};
-    if (found.violations.empty()) found.outputs = judge_outputs(certificate, path.parent_path());
-    return found;
+    return output.missing.empty() ? checks[static_cast<std::size_t>(output.verdict.check)]
+                                  : "missing: " + output.missing;
 }
 
 py::dict verify_file(const py::object& path, const py::sequence& inputs,
                      std::optional<double> max_deviation, std::optional<double> max_change,
+                     const std::optional<py::object>& folder, double time, double memory,
                      const HowToRun& how) {
-    const fs::path from = to_path(path);
-    const VerifyOptions options{max_deviation, max_change};
-    std::vector<std::string> given;
-    for (const py::handle input : inputs) given.push_back(to_path(input).string());
-    const auto found =
-        run_verifier(how, [=]() -> Result<Judgement> { return judge(from, given, options); });
+    JudgementRequest request{.certificate = to_path(path),
+                             .reading = {.paths_name = "inputs"},
+                             .options = {max_deviation, max_change},
+                             .limits = {time, memory}};
+    if (folder) request.folder = to_path(*folder);
+    for (const py::handle input : inputs) request.inputs.push_back(to_path(input));
+    const auto found = run_stage(how, [=](const Run& run) { return judge(request, run.stop); });
     py::list outputs;
-    for (const JudgedFile& file : found.outputs)
-        outputs.append(
-            py::make_tuple(to_text(file.path), to_text(file.check), to_list(file.violations)));
+    for (const JudgedOutput& file : found.outputs)
+        outputs.append(py::make_tuple(to_text(file.path), to_text(check_of(file)),
+                                      to_list(file.verdict.violations)));
     py::object deviation = py::none();
-    if (found.measured) deviation = py::float_(found.measured->deviation);
-    return py::dict("violations"_a = to_list(found.violations), "outputs"_a = outputs,
-                    "deviation"_a = deviation, "digest"_a = found.digest);
+    if (found.verdict.measured) deviation = py::float_(found.verdict.measured->deviation);
+    return py::dict("violations"_a = to_list(found.verdict.violations), "outputs"_a = outputs,
+                    "deviation"_a = deviation, "digest"_a = found.certificate.digest);
 }
 
 } // namespace
@@ -120,7 +78,7 @@ void bind_verify(py::module_& module) {
     module.def("verify_arrangement", &verify_made, "surfaces"_a, "arrangement"_a, "how"_a);
     module.def("verify_mesh", &verify_mesh, "mesh"_a, "how"_a);
     module.def("verify_file", &verify_file, "path"_a, "inputs"_a, "max_deviation"_a, "max_change"_a,
-               "how"_a);
+               "folder"_a, "time"_a, "memory"_a, "how"_a);
 }
 
 } // namespace terrane::python

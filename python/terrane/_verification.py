@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 from . import _core
 from ._arrangement import Arrangement, _inputs
@@ -85,7 +85,8 @@ class Verdict(NamedTuple):
 
 
 def verify(result: Any, inputs: Sequence[Any] = (), *, max_deviation: Optional[float] = None,
-           max_change: Optional[float] = None, threads: Optional[int] = None, progress: Any = None) -> Verdict:
+           max_change: Optional[float] = None, folder: Union[None, str, "os.PathLike[str]"] = None,
+           time: float = 3600, memory: float = 16e9, threads: Optional[int] = None, progress: Any = None) -> Verdict:
     """Verify a result by code that shares nothing with what made it, in rational numbers.
 
     Parameters
@@ -98,6 +99,10 @@ def verify(result: Any, inputs: Sequence[Any] = (), *, max_deviation: Optional[f
         arrangement has its inputs and is exact, and of a mesh nothing is known but itself.
     max_deviation, max_change : float, optional
         The largest that are accepted, unit of the input.
+    folder : path, optional
+        The folder that has the files which the certificate names; otherwise its own, without links.
+    time, memory : float, optional
+        Processor time in seconds and memory in bytes that judging a certificate may take; beyond that an error is raised.
 
     Examples
     --------
@@ -108,13 +113,15 @@ def verify(result: Any, inputs: Sequence[Any] = (), *, max_deviation: Optional[f
     True
     """
     if not isinstance(result, (str, os.PathLike)):
-        given = {"inputs": None if inputs in ((), []) else inputs, "max_deviation": max_deviation, "max_change": max_change}
+        given = {"inputs": None if inputs in ((), []) else inputs, "max_deviation": max_deviation, "max_change": max_change, "folder": folder}
         return _verify_made(result, given, how(threads, progress))
     if isinstance(inputs, (str, bytes, os.PathLike)):
         raise TypeError("inputs is a list of paths, not one")
     bounds = [None if b is None else as_number(b, n, least=0)
               for b, n in ((max_deviation, "max_deviation"), (max_change, "max_change"))]
     judged = _core.verify_file(os.fspath(result), [os.fspath(p) for p in inputs], bounds[0], bounds[1],
+                               None if folder is None else os.fspath(folder), as_number(time, "time", positive=True),
+                               as_number(memory, "memory", positive=True),
                                how(threads, progress))
     outputs = [VerifiedFile(path, check, [RuleViolation(*v) for v in violations])
                for path, check, violations in judged["outputs"]]

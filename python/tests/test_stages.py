@@ -438,7 +438,7 @@ def test_certificates_of_a_project_hold():
     wanted = {**project(), "outputs": {"certificate": True, "surfaces": ["vtp"], "blocks": "vtp"}}
     terrane.build(wanted).save("certified")
     for name in ("certificate.json", "certificate_blocks.json"):
-        assert not terrane.verify("certified/" + name).violations
+        assert not terrane.verify("certified/" + name, folder=".").violations
 
 
 def test_errors_of_projects_name_their_key():
@@ -464,7 +464,7 @@ def certificate():
 
 
 def test_certificates_are_verified(certificate):
-    verdict = terrane.verify(certificate)
+    verdict = terrane.verify(certificate, folder="/")
     assert verdict and verdict.outputs[0].check == "inflated" and verdict.deviation < 1e-6
     assert verdict.digest == terrane.arrange(terrane.read(THREE)).digest()
     assert "verified" in repr(verdict)
@@ -474,7 +474,7 @@ def test_forged_outputs_are_found(certificate):
     data = bytearray(open("model.vtp", "rb").read())
     data[len(data) // 2] ^= 1
     open("model.vtp", "wb").write(data)
-    verdict = terrane.verify(certificate)
+    verdict = terrane.verify(certificate, folder="/")
     assert not verdict and verdict.outputs[0].violations[0].rule.startswith("R21")
 
 
@@ -482,13 +482,13 @@ def test_forged_certificates_are_found(certificate):
     claims = json.load(open(certificate))
     claims["exact"]["triangles"][0], claims["exact"]["triangles"][1] = claims["exact"]["triangles"][1], claims["exact"]["triangles"][0]
     json.dump(claims, open(certificate, "w"))
-    verdict = terrane.verify(certificate)
+    verdict = terrane.verify(certificate, folder="/")
     assert not verdict and verdict.violations and "refuted" in repr(verdict)
 
 
 def test_missing_outputs_are_not_verified(certificate):
     os.remove("model.vtp")
-    verdict = terrane.verify(certificate)
+    verdict = terrane.verify(certificate, folder="/")
     assert not verdict and verdict.outputs[0].check.startswith("missing") and not verdict.violations
 
 

@@ -43,12 +43,12 @@ HOW = {"--threads", "--quiet", "--color", "--search", "--check", "--stats", "--s
        "--suggest-seal", "--corner", "--keep-unverified", "--max-volume-change", "--least-quality", "--max-triangles",
        "--crease-angle", "--curve-angle", "--thickness-share", "--growth", "--smallest", "--layers-in-gaps", "--turn", "--passes",
        "--max-deviation", "--max-change", "--hard", "--soft", "--bridge-faults", "--gap-slope", "--extend", "--edge-length-of",
-       "--size-of", "--dissolve", "--resolution", "--min-volume", "--tolerance", "--no-optimise", "--optimise"}
+       "--size-of", "--dissolve", "--resolution", "--min-volume", "--tolerance", "--time", "--expect-input", "--no-optimise", "--optimise"}
 #: A value that makes sense ("" for flags), and what it needs besides.
 SENSE = {
     "--depth": ("", "IN=seabed.asc"), "--max-edge": ("90", "IN=points.csv"), "--box": (BOX[6:], ""),
     "--rotated-box": ("1000,700,-1200,800,600,500,20", ""), "--polygon": ("100,100,1500,100,100,1200", "--between=-1700,-700"),
-    "--between": ("-1700,-700", "--polygon=100,100,1500,100,100,1200"), "--within": ("body.ts", ""), "--seal": ("60", ""),
+    "--between": ("-1700,-700", "--polygon=100,100,1500,100,100,1200"), "--within": ("body.ts", ""), "--folder": ("/", ""), "--seal": ("60", ""),
     "--ascii": ("", ""), "--msh": ("2.2", "OUT=out.msh"), "--certificate": ("c.json", "OUT=out.obj"), "--exact": ("x.txt", ""),
     "--report": ("r.html", ""), "--seal-plot": ("p.svg", "--suggest-seal"), "--column": ("column.json", ""), "--parts": ("obj", ""),
     "--relations": ("r.csv", ""), "--juxtaposition": ("j.csv", ""), "--gocad": ("g.ml", ""), "--lines": ("l.pl", ""),
@@ -78,7 +78,7 @@ NONSENSE = ["", "nonsense", "-1", "nan", "inf", "-inf", "1e999", "99999999999999
             "\udcff", "7x", "0x10", "1 2", "%s%n", "a=b=c"]
 VOLUMES = ("--rotated-box", "--polygon", "--between", "--within")
 #: Limits that large numbers do not reach.
-LIMITS = {"--rounds", "--max-move", "--max-volume-change", "--max-triangles", "--max-deviation", "--max-change", "--time-limit",
+LIMITS = {"--rounds", "--max-move", "--max-volume-change", "--max-triangles", "--max-deviation", "--max-change", "--time-limit", "--time", "--memory",
           "--max-area", "--smallest", "--growth", "--curve-length", "--turn", "--thickness-share", "--least-quality", "--max-edge", "--rings", "--mesh-size", "--gap-slope", "--max-volume", "--retries"}
 
 

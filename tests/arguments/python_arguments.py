@@ -51,7 +51,7 @@ NONSENSE = {
 #: Values that have a meaning, with which the fixtures happen to give the same.
 SAME = {"zero": {"max_rounds"}, "set": {"holes"}, "true": {"isotropic", "bridge_faults", "keep_unverified"}}
 #: Limits that such a large number does not reach.
-LIMITS = {"extend", "tolerance", "min_volume", "distance", "max_move", "max_area", "max_deviation", "max_change", "time_limit", "max_triangles", "max_volume_change", "growth",
+LIMITS = {"extend", "time", "memory", "tolerance", "min_volume", "distance", "max_move", "max_area", "max_deviation", "max_change", "time_limit", "max_triangles", "max_volume_change", "growth",
           "crease_angle", "curve_angle", "max_edge", "max_volume", "retries", "quality", "turn", "mesh_size", "rings",
           "layers_in_gaps", "thickness_share", "curve_length", "smallest", "gap_slope", "least_quality"}
 LARGE = {"huge", "large", "inf", "half"}

@@ -163,7 +163,8 @@ FUNCTIONS = {
         "around": ((( -3, -3, -4), (8, 8, 4)), {"outside": True}), "margin": (0.5, {"outside": True}), "mesher": None,
         "time_limit": None, "helper": None, "gmsh_helper": None}),
     "verify": (lambda f: dict(result=f.certificate), {
-        "inputs": lambda f: [str(f.files / f"{n}.ts") for n in ("base", "top", "F1")], "max_deviation": 0, "max_change": None}),
+        "inputs": lambda f: [str(f.files / f"{n}.ts") for n in ("base", "top", "F1")], "max_deviation": 0, "max_change": None,
+        "folder": None, "time": None, "memory": None}),
     "build": (lambda f: dict(project=str(f.files / "project.json")), {"folder": None}),
     "ensemble": (lambda f: dict(project=str(f.files / "project.json"), realisations=2, engine="serial"), {
         "folder": None, "seed": 2, "contacts": 0.5, "grid": 7, "workers": None, "scheduler": None, "retries": None,

@@ -19,7 +19,7 @@ PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
 NO_NUMBER = re.compile(r"(?<![\w+/=])[-+]?(?:nan|inf|infinity)(?![\w+/=])", re.I)
 # Places in statistics and pages that may be null, since there is nothing of this kind.
 EMPTY = re.compile(r"\.(file|blocks|volumes|peak_rss_mb|least|place|into|valid|quality|expected_error|validated_error|cell|filled|"
-                   r"bound_back_of_surfaces\[\]|measured_back\[\]|radius_edge\.\w+|rows\[\]\[\]|corners|fault_throw|width|throw)$")
+                   r"models\[\]\.height|models\[\]\.deviation|bound_back_of_surfaces\[\]|measured_back\[\]|radius_edge\.\w+|rows\[\]\[\]|corners|fault_throw|width|throw)$")
 
 
 def sheet(name, size, height, slope=0., without=()):

@@ -34,7 +34,7 @@ TEST_CASE("cli: volume: a certificate that verify takes", "[cli][once]") {
         INFO(made.err);
         REQUIRE(made.status == 0);
         CHECK(contains(made.out, "wrote model\nwrote blocks.json\n"));
-        const auto verified = folder.run("verify blocks.json");
+        const auto verified = folder.run("verify --folder / blocks.json");
         INFO(verified.out);
         CHECK(verified.status == 0);
         CHECK(contains(verified.out, " with their exact volumes\n"));
@@ -42,10 +42,10 @@ TEST_CASE("cli: volume: a certificate that verify takes", "[cli][once]") {
                                      "lines and corners, and names, "));
         CHECK(contains(verified.out,
                        "model/interfaces/interface_0.obj: holds these triangles: every byte\n"));
-        const auto json = Json::parse(folder.run("verify --json blocks.json").out);
+        const auto json = Json::parse(folder.run("verify --folder / --json blocks.json").out);
         CHECK(json["blocks"] == Json::parse(folder.read("model/model.json"))["blocks"].size() - 1);
         change_digit(folder, "model/interfaces/interface_0.obj", "v .*[.]");
-        CHECK(folder.run("verify blocks.json").status == 1);
+        CHECK(folder.run("verify --folder / blocks.json").status == 1);
         REQUIRE(folder.shell("rm -r model blocks.json").status == 0);
     }
 }
@@ -53,12 +53,13 @@ TEST_CASE("cli: volume: a certificate that verify takes", "[cli][once]") {
 TEST_CASE("cli: verify: each input file is read in the format of its own name", "[cli]") {
     const Folder folder;
     const std::string in = "$D/ringmesh/modelA1.ml";
-    REQUIRE(folder.run("arrange " + in + " -o out.vtp -o out.obj --certificate c.json").status == 0);
-    CHECK(folder.run("verify c.json " + in).status == 0);
+    REQUIRE(folder.run("arrange " + in + " -o out.vtp -o out.obj --certificate c.json").status ==
+            0);
+    CHECK(folder.run("verify --folder / c.json " + in).status == 0);
     REQUIRE(folder.shell("cp " + in + " same.gp && cp " + in + " other.obj").status == 0);
-    CHECK(folder.run("verify c.json same.gp").status == 0);
-    CHECK(folder.run("verify c.json other.obj").status == 2);
-    CHECK(folder.run("verify c.json other.obj --input-format ml").status == 0);
+    CHECK(folder.run("verify --folder / c.json same.gp").status == 0);
+    CHECK(folder.run("verify --folder / c.json other.obj").status == 2);
+    CHECK(folder.run("verify --folder / c.json other.obj --input-format ml").status == 0);
 }
 
 TEST_CASE("cli: verify: all output files are judged, also those that are not named", "[cli]") {
@@ -66,9 +67,9 @@ TEST_CASE("cli: verify: all output files are judged, also those that are not nam
     REQUIRE(folder.run("arrange $D/ringmesh/modelA1.ml -o out.vtp -o out.obj --certificate c.json")
                 .status == 0);
     change_digit(folder, "out.obj", "v .*[.]");
-    CHECK(folder.run("verify c.json --output out.vtp").status == 1);
+    CHECK(folder.run("verify --folder / c.json --output out.vtp").status == 1);
     REQUIRE(folder.shell("rm out.obj").status == 0);
-    CHECK(folder.run("verify c.json --output out.vtp").status == 2);
+    CHECK(folder.run("verify --folder / c.json --output out.vtp").status == 2);
 }
 
 TEST_CASE("cli: a certificate of blocks: what it cannot be about", "[cli]") {
@@ -92,13 +93,14 @@ TEST_CASE("cli: tetrahedralize: a certificate that verify takes", "[cli][tetrahe
     INFO(made.err);
     if (contains(made.err, "terrane-tetgen")) return; // TetGen was not built
     REQUIRE(made.status == 0);
-    const auto verified = folder.run("verify tetrahedra.json");
+    const auto verified = folder.run("verify --folder / tetrahedra.json");
     INFO(verified.out);
     CHECK(verified.status == 2); // the verifier does not write MEDIT
     CHECK(contains(verified.out, "m.vtu: holds these tetrahedra: every byte, once decompressed\n"));
     CHECK(contains(verified.out, "m.msh: holds these tetrahedra: every byte\n"));
-    // A file that is not named is judged, too.
-    CHECK(folder.run("verify tetrahedra.json --output m.vtu --output m.msh").status == 2);
+    CHECK(folder.run("verify --folder / tetrahedra.json --output m.vtu --output m.msh").status ==
+          2); // m.mesh by its hash alone
     change_digit(folder, "m.msh", "^[0-9]+ [0-9]+ [0-9]+ [0-9]+ ");
-    CHECK(folder.run("verify tetrahedra.json --output m.vtu --output m.msh").status == 1);
+    CHECK(folder.run("verify --folder / tetrahedra.json --output m.vtu --output m.msh").status ==
+          1);
 }

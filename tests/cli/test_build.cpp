@@ -170,17 +170,17 @@ TEST_CASE("cli: build: a certificate that verify takes", "[cli]") {
     const auto r = c.build(json);
     INFO(r.err);
     REQUIRE(r.status == 0);
-    const auto verified = c.folder.run("verify out/certificate.json");
+    const auto verified = c.folder.run("verify --folder . out/certificate.json");
     CHECK(verified.status == 0);
     CHECK(contains(verified.out, "surfaces.vtp: holds these triangles: every byte"));
     CHECK(contains(verified.out, "surfaces_22.msh: holds these triangles: every byte"));
-    const auto blocks = c.folder.run("verify out/certificate_blocks.json");
+    const auto blocks = c.folder.run("verify --folder . out/certificate_blocks.json");
     INFO(blocks.out);
     CHECK(blocks.status == 0);
     CHECK(contains(blocks.out, "model/result.vtp: holds these triangles: every byte"));
     c.folder.input("fault.obj", std::string(fault) + "v 0 0 0\n"); // differs from what was read
-    CHECK(c.folder.run("verify out/certificate.json").status == 1);
-    CHECK(c.folder.run("verify out/certificate_blocks.json").status == 1);
+    CHECK(c.folder.run("verify --folder . out/certificate.json").status == 1);
+    CHECK(c.folder.run("verify --folder . out/certificate_blocks.json").status == 1);
 }
 
 TEST_CASE("cli: build: with --check full all pairs of boxes are tested, with the same result",
@@ -259,7 +259,7 @@ TEST_CASE("cli: build: a certificate of tetrahedra that verify takes", "[cli]") 
     const auto r = c.build(json);
     INFO(r.err);
     REQUIRE(r.status == 0);
-    const auto verified = c.folder.run("verify out/certificate_tetrahedra.json");
+    const auto verified = c.folder.run("verify --folder . out/certificate_tetrahedra.json");
     INFO(verified.out);
     CHECK(verified.status == 0);
     CHECK(contains(verified.out, "tetrahedra_22.msh: holds these tetrahedra: every byte"));

@@ -40,11 +40,11 @@ TEST_CASE("cli: certificates: a deviation that verify does not accept is warned 
         CHECK(contains(folder.read("c.json"), "\"deviation\":\"" + given + "\""));
         CHECK(std::stod(stated) > std::stod(cap));
 
-        const auto refused = folder.run("verify c.json");
+        const auto refused = folder.run("verify --folder / c.json");
         CHECK(refused.status == 1);
         CHECK(contains(refused.out + refused.err, cap)); // the same number
-        CHECK(folder.run("verify c.json --max-deviation " + cap).status == 1);
-        CHECK(folder.run("verify c.json --max-deviation " + given).status == 0);
+        CHECK(folder.run("verify --folder / c.json --max-deviation " + cap).status == 1);
+        CHECK(folder.run("verify --folder / c.json --max-deviation " + given).status == 0);
     }
 }
 
@@ -60,6 +60,6 @@ TEST_CASE("cli: certificates: no warning of a deviation that verify accepts", "[
         const auto made = folder.run(command + " --certificate c.json");
         CHECK(made.status == 0);
         CHECK_FALSE(contains(made.err, "deviation"));
-        CHECK(folder.run("verify c.json").status == 0);
+        CHECK(folder.run("verify --folder / c.json").status == 0);
     }
 }

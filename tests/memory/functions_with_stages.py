@@ -49,6 +49,7 @@ WITHIN = {
     "step": "arrange_in_tiles",
     "validate_options": "fill_by_rbf",
     "visit": "arrange_in_tiles",
+    "size_of_file": "judge",
     "simplify_for": "simplify_to",
     "surface_of_grid": "parse_surfaces, asc",
     "surfaces_of": "parse_surfaces, asc",

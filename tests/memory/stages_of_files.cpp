@@ -9,6 +9,7 @@
 #include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/io/certify.hpp>
 #include <terrane/io/gocad/gocad_model.hpp>
+#include <terrane/io/judgement/judgement.hpp>
 #include <terrane/io/meshes/pvtp.hpp>
 #include <terrane/io/points/outline.hpp>
 #include <terrane/io/points/shape_outline.hpp>
@@ -298,6 +299,12 @@ std::vector<Stage> certifying() {
         "verify_certificate",
         [found, certificate] { return verify_certificate(found, certificate); },
         [](const Verdict& verdict) { return std::to_string(verdict.violations.size()); }));
+    const std::vector<InputRecord> beside{
+        needed(record_input(path, path.filename().string(), surfaces.size()))};
+    const auto stated = written("stated.json", to_certificate({beside, surfaces, exact, &rounded}));
+    stages.push_back(stage(
+        "judge", [request = JudgementRequest{.certificate = stated}] { return judge(request); },
+        [](const Judgement& judged) { return std::to_string(judged.violations().size()); }));
     const VolumeRecord box{
         .shape = "prism", .corners = {{0, 0}, {8, 0}, {8, 8}, {0, 8}}, .between = {0, 8}};
     auto all = f.surfaces;

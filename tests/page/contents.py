@@ -217,7 +217,7 @@ def check_certificates(folder):
     model = DATA / "ringmesh/modelA1.ml"
     status, said = run(folder, "volume", model, "-o", "proved", "--certificate", "proved.json", "--report", "p.html", "--quiet")
     content, *_ = parts((folder / "p.html").read_text())
-    verdict = subprocess.run([PROGRAM, "verify", "proved.json"], cwd=folder, capture_output=True, text=True).stdout
+    verdict = subprocess.run([PROGRAM, "verify", "--folder", "/", "proved.json"], cwd=folder, capture_output=True, text=True).stdout
     lines = [row[1] for row in rows(content, "Verdict") if row[0] == "certificate proved.json"]
     check(status == 0 and lines and "\n".join(["proved.json: " + lines[0], *lines[1:], ""]) == verdict, "the verdict is that of terrane verify", lines, verdict, said)
     check(content["certificates"] == [{"file": "proved.json", "valid": True, "lines": lines}], "it is in the JSON", content["certificates"])

@@ -203,7 +203,7 @@ Result<FlatHole> FlatHole::of(const Surface& surface, const BorderLoop& loop,
                               const Run& run) {
     const double edge = loop.length / std::max(1.0, static_cast<double>(loop.vertices.size()));
     const double reach = constants.reach * std::sqrt(loop.area / std::numbers::pi);
-    const RingRange range{rings, edge > 0 ? reach / edge : 0};
+    const RingRange range{rings, edge > 0 ? std::floor(reach / edge) : 0};
     auto found = collect_data(surface, loops_within(surface, loop, loops), range, run);
     if (!found) return found.error();
     auto state = std::make_unique<State>();

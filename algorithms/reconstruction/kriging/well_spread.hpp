@@ -22,10 +22,9 @@ struct SpreadPairs {
     double gap = 0;                    ///< median distance of those neighbours; 0 if there are none
 };
 
-/// Selects `count` well-spread points and, for the first `pairs` of them, the nearest one that
-/// is not taken: without such pairs nobody could tell noise from a surface that is rough within the
-/// distance of well-spread points. Of equally near ones, that farthest from the mean height is
-/// taken.
+/// Selects `count` well-spread points and, for the first `pairs` of them, the nearest point that is
+/// not taken yet, of equally near ones that farthest from the mean height. Such pairs tell noise from
+/// a surface that is rough within the distance of well-spread points.
 SpreadPairs well_spread_pairs(std::span<const Point3> points, std::size_t count, std::size_t pairs);
 
 /// Computes the standard deviation of the error that rounding to doubles adds to estimates of

@@ -43,8 +43,8 @@ constexpr bool is_sampled(std::uint32_t parent) {
 /// Returns the contacts of triangles whose first parent is sampled.
 std::vector<CandidatePair> contacts_of_sampled(std::span<const CandidatePair> contacts,
                                                const IndexLists<std::uint32_t>& parents_of);
-/// Tells whether so many contacts of sampled ones are crowded in a mesh of this size. More than
-/// most_sampled are for CrowdedContacts.
+/// Tells whether this number of contacts of sampled triangles makes them crowded in a mesh of this
+/// size. CrowdedContacts judges more than most_sampled.
 bool are_sampled_crowded(std::size_t contacts, std::size_t triangles);
 constexpr std::size_t most_sampled = ParentsInContact::most_contacts / 8;
 
