@@ -45,7 +45,7 @@ std::string format_in(const terrane_output_file& file) {
     if (name.empty())
         refuse(ErrorCode::unsupported,
                "a certificate cannot be about a file in this format, which terrane verify "
-               "does not read",
+               "does not judge",
                path.string());
     return name;
 }

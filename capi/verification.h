@@ -45,7 +45,7 @@ TERRANE_API terrane_code terrane_verify_mesh(const terrane_mesh* mesh, terrane_v
                                              terrane_error** error);
 /// Judges a certificate from the input files, and the output files that it names. Files that it names
 /// are opened in that folder only. An output file that is missing, or of a
-/// format that the verifier does not read, is a violation. Errors: CANNOT_OPEN, BAD_SYNTAX,
+/// format that the verifier does not write, is a violation. Errors: CANNOT_OPEN, BAD_SYNTAX,
 /// BAD_OPTION (the number of input files), those of reading, TIMED_OUT, OUT_OF_MEMORY.
 TERRANE_API terrane_code terrane_verify_certificate(const char* path,
                                                     const terrane_verify_options* options,

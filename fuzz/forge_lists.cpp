@@ -198,6 +198,7 @@ void add_arrangement(Certificate& c, std::vector<Table>& tables) {
 void add_blocks(BlocksClaim& b, std::vector<Table>& tables) {
     tables.push_back({"shells", {column(b.shells), column(b.block_of_shell), column(b.around)}});
     tables.push_back({"volumes", {column(b.volumes)}});
+    tables.push_back({"block names", {column(b.names)}});
 }
 
 void add_tetrahedra(TetrahedraClaim& t, std::vector<Table>& tables) {

@@ -150,7 +150,7 @@ Subject volumes_subject(const Model3& surfaces, const std::string& part_format) 
         outputs.push_back(add_output(a.subject, "model/" + name, name.substr(name.rfind('.') + 1),
                                      contents, model.mesh->surfaces));
     parse(a.subject, to_certificate({a.records, a.subject.surfaces, a.exact, &a.rounded, outputs},
-                                    {model.volumes, model.block_count()}));
+                                    {model, extras_of({model, std::nullopt, std::nullopt})}));
     return std::move(a.subject);
 }
 
@@ -169,10 +169,11 @@ Subject tetrahedra_subject(const Model3& surfaces, const TetrahedraRequest& requ
     const FilledBlocks filled = needed(fill_blocks(model, request));
     const TetrahedralMesh& mesh = filled.tetrahedra;
     const std::vector<OutputRecord> outputs{
-        add_output(a.subject, "out.vtu", "vtu", needed(to_vtu(mesh, false, {})), mesh.surfaces),
-        add_output(a.subject, "out.msh", "msh", to_msh(mesh, {}), mesh.surfaces)};
+        add_output(a.subject, "out.vtu", "vtu", needed(to_vtu(mesh, false, {}, filled.block_names)),
+                   mesh.surfaces),
+        add_output(a.subject, "out.msh", "msh", to_msh(mesh, filled.block_names), mesh.surfaces)};
     parse(a.subject, to_certificate({a.records, a.subject.surfaces, a.exact, &a.rounded, outputs},
-                                    {model.volumes, model.block_count()}, mesh));
+                                    {model}, mesh));
     return std::move(a.subject);
 }
 #endif
@@ -468,8 +469,12 @@ bool write_outputs(const Subject& subject, const Certificate& certificate, Conte
         if (certificate.kind() == CertificateKind::tetrahedra) {
             const auto mesh = tetrahedra_of(subject, certificate);
             if (!mesh) return false;
-            text = certificate.outputs[i].format == "vtu" ? to_vtu(*mesh, false, {})
-                                                          : Result<std::string>(to_msh(*mesh, {}));
+            const auto& names = certificate.blocks()->names;
+            if (std::ranges::any_of(mesh->block_of, [&](auto b) { return b >= names.size(); }))
+                return false;
+            text = certificate.outputs[i].format == "vtu"
+                       ? to_vtu(*mesh, false, {}, names)
+                       : Result<std::string>(to_msh(*mesh, names));
         } else if (certificate.kind() != CertificateKind::volumes) {
             const auto mesh = mesh_of(subject, certificate);
             if (!mesh) return false;

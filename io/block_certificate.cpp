@@ -27,9 +27,10 @@ void write_numbers_or_null(CertificateWriter& out, const std::vector<std::uint32
 }
 
 void write_blocks(CertificateWriter& out, const Mesh& mesh, const CertifiedBlocks& blocks) {
-    const Shells shells = find_shells(mesh, blocks.volumes);
+    const Model& model = blocks.model;
+    const Shells shells = find_shells(mesh, model.volumes);
     out.raw(",\n\"blocks\":{\"exact\":");
-    out.number(blocks.exact);
+    out.number(model.block_count());
     out.raw(",\n\"shells\":");
     out.lists(shells.sides);
     out.raw(",\n\"block_of_shell\":");
@@ -37,10 +38,13 @@ void write_blocks(CertificateWriter& out, const Mesh& mesh, const CertifiedBlock
     out.raw(",\n\"around\":");
     write_numbers_or_null(out, shells.around);
     out.raw(",\n\"volumes\":");
-    ExactVolumes exact = exact_volumes(mesh, blocks.volumes);
+    ExactVolumes exact = exact_volumes(mesh, model.volumes);
     exact.measures[0] = std::move(exact.total); // the format begins with the sum of all blocks
     out.array(
         exact.measures, [&](const std::string& volume) { out.quote(volume); }, ",\n");
+    out.raw(",\n\"names\":");
+    out.array(
+        model.structure.blocks, [&](const ModelBlock& block) { out.quote(block.name); }, ",\n");
     out.raw("}");
 }
 
@@ -71,7 +75,10 @@ std::string text_of(std::string_view kind, const Certified& certified,
     CertificateWriter out(text);
     write_head(out, kind, certified);
     write_blocks(out, certified.rounded->mesh, blocks);
-    if (tetrahedra != nullptr) write_tetrahedra(out, *tetrahedra);
+    if (tetrahedra != nullptr)
+        write_tetrahedra(out, *tetrahedra);
+    else
+        out.raw(",\n\"model\":" + stated_json(blocks.model.structure, blocks.extras));
     write_arrangement(out, certified, run);
     out.raw("}\n");
     return text;

@@ -12,9 +12,17 @@
 //     "block_of_shell": [b, ...],    the block that a shell bounds; 0 is the outside
 //     "around": [s, ...],            the shell that bounds the same block from the outside; null if
 //                                    it is this one, and for the outside
-//     "volumes": ["125/6", ...] },   exact volumes in the mesh of doubles, by number; [0] is that
-//     of
-//                                    all blocks
+//     "volumes": ["125/6", ...],     exact volumes in the mesh of doubles, by number; [0] is that
+//                                    of all blocks
+//     "names": ["outside", ...] },   what files call the blocks, by number
+//   "model": {                       of the kind "volumes": what model.json says that does not follow
+//                                    from the mesh and its blocks; null for what it does not say
+//     "blocks": [{ "unit": null, "age": null, "volume": "20.5", "above": [s], "below": [], "beside": [] }],
+//     "gaps": [[{ "surface": s, "length": "1", "least": "0.5", "largest": "1", "place": ["0", "0", "1"] }]],
+//                                    per free border
+//     "leaks": [{ "from": s, "to": s, "borders": 1, "length": "1", "least": "0.5", "largest": "1",
+//                 "place": ["0", "0", "1"], "separates": null }],
+//     "seal": null }
 //   "tetrahedra": {
 //     "box": true,                   they fill a box, with the outside
 //     "vertices": [["0.5", "-1e-3", "7"]],  the nodes
@@ -25,19 +33,19 @@
 //     "twins": [[f, g]] }            pairs of faces in front of a cut and behind it
 #pragma once
 
-#include <cstddef>
 #include <string>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/volumes/volumes.hpp>
+#include <terrane/algorithms/model/model.hpp>
 #include <terrane/io/certificate.hpp>
+#include <terrane/io/structure_json.hpp>
 
 namespace terrane {
 
 /// The blocks of a rounded mesh, by reference.
 struct CertifiedBlocks {
-    const Volumes& volumes; ///< of the mesh, by the numbers of the exact blocks
-    std::size_t exact = 0;  ///< number of blocks of the arrangement
+    const Model& model;       ///< of the mesh
+    StructureExtras extras{}; ///< what else its model.json says; of the kind "volumes" only
 };
 
 /// Returns the text of a certificate of blocks. Precondition: there is a rounded mesh, and it is

@@ -141,9 +141,10 @@ Result<std::string> text_of_mesh(const CertifiedResult& result, Certified certif
         return to_improved_certificate(certified, result.improved->mesh,
                                        result.improved->report.bound_of, run);
     if (result.model == nullptr) return to_certificate(certified, run);
-    const CertifiedBlocks blocks{result.model->volumes, result.model->block_count()};
-    return result.tetrahedra != nullptr ? to_certificate(certified, blocks, *result.tetrahedra, run)
-                                        : to_certificate(certified, blocks, run);
+    if (result.tetrahedra != nullptr)
+        return to_certificate(certified, {*result.model}, *result.tetrahedra, run);
+    const ModelReports reports{*result.model, result.sealed, result.leaks};
+    return to_certificate(certified, {*result.model, extras_of(reports)}, run);
 }
 
 } // namespace

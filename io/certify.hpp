@@ -48,6 +48,8 @@ struct CertifiedResult {
     const RoundedMesh* rounded = nullptr;        ///< `exact` in doubles
     const Improved* improved = nullptr;          ///< made of `rounded`
     const Model* model = nullptr;                ///< of the rounded mesh, not of an improved one
+    std::optional<SealReport> sealed{};          ///< that the model's files tell of
+    std::optional<LeakAdvice> leaks{};           ///< likewise
     const TetrahedralMesh* tetrahedra = nullptr; ///< of the model
     std::vector<FilledRecord> filled{};          ///< one per surface
     const Layered* layered = nullptr;            ///< a stack of the surfaces

@@ -54,13 +54,7 @@ public:
                  const std::filesystem::path& folder) :
         model_(reports.model),
         form_(form_of(reports.model, part_format)), folder_(folder),
-        labels_(unique_labels(reports.model.mesh->surfaces)) {
-        if (reports.leaks) extras_.leak_verdicts = reports.leaks->verdicts;
-        if (!reports.sealed) return;
-        extras_.seal_distance = reports.sealed->distance;
-        extras_.seal_rules = reports.sealed->rules;
-        extras_.seal_changes = reports.sealed->changes;
-    }
+        labels_(unique_labels(reports.model.mesh->surfaces)), extras_(extras_of(reports)) {}
 
     Status operator()(const Run& run) {
         if (auto done = write_result(); !done) return done;
@@ -194,9 +188,6 @@ private:
     }
 
     Status write_json() {
-        extras_.exact_volumes = model_.exact_volumes;
-        extras_.exact_volumes.resize(structure().blocks.size(), 0); // what rounding made
-        extras_.free_borders = model_.borders;
         return write_file(folder_ / "model.json", to_json(model_.mesh, structure(), extras_));
     }
 
@@ -208,6 +199,20 @@ private:
 };
 
 } // namespace
+
+StructureExtras extras_of(const ModelReports& reports) {
+    const Model& model = reports.model;
+    StructureExtras extras;
+    extras.exact_volumes = model.exact_volumes;
+    extras.exact_volumes.resize(model.structure.blocks.size(), 0); // what rounding made
+    extras.free_borders = model.borders;
+    if (reports.leaks) extras.leak_verdicts = reports.leaks->verdicts;
+    if (!reports.sealed) return extras;
+    extras.seal_distance = reports.sealed->distance;
+    extras.seal_rules = reports.sealed->rules;
+    extras.seal_changes = reports.sealed->changes;
+    return extras;
+}
 
 std::vector<ModelFile> model_files(const Model& model, const std::string& part_format) {
     std::vector<ModelFile> files{{"model.json", "json"}, {"result.vtp", "vtp"}};

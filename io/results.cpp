@@ -175,6 +175,8 @@ Result<std::vector<WrittenCertificate>> certify_all(const Results& results,
         !done)
         return done.error();
     result.model = &results.model;
+    result.sealed = results.sealed;
+    result.leaks = results.leaks;
     const std::string& blocks = project.outputs.blocks;
     if (!blocks.empty())
         if (auto done = write("certificate_blocks.json",

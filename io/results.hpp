@@ -19,6 +19,8 @@
 
 namespace terrane {
 
+struct StructureExtras;
+
 // The folder of files that a model is written to, as `terrane volume` makes it.
 
 /// A model with its sealing and its leaks; by reference: the values must outlive it.
@@ -27,6 +29,9 @@ struct ModelReports {
     const std::optional<SealReport>& sealed; ///< the report of sealing; none: not sealed
     const std::optional<LeakAdvice>& leaks;  ///< leaks that were judged; none: they were not
 };
+
+/// Returns what model.json says of a model beyond its structure, but for the names of files.
+StructureExtras extras_of(const ModelReports& reports);
 
 /// A file of the folder of a model.
 struct ModelFile {

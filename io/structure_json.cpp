@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/structure_json.hpp>
 
+#include <cmath>
+#include <initializer_list>
+#include <utility>
+
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/io/report_members.hpp>
 #include <terrane/io/text/json.hpp>
 #include <terrane/io/text/names.hpp>
+#include <terrane/io/text/text.hpp>
 
 namespace terrane {
 namespace {
@@ -143,10 +148,6 @@ std::string text_of(const Json& json) {
     return text + "\n}\n";
 }
 
-} // namespace
-
-namespace {
-
 Json seal_json(const StructureExtras& extras) {
     Json json{{"distance", *extras.seal_distance}};
     if (!extras.seal_rules.empty()) json["rules"] = extras.seal_rules;
@@ -154,7 +155,48 @@ Json seal_json(const StructureExtras& extras) {
     return json;
 }
 
+/// Makes doubles strings, as certificates have them.
+Json with_quoted_doubles(const Json& json) {
+    if (json.is_number() && !json.is_number_integer()) {
+        if (!std::isfinite(json.get<double>())) return nullptr;
+        std::string text;
+        detail::append_number(text, json.get<double>());
+        return Json(text);
+    }
+    Json copy = json.is_array() ? Json::array() : json.is_object() ? Json::object() : json;
+    for (const Json& entry : json) copy.push_back(with_quoted_doubles(entry));
+    for (const auto& [key, value] : json.items()) copy.add_member(key, with_quoted_doubles(value));
+    return copy;
+}
+
+/// Returns these members of an object; null for those that it does not have.
+Json members_of(const Json& object, std::initializer_list<const char*> keys) {
+    Json members = Json::object();
+    for (const char* const key : keys) members.add_member(key, object[key]);
+    return members;
+}
+
 } // namespace
+
+std::string stated_json(const Structure& structure, const StructureExtras& extras) {
+    const StandardArithmetic guard;
+    Json blocks = Json::array(), gaps = Json::array(), leaks = Json::array(), seal;
+    const Json all_blocks = blocks_json(structure, extras), borders = extras.free_borders,
+               all_leaks = leaks_json(extras);
+    for (const Json& block : all_blocks)
+        blocks.push_back(members_of(block, {"unit", "age", "volume", "above", "below", "beside"}));
+    for (const Json& border : borders) gaps.push_back(border["gaps"]);
+    for (const Json& leak : all_leaks)
+        leaks.push_back(members_of(
+            leak, {"from", "to", "borders", "length", "least", "largest", "place", "separates"}));
+    if (extras.seal_distance)
+        seal = members_of(seal_json(extras), {"distance", "rules", "changes"});
+    return with_quoted_doubles(Json{{"blocks", std::move(blocks)},
+                                    {"gaps", std::move(gaps)},
+                                    {"leaks", std::move(leaks)},
+                                    {"seal", std::move(seal)}})
+        .dump();
+}
 
 std::string to_json(const Mesh& mesh, const Structure& structure, const StructureExtras& extras) {
     const StandardArithmetic guard;

@@ -67,4 +67,8 @@ struct StructureExtras {
 /// Returns the JSON text. Precondition: the lists of extras are empty or have the lengths stated.
 std::string to_json(const Mesh& mesh, const Structure& structure, const StructureExtras& extras);
 
+/// Returns what a certificate states of that text, since it does not follow from the mesh and its blocks
+/// (block_certificate.hpp): JSON with doubles as strings.
+std::string stated_json(const Structure& structure, const StructureExtras& extras);
+
 } // namespace terrane

@@ -21,6 +21,20 @@ namespace terrane {
 // those of the mesh of doubles. A side is a number: 2 t is the front of triangle t, from which its
 // corners are counterclockwise, 2 t + 1 is its back.
 
+/// The part of model.json that does not follow from the mesh and its blocks. It is stated, and not
+/// judged. Each text is as in the file, made of values that were read strictly.
+struct ModelClaim {
+    struct Block {
+        std::string unit_and_age; ///< members, as far as they are there, each with a comma before
+        std::string volume;       ///< of the exact block: a number, or null
+        std::string positions;    ///< members that list the surfaces above, below and beside it
+    };
+    std::vector<Block> blocks;      ///< [0] is the outside
+    std::vector<std::string> gaps;  ///< per free border: a list
+    std::vector<std::string> leaks; ///< objects
+    std::string seal;               ///< an object; empty: there is none
+};
+
 /// The claims about blocks. Number 0 is the outside.
 struct BlocksClaim {
     std::uint32_t exact = 0; ///< number of blocks of the exact arrangement, which have the numbers
@@ -32,6 +46,8 @@ struct BlocksClaim {
                                        ///< bounds its block from the outside
     std::vector<std::string> volumes;  ///< per block: its exact volume in the mesh of doubles, as a
                                        ///< reduced fraction; [0] is that of all blocks
+    std::vector<std::string> names;    ///< per block: what files call it; not judged
+    ModelClaim model{};                ///< of the kind volumes only
 };
 
 /// The claims about tetrahedra.

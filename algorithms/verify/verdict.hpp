@@ -171,18 +171,18 @@ struct Verdict {
         change; ///< of surfaces that were changed; none if it was not judged
 };
 
-/// The comparison by which an output file was judged.
+/// How an output file is bound to the certificate.
 enum class OutputCheck : std::uint8_t {
-    doubles,  ///< with all coordinates and triangles (or tetrahedra)
-    numbers,  ///< with the numbers of blocks, interfaces and patches; not with all that it holds
-    float32,  ///< with all coordinates, rounded to float32, and all triangles
-    hash_only ///< with its SHA-256 only: the verifier has no reader for the format
+    every_byte, ///< it is what the verifier's own writer makes of the certificate
+    inflated,   ///< likewise, once its compressed arrays are decompressed
+    float32,    ///< every byte; its coordinates are the doubles rounded to float32
+    hash_only   ///< by its SHA-256 only: the verifier has no writer for the format
 };
 
 /// The findings of the verifier about an output file.
 struct OutputVerdict {
-    OutputCheck check = OutputCheck::doubles; ///< what it was compared with
-    std::vector<Violation> violations;        ///< of R21; none: the file is the one it should be
+    OutputCheck check = OutputCheck::every_byte; ///< how it was compared
+    std::vector<Violation> violations;           ///< of R21; none: the file is the one it should be
     std::vector<std::uint32_t> renamed; ///< surfaces with another name or role than in the input
     double float32_move = 0; ///< no number's point is farther from its doubles; unit of the input
 };

@@ -44,7 +44,7 @@ std::vector<Violation> verify_conforming(std::span<const Point3> vertices,
 
 // Judges a certificate (for its format see io/certificate.hpp) from the input files and the output
 // files. This uses value types, GMP, SHA-256 and zlib, but no writer, predicate, search or
-// arrangement code of the producer, and readers of its own for the output files.
+// arrangement code of the producer, and writers of its own for the output files.
 //
 // A certificate that is accepted proves, for the input files whose hashes it contains:
 // (1) The exact part is the arrangement of the surfaces in these files (rules R1 to R8). It is the
@@ -69,8 +69,8 @@ std::vector<Violation> verify_conforming(std::span<const Point3> vertices,
 //     to R52); (3) and (4) hold for the parts inside.
 // (10) Sealed and extended surfaces differ from those of the files by added triangles and by whole
 //      parts beyond other surfaces only, and by no more than their limits (R26, R53 to R57).
-// (11) Each output file that was given holds this mesh (R21): all coordinates and all triangles,
-//      bit for bit; with the numbers rounded to float32 where this is what the file holds.
+// (11) Each output file that was given is, byte for byte, what the verifier's own writers make of
+//      the certificate (R21); where the format has none, it has the stated SHA-256.
 
 namespace verifier {
 struct Folder;
@@ -108,9 +108,8 @@ Verdict verify_rounded(std::span<const Surface> inputs, const ArrangementClaim& 
                        const RoundedClaim& rounded, const VerifyOptions& options = {});
 
 /// Judges an output file by its contents: whether it is the file that the certificate names, and
-/// holds its mesh of doubles (R21). Numbers and triangles are compared bit for bit and in their
-/// order; so are the surfaces of triangles, their regions and their first parents in formats that
-/// hold them. A file of float32 must be conforming, too, if the doubles are.
+/// has all bytes that follow from the certificate, and no others (R21). A file of float32 must be
+/// conforming, too, if the doubles are.
 /// Precondition: verify_certificate() found no violation. Cost: linear in the size of the file; for
 /// float32 that of verify_conforming.
 OutputVerdict verify_output(std::string_view contents, const Certificate& certificate,

@@ -23,11 +23,13 @@ struct VerifyCommand {
 constexpr auto verify_footer =
     R"(A certificate says how a mesh follows from its input files. It is judged with rational
 arithmetic, by code that shares nothing with what made it. IN are the input files in the order of
-the certificate; without IN they are looked for under the names that it gives. What changed how they
-were read (--depth, --max-edge, --input-format) must be given here, too.
+the certificate; without IN they are looked for under the names that it gives. Each is read in the
+format of its own name. What changed how they were read (--depth, --max-edge, --input-format) must be
+given here, too.
 
-The output files that the certificate names are read and compared with it: every coordinate and
-every triangle, bit for bit. Name a file that was moved with --output.
+The verifier makes the output files that the certificate names anew and compares them byte for byte;
+formats that it does not write are bound by their SHA-256 only. Name a file that was moved with
+--output.
 
 A certificate may come from anybody: of the files that it names, only those in its folder, or in that
 of --folder, are opened. Only files of the stated size are read.

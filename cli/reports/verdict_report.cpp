@@ -19,7 +19,34 @@ namespace {
 
 constexpr std::size_t most_violations = 50; ///< named on the terminal
 
-std::string output_text(const JudgedOutput& output, const std::string& what) {
+/// Names the part of an output file that is the verifier's own, byte for byte.
+std::string_view bound_part(OutputCheck check) {
+    switch (check) {
+    case OutputCheck::every_byte:
+    case OutputCheck::float32:
+        return "every byte";
+    case OutputCheck::inflated:
+        return "every byte, once decompressed";
+    case OutputCheck::hash_only:
+        break;
+    }
+    return "";
+}
+
+/// Says what an output file holds. `cells` are those of the certificate's mesh.
+std::string contents_text(const JudgedOutput& output, const std::string& format,
+                          const std::string& cells) {
+    if (format == "json")
+        return "holds these blocks, interfaces, patches, lines and corners, and names, exact "
+               "volumes, "
+               "surfaces above, below and beside, gaps and leaks as the certificate states them";
+    if (output.verdict.check != OutputCheck::float32) return "holds these " + cells;
+    return fmt::format("holds these triangles rounded to float32, at most {} away",
+                       figure(output.verdict.float32_move, 3));
+}
+
+std::string output_text(const JudgedOutput& output, const std::string& format,
+                        const std::string& cells) {
     const auto renamed = output.verdict.renamed.size();
     const std::string path = one_line(output.path);
     const std::string names =
@@ -28,22 +55,12 @@ std::string output_text(const JudgedOutput& output, const std::string& what) {
                     : "";
     if (!output.missing.empty())
         return fmt::format("{}: {} {}\n", path, bad("NOT verified:"), output.missing);
-    switch (output.verdict.check) {
-    case OutputCheck::doubles:
-        return fmt::format("{}: holds these {}, bit for bit{}\n", path, what, names);
-    case OutputCheck::numbers:
-        return fmt::format("{}: holds these blocks, interfaces, patches, lines and corners; block "
-                           "names, exact volumes, gaps and leaks are not verified{}\n",
-                           path, names);
-    case OutputCheck::float32:
-        return fmt::format("{}: holds these triangles rounded to float32, at most {} away{}\n",
-                           path, figure(output.verdict.float32_move, 3), names);
-    case OutputCheck::hash_only:
-        break;
-    }
-    return fmt::format("{}: {} its SHA-256 is that of the certificate, but there is no "
-                       "reader for its format\n",
-                       path, bad("NOT verified:"));
+    if (output.verdict.check == OutputCheck::hash_only)
+        return fmt::format("{}: {} its SHA-256 is that of the certificate, but the verifier has no "
+                           "writer for its format\n",
+                           path, bad("NOT verified:"));
+    return fmt::format("{}: {}: {}{}\n", path, contents_text(output, format, cells),
+                       bound_part(output.verdict.check), names);
 }
 
 std::string doubles_text(const Judgement& judged) {
@@ -177,20 +194,18 @@ std::string subject_text(const Judgement& judged) {
                        doubles_text(judged), change_text(judged), cut_text(judged.certificate));
 }
 
+/// Returns how an output file is bound to the certificate; null if it is not.
+Json bound_json(const JudgedOutput& output) {
+    if (!output.missing.empty() || !output.verdict.violations.empty()) return Json();
+    const std::string_view part = bound_part(output.verdict.check);
+    return Json(part.empty() ? "hash" : part);
+}
+
 std::string_view output_state(const JudgedOutput& output) {
     if (!output.missing.empty()) return "missing";
     if (!output.verdict.violations.empty()) return "refuted";
-    switch (output.verdict.check) {
-    case OutputCheck::doubles:
-        return "verified";
-    case OutputCheck::numbers:
-        return "numbers verified";
-    case OutputCheck::float32:
-        return "verified as float32";
-    case OutputCheck::hash_only:
-        break;
-    }
-    return "hash only";
+    if (output.verdict.check == OutputCheck::hash_only) return "hash only";
+    return output.verdict.check == OutputCheck::float32 ? "verified as float32" : "verified";
 }
 
 } // namespace
@@ -205,7 +220,8 @@ std::string verdict_text(const Judgement& judged, const std::string& name) {
         for (const JudgedInput& input : judged.inputs)
             text += fmt::format("{}: read, {} bytes, sha256:{}\n", one_line(input.path),
                                 input.bytes, input.sha256);
-        for (const JudgedOutput& output : judged.outputs) text += output_text(output, cells);
+        for (const JudgedOutput& output : judged.outputs)
+            text += output_text(output, judged.certificate.outputs[output.number].format, cells);
         if (judged.outputs.empty())
             text += bad("NOT verified") + " about any file: the certificate names no output file\n";
         const auto& digest = judged.certificate.digest;
@@ -249,6 +265,7 @@ std::string verdict_json(const Judgement& judged) {
         json["outputs"].push_back({{"name", judged.certificate.outputs[output.number].name},
                                    {"file", output.path},
                                    {"state", output_state(output)},
+                                   {"bound", bound_json(output)},
                                    {"renamed", output.verdict.renamed},
                                    {"float32_move", output.verdict.float32_move}});
     for (const Violation& v : violations)

@@ -81,7 +81,7 @@ void warn_of_deviation(const std::string& certificate, double deviation,
 
 namespace {
 
-/// Refuses outputs that terrane verify does not read.
+/// Refuses outputs that terrane verify does not judge.
 void check_certified_formats(const FileOptions& files) {
     for (const std::string& file : files.outputs) {
         const auto format = !files.output_format.empty() ? format_named(files.output_format)
@@ -89,7 +89,7 @@ void check_certified_formats(const FileOptions& files) {
                                                          : format_of(file);
         if (format == Format::vtk || (format && holds_outlines(*format)))
             refuse("a certificate cannot be about a file in this format, which terrane verify "
-                   "does not read",
+                   "does not judge",
                    file);
     }
 }

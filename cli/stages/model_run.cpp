@@ -235,6 +235,8 @@ void ModelRun::certify(std::vector<ResultFile> outputs) {
     if (first.layered) result.layered = &*first.layered;
     if (built_.improved) result.improved = &built_.improved->improved;
     if (built_.model) result.model = &*built_.model;
+    result.sealed = built_.arranged.sealed;
+    result.leaks = leaks_;
     if (built_.filled) result.tetrahedra = &built_.filled->tetrahedra;
     result.inputs = certified_inputs(files_.inputs, inputs_);
     result.outputs = std::move(outputs);

@@ -45,8 +45,10 @@ public:
                              std::to_string(request_.inputs.size()),
                          reading.paths_name};
         std::vector<std::optional<Format>> formats;
-        for (const CertifiedInput& input : stated)
-            formats.push_back(reading.format ? reading.format : format_of(input.name));
+        for (std::size_t i = 0; i < stated.size(); ++i)
+            formats.push_back(
+                reading.format ? reading.format
+                               : format_of(named ? request_.inputs[i] : fs::path(stated[i].name)));
         if (const auto sound = check_reading(formats, reading.options, reading.option_names);
             !sound)
             return sound.error();
@@ -143,7 +145,7 @@ private:
         if (!contents) return contents.error();
         if (!format)
             return Error{ErrorCode::unknown_format, "no format that can be read has this extension",
-                         stated.name};
+                         path.string()};
         auto surfaces = parse_surfaces(*contents, stated.name, *format, request_.reading.options);
         InputFile file = input_file(*contents, {});
         if (surfaces)

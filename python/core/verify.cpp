@@ -44,9 +44,9 @@ py::list verify_mesh(const MeshPointer& mesh, const HowToRun& how) {
     }));
 }
 
-/// "doubles", "numbers", ..., "missing: ..." where it could not be read
+/// "every byte", "inflated", ..., "missing: ..." where it could not be read
 std::string check_of(const JudgedOutput& output) {
-    constexpr std::array<const char*, 4> checks{"doubles", "numbers", "float32", "hash only"};
+    constexpr std::array<const char*, 4> checks{"every byte", "inflated", "float32", "hash only"};
     return output.missing.empty() ? checks[static_cast<std::size_t>(output.verdict.check)]
                                   : "missing: " + output.missing;
 }

@@ -32,7 +32,7 @@ class RuleViolation(NamedTuple):
 
 
 class VerifiedFile(NamedTuple):
-    """An output file of a certificate: "doubles", "numbers", "float32", "hash only", or "missing: ...".
+    """An output file of a certificate: "every byte", "inflated", "float32", "hash only", or "missing: ...".
 
     Examples
     --------
@@ -40,8 +40,8 @@ class VerifiedFile(NamedTuple):
     >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "top")
     >>> terrane.verify(terrane.arrange([flat])).outputs  # an arrangement that is in no file
     []
-    >>> terrane.VerifiedFile("model.obj", "doubles", []).check
-    'doubles'
+    >>> terrane.VerifiedFile("model.obj", "every byte", []).check
+    'every byte'
     """
 
     path: str
@@ -70,9 +70,9 @@ class Verdict(NamedTuple):
 
     @property
     def verified(self) -> bool:
-        """Whether nothing is refuted, and each output file was compared with the mesh."""
+        """Whether nothing is refuted, and each output file was compared byte for byte."""
         return not self.violations and all(
-            not f.violations and f.check in ("doubles", "numbers", "float32") for f in self.outputs)
+            not f.violations and f.check in ("every byte", "inflated", "float32") for f in self.outputs)
 
     def __bool__(self) -> bool:
         return self.verified

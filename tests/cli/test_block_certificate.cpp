@@ -39,15 +39,37 @@ TEST_CASE("cli: volume: a certificate that verify takes", "[cli][once]") {
         CHECK(verified.status == 0);
         CHECK(contains(verified.out, " with their exact volumes\n"));
         CHECK(contains(verified.out, "model/model.json: holds these blocks, interfaces, patches, "
-                                     "lines and corners; block "));
+                                     "lines and corners, and names, "));
         CHECK(contains(verified.out,
-                       "model/interfaces/interface_0.obj: holds these triangles, bit for bit\n"));
+                       "model/interfaces/interface_0.obj: holds these triangles: every byte\n"));
         const auto json = Json::parse(folder.run("verify --folder / --json blocks.json").out);
         CHECK(json["blocks"] == Json::parse(folder.read("model/model.json"))["blocks"].size() - 1);
         change_digit(folder, "model/interfaces/interface_0.obj", "v .*[.]");
         CHECK(folder.run("verify --folder / blocks.json").status == 1);
         REQUIRE(folder.shell("rm -r model blocks.json").status == 0);
     }
+}
+
+TEST_CASE("cli: verify: each input file is read in the format of its own name", "[cli]") {
+    const Folder folder;
+    const std::string in = "$D/ringmesh/modelA1.ml";
+    REQUIRE(folder.run("arrange " + in + " -o out.vtp -o out.obj --certificate c.json").status ==
+            0);
+    CHECK(folder.run("verify --folder / c.json " + in).status == 0);
+    REQUIRE(folder.shell("cp " + in + " same.gp && cp " + in + " other.obj").status == 0);
+    CHECK(folder.run("verify --folder / c.json same.gp").status == 0);
+    CHECK(folder.run("verify --folder / c.json other.obj").status == 2);
+    CHECK(folder.run("verify --folder / c.json other.obj --input-format ml").status == 0);
+}
+
+TEST_CASE("cli: verify: all output files are judged, also those that are not named", "[cli]") {
+    const Folder folder;
+    REQUIRE(folder.run("arrange $D/ringmesh/modelA1.ml -o out.vtp -o out.obj --certificate c.json")
+                .status == 0);
+    change_digit(folder, "out.obj", "v .*[.]");
+    CHECK(folder.run("verify --folder / c.json --output out.vtp").status == 1);
+    REQUIRE(folder.shell("rm out.obj").status == 0);
+    CHECK(folder.run("verify --folder / c.json --output out.vtp").status == 2);
 }
 
 TEST_CASE("cli: a certificate of blocks: what it cannot be about", "[cli]") {
@@ -73,9 +95,9 @@ TEST_CASE("cli: tetrahedralize: a certificate that verify takes", "[cli][tetrahe
     REQUIRE(made.status == 0);
     const auto verified = folder.run("verify --folder / tetrahedra.json");
     INFO(verified.out);
-    CHECK(verified.status == 2); // there is no reader for MEDIT
-    CHECK(contains(verified.out, "m.vtu: holds these tetrahedra, bit for bit\n"));
-    CHECK(contains(verified.out, "m.msh: holds these tetrahedra, bit for bit\n"));
+    CHECK(verified.status == 2); // the verifier does not write MEDIT
+    CHECK(contains(verified.out, "m.vtu: holds these tetrahedra: every byte, once decompressed\n"));
+    CHECK(contains(verified.out, "m.msh: holds these tetrahedra: every byte\n"));
     CHECK(folder.run("verify --folder / tetrahedra.json --output m.vtu --output m.msh").status ==
           2); // m.mesh by its hash alone
     change_digit(folder, "m.msh", "^[0-9]+ [0-9]+ [0-9]+ [0-9]+ ");

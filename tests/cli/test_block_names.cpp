@@ -57,7 +57,7 @@ TEST_CASE("cli: a column names blocks in every file of volume", "[cli][names]") 
     CHECK(contains(folder.read("out/result.vtp"), "Name=\"block_name\" NumberOfTuples=\"7\""));
     CHECK(contains(folder.read("out/blocks/block_1.vtp"),
                    "Name=\"block_name\" NumberOfTuples=\"1\""));
-    CHECK(folder.run("verify c.json").status == 0); // which passes over names
+    CHECK(folder.run("verify c.json").status == 0);
     CHECK(folder.run("check out/result.vtp").status == 0);
 }
 

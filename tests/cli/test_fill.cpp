@@ -108,7 +108,7 @@ TEST_CASE("cli: fill writes a certificate that verify takes", "[cli][once]") {
         INFO(valid.out << valid.err);
         CHECK(valid.status == 0);
         CHECK(contains(valid.out, "given and kept"));
-        CHECK(contains(valid.out, "out.vtp: holds these triangles, bit for bit"));
+        CHECK(contains(valid.out, "out.vtp: holds these triangles: every byte"));
         CHECK(folder.run("verify c.json").status == 1); // heights, not depths
     }
     CHECK(folder.run("fill --depth " + in + " -o x.obj --certificate -").status == 2);

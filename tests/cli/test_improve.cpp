@@ -51,7 +51,7 @@ TEST_CASE("cli: improve writes a certificate that verify takes", "[cli][once]") 
     CHECK(valid.status == 0);
     CHECK(contains(valid.out, "improved: "));
     CHECK(contains(valid.out, "at most 0.02 away, both ways"));
-    CHECK(contains(valid.out, "out.vtp: holds these triangles, bit for bit"));
+    CHECK(contains(valid.out, "out.vtp: holds these triangles: every byte"));
     const Json verdict = Json::parse(folder.run("verify c.json --json").out);
     CHECK(verdict.at("change") == 0.02);
     CHECK(folder.run("verify c.json --max-change 0.01").status == 1);

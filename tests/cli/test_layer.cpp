@@ -81,7 +81,7 @@ TEST_CASE("cli: layer writes a certificate that verify takes", "[cli][layer]") {
     CHECK(valid.status == 0);
     CHECK(valid.out.find("2 layers, from the top down: shale (hardness 0), salt (hardness 1)") !=
           std::string::npos);
-    CHECK(valid.out.find("out.vtp: holds these triangles, bit for bit") != std::string::npos);
+    CHECK(valid.out.find("out.vtp: holds these triangles: every byte") != std::string::npos);
     CHECK(folder.run("verify c.json --output " + soft).status == 1);
     CHECK(folder.run("verify c.json --max-deviation 0").status == 1);
     const auto thick =

@@ -178,7 +178,7 @@ TEST_CASE("cli: certificates of tetrahedra in a sealed volume that verify takes"
     const auto valid = folder.run("verify c.json");
     INFO(valid.out << valid.err);
     CHECK(valid.status == 0);
-    CHECK(contains(valid.out, "m.vtu: holds these tetrahedra, bit for bit\n"));
+    CHECK(contains(valid.out, "m.vtu: holds these tetrahedra: every byte, once decompressed\n"));
 }
 
 TEST_CASE("cli: --seal-plot draws what --suggest-seal lists", "[cli]") {

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/io/results.hpp>
 #include <terrane/io/structure_json.hpp>
 
 namespace block_folder {
@@ -48,16 +50,16 @@ public:
             add_all_parts();
         else
             add_single_parts(extras);
-        extras.exact_volumes = model_.exact_volumes;
-        extras.exact_volumes.resize(s.blocks.size());
-        extras.free_borders = model_.borders;
+        const StructureExtras more = extras_of({model_, std::nullopt, std::nullopt});
+        extras.exact_volumes = more.exact_volumes;
+        extras.free_borders = more.free_borders;
         files_.push_back({"model.json", to_json(model_.mesh, s, extras)});
         return std::move(files_);
     }
 
     /// Returns the file of all blocks.
     [[nodiscard]] std::string text_of(const MeshParts& blocks) {
-        add_part("blocks.vtp", blocks.all, {{"block", as_cells(blocks.part_of)}});
+        add_part("blocks.vtp", blocks.all, block_names(), {{"block", as_cells(blocks.part_of)}});
         std::string text = std::move(files_.back().contents);
         files_.pop_back();
         return text;
@@ -70,27 +72,40 @@ private:
         return kind + start + std::to_string(number) + "." + part_format_;
     }
 
+    [[nodiscard]] std::vector<std::string> block_names() const {
+        std::vector<std::string> names;
+        for (const ModelBlock& block : model_.structure.blocks) names.push_back(block.name);
+        return names;
+    }
+
     void add_single_parts(const StructureExtras& extras) {
         const Structure& s = model_.structure;
         const auto named = part_format_ == "vtp" ? PartSurfaces::own : PartSurfaces::all;
         for (std::uint32_t b = 1; b < s.blocks.size(); ++b)
             if (!extras.block_files[b].empty())
                 add_part(extras.block_files[b],
-                         block_part(model_.mesh, model_.volumes, s, BlockId(b), named));
-        for (std::uint32_t i = 0; i < s.interfaces.size(); ++i)
+                         block_part(model_.mesh, model_.volumes, s, BlockId(b), named),
+                         {s.blocks[b].name});
+        for (std::uint32_t i = 0; i < s.interfaces.size(); ++i) {
+            const auto [low, high] = s.interfaces[i].volumes;
             add_part(extras.interface_files[i],
-                     interface_part(model_.mesh, model_.volumes, s, InterfaceId(i), named));
+                     interface_part(model_.mesh, model_.volumes, s, InterfaceId(i), named),
+                     {s.blocks[low].name, s.blocks[high].name});
+        }
     }
 
     void add_all_parts() {
         const Structure& s = model_.structure;
         files_.push_back({"blocks.vtp", text_of(block_parts(model_.mesh, model_.volumes, s))});
-        add_part("interfaces.vtp", interface_parts(model_.mesh, model_.volumes, s).all);
+        add_part("interfaces.vtp", interface_parts(model_.mesh, model_.volumes, s).all,
+                 block_names());
     }
 
-    void add(const std::string& name, const Mesh& mesh, const std::vector<CellArray>& cells) {
+    void add(const std::string& name, const Mesh& mesh, const std::vector<CellArray>& cells,
+             const std::vector<std::string>& names) {
         WriteOptions options;
         if (name.ends_with("vtp")) options.cells = cells;
+        options.block_names = names;
         const auto format = format_named(name.substr(name.rfind('.') + 1)).value();
         files_.push_back({name, format_mesh(mesh, format, options).value()});
     }
@@ -106,11 +121,12 @@ private:
             {{"volume_front", as_cells(front)},
              {"volume_back", as_cells(back)},
              {"interface", as_cells(s.interface_of)},
-             {"patch", as_cells(s.patch_of)}});
+             {"patch", as_cells(s.patch_of)}},
+            block_names());
     }
 
     void add_part(const std::string& name, const MeshPart& part,
-                  std::vector<CellArray> cells = {}) {
+                  const std::vector<std::string>& names, std::vector<CellArray> cells = {}) {
         std::vector<std::uint32_t> interfaces, patches;
         for (const std::uint32_t t : part.triangles) {
             interfaces.push_back(model_.structure.interface_of[t]);
@@ -119,7 +135,7 @@ private:
         cells.push_back({"triangle", as_cells(part.triangles)});
         cells.push_back({"interface", as_cells(interfaces)});
         cells.push_back({"patch", as_cells(patches)});
-        add(name, part.mesh, cells);
+        add(name, part.mesh, cells, names);
     }
 
     const Model& model_;

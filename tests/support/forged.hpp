@@ -174,6 +174,35 @@ inline void check_changed_digits(const Subject& right,
     }
 }
 
+/// Checks that R21 refutes each output file with a byte altered, deleted or inserted, at each fiftieth of
+/// the file, where the certificate has the new hash. Compressed numbers are not altered: they have many
+/// forms. The certificate must be valid.
+inline void check_each_byte(const Subject& right) {
+    constexpr std::size_t places = 50;
+    REQUIRE(judged(right) == "");
+    auto certificate = parse_certificate(right.certificate.dump(), "c").value();
+    OutputVerifier verifier(certificate);
+    for (std::size_t i = 0; i < right.contents.size(); ++i)
+        for (std::size_t n = 0; n <= places; ++n) {
+            const std::string& text = right.contents[i];
+            const std::size_t at = n * (text.size() - 1) / places;
+            INFO(certificate.outputs[i].name << " byte " << at);
+            const auto accepts = [&](const std::string& wrong) {
+                certificate.outputs[i].sha256 = hexadecimal(sha256(wrong));
+                certificate.outputs[i].bytes = wrong.size();
+                return verifier(wrong, i).violations.empty();
+            };
+            std::string wrong = text;
+            wrong[at] = static_cast<char>(wrong[at] ^ 1);
+            const bool is_packed = verifier(text, i).check == OutputCheck::inflated &&
+                                   text[text.rfind('\n', at) + 1] != '<';
+            CHECK((is_packed || !accepts(wrong)));
+            CHECK_FALSE(accepts(std::string(text).erase(at, 1)));
+            CHECK_FALSE(accepts(std::string(text).insert(at, 1, text[at])));
+            CHECK(accepts(text));
+        }
+}
+
 inline std::size_t middle_of(const std::string& text) {
     return text.size() / 2;
 }

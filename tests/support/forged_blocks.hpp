@@ -3,12 +3,14 @@
 // Certificates of blocks and tetrahedra with their output files, for forged.hpp.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/io/block_certificate.hpp>
+#include <terrane/io/meshes/abaqus.hpp>
 #include <terrane/io/meshes/gmsh.hpp>
 #include <terrane/io/meshes/gmsh22.hpp>
 #include <terrane/io/meshes/vtk.hpp>
@@ -83,11 +85,11 @@ inline Subject block_subject(const std::vector<File>& files,
     }
     m.subject.certificate =
         Json::parse(to_certificate({m.records, m.subject.surfaces, m.exact, &m.rounded, outputs},
-                                   {m.model.volumes, m.model.block_count()}));
+                                   {m.model, extras_of({m.model, std::nullopt, std::nullopt})}));
     return std::move(m.subject);
 }
 
-/// Returns the certificate of tetrahedra in the blocks of these files, in VTU, MSH 4.1 and MSH 2.2.
+/// Returns the certificate of tetrahedra in the blocks of these files, in VTU, MSH 4.1, MSH 2.2 and Abaqus.
 inline Subject tetrahedra_subject(const std::vector<File>& files,
                                   const TetrahedraRequest& request = {}) {
     Modelled m = modelled(files);
@@ -101,13 +103,13 @@ inline Subject tetrahedra_subject(const std::vector<File>& files,
         outputs.push_back(record_output(text, "model." + format, format, mesh.surfaces));
         m.subject.contents.push_back(std::move(text));
     };
-    add("vtu", to_vtu(mesh, true, {}).value());
-    add("vtu", to_vtu(mesh, false, {}).value());
+    add("vtu", to_vtu(mesh, true, {}, filled->block_names).value());
+    add("vtu", to_vtu(mesh, false, {}, filled->block_names).value());
     add("msh", to_msh(mesh, filled->block_names));
     add("msh22", to_msh22(mesh, filled->block_names));
-    m.subject.certificate =
-        Json::parse(to_certificate({m.records, m.subject.surfaces, m.exact, &m.rounded, outputs},
-                                   {m.model.volumes, m.model.block_count()}, mesh));
+    add("inp", to_abaqus(mesh, filled->block_names));
+    m.subject.certificate = Json::parse(to_certificate(
+        {m.records, m.subject.surfaces, m.exact, &m.rounded, outputs}, {m.model}, mesh));
     return std::move(m.subject);
 }
 

@@ -6,7 +6,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -68,19 +70,20 @@ PartMesh all_blocks_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>&
 PartMesh all_interfaces_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
                              const std::vector<Interface>& interfaces);
 
-/// The lists that model.json must have.
+/// The contents of model.json.
 struct ModelLists {
     const WrittenMesh& mesh;
     const BlockParts& parts;
     std::span<const SurfaceInfo> surfaces;
-    const std::vector<BlockSides>& sides;
-    std::vector<double> volumes; ///< per block: nearest to the exact volume of the mesh
-    std::string part_format;     ///< "vtp" or "obj"; empty: all blocks are in one file
+    const ModelClaim& stated;
+    std::span<const std::string> names; ///< of blocks
+    std::vector<double> volumes;        ///< per block: nearest to the exact volume of the mesh
+    /// Returns the file of a block ("block") or an interface ("interface").
+    std::function<std::string(const std::string& kind, std::uint32_t number)> file_of;
 };
 
-/// Compares model.json with its contents by a mesh and its blocks; the volumes of the exact
-/// blocks, their names and the surfaces above, below and beside them, gaps and leaks are not
-/// compared. Throws Difference.
-void compare_model_json(std::string_view contents, const ModelLists& lists);
+/// Compares model.json with its contents: a line for each element of its arrays. Returns where it
+/// differs, or nothing.
+std::string difference(std::string_view contents, const ModelLists& lists);
 
 } // namespace terrane::verifier

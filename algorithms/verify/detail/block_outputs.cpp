@@ -3,27 +3,37 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <utility>
 
 #include <terrane/algorithms/verify/detail/block_files.hpp>
 #include <terrane/algorithms/verify/detail/blocks.hpp>
-#include <terrane/algorithms/verify/detail/tetrahedra_files.hpp>
+#include <terrane/algorithms/verify/detail/output.hpp>
 
 namespace terrane::verifier {
 
-/// The data that all files of a folder with blocks need.
+/// The subject of a file of a folder with blocks.
+struct FolderFile {
+    enum class Subject { model, result, all_blocks, all_interfaces, block, interface };
+    Subject subject;
+    std::string_view format;
+    std::uint32_t number = 0; ///< of the block or the interface
+};
+
+/// The data that all files of a folder with blocks need, and its files.
 struct Folder {
     WrittenMesh mesh;
     std::vector<BlockSides> sides;
     BlockParts parts;
+    std::string_view part_format;            ///< empty: all blocks are in one file
+    std::map<std::string, FolderFile> files; ///< by their names in the certificate
 };
 
 namespace {
+
+using Subject = FolderFile::Subject;
 
 // --- Blocks -------------------------------------------------------------------------------------
 
@@ -35,16 +45,50 @@ std::vector<BlockSides> sides_of(const BlocksClaim& claim, std::size_t triangles
     return sides;
 }
 
-Folder make_folder(const Certificate& certificate) {
-    Folder folder{rounded_mesh(certificate).value(), {}, {}};
-    folder.sides = sides_of(*certificate.blocks(), folder.mesh.triangles.size());
-    folder.parts = find_parts(folder.mesh, folder.sides);
-    return folder;
+/// Returns the format of the parts among the outputs of a certificate; empty: they are together.
+std::string_view part_format(const Certificate& certificate) {
+    for (const CertifiedOutput& output : certificate.outputs) {
+        if (output.name.ends_with("interfaces.vtp")) return "";
+        if (output.format == "obj") return "obj";
+    }
+    return "vtp";
 }
 
-const Folder& folder_of(const Certificate& certificate, std::shared_ptr<const Folder>& kept) {
-    if (!kept) kept = std::make_shared<Folder>(make_folder(certificate));
-    return *kept;
+/// Names the file of a block or an interface in model.json.
+std::string part_name(const std::string& kind, std::uint32_t number, std::string_view format) {
+    if (format.empty()) return kind + "s.vtp";
+    return kind + "s/" + kind + "_" + std::to_string(number) + "." + std::string(format);
+}
+
+/// Adds the files of a folder, whose names begin with `path`.
+void add_files(const std::string& path, Folder& folder) {
+    const std::string_view format = folder.part_format;
+    const auto add = [&](const std::string& name, const FolderFile& file) {
+        folder.files.emplace(path + name, file);
+    };
+    add("model.json", {Subject::model, "json"});
+    add("result.vtp", {Subject::result, "vtp"});
+    if (format.empty()) {
+        add("blocks.vtp", {Subject::all_blocks, "vtp"});
+        return add("interfaces.vtp", {Subject::all_interfaces, "vtp"});
+    }
+    for (const auto& [block, triangles] : folder.parts.around)
+        if (block > 0) add(part_name("block", block, format), {Subject::block, format, block});
+    for (std::uint32_t i = 0; i < folder.parts.interfaces.size(); ++i)
+        add(part_name("interface", i, format), {Subject::interface, format, i});
+}
+
+Folder make_folder(const Certificate& certificate) {
+    Folder folder{rounded_mesh(certificate).value(), {}, {}, part_format(certificate), {}};
+    folder.sides = sides_of(*certificate.blocks(), folder.mesh.triangles.size());
+    folder.parts = find_parts(folder.mesh, folder.sides);
+    constexpr std::string_view model = "model.json";
+    for (const CertifiedOutput& output : certificate.outputs)
+        if (output.name == model || output.name.ends_with("/" + std::string(model))) {
+            add_files(output.name.substr(0, output.name.size() - model.size()), folder);
+            break;
+        }
+    return folder;
 }
 
 std::vector<std::int32_t> as_cells(const Numbers& numbers) {
@@ -56,27 +100,6 @@ std::vector<std::int32_t> cells_of(const Numbers& numbers, const Numbers& triang
     std::vector<std::int32_t> cells;
     for (const std::uint32_t t : triangles) cells.push_back(static_cast<std::int32_t>(numbers[t]));
     return cells;
-}
-
-/// Returns N of "...start_N.format"; none if the name is another one.
-std::optional<std::uint32_t> number_in(std::string_view name, std::string_view start,
-                                       std::string_view format) {
-    const std::string end = "." + std::string(format);
-    const std::size_t at = name.rfind(start);
-    if (at == std::string_view::npos || !name.ends_with(end)) return std::nullopt;
-    if (at > 0 && name[at - 1] != '/') return std::nullopt;
-    name.remove_prefix(at + start.size());
-    name.remove_suffix(end.size());
-    std::uint32_t number = 0;
-    const auto [after, code] = std::from_chars(name.data(), name.data() + name.size(), number);
-    if (code != std::errc() || std::to_string(number) != name) return std::nullopt;
-    return number;
-}
-
-constexpr auto all_blocks = "blocks.vtp", all_interfaces = "interfaces.vtp";
-
-bool is_called(std::string_view name, std::string_view file) {
-    return name == file || name.ends_with("/" + std::string(file));
 }
 
 /// Numbers the surfaces of the triangles alone; returns these surfaces.
@@ -93,102 +116,101 @@ std::vector<SurfaceInfo> own_surfaces(PartMesh& part, std::span<const SurfaceInf
     return own;
 }
 
-/// Compares with a part, or with many; `cells` come before those that all parts have.
-std::string compare_part(std::string_view contents, const Folder& folder,
-                         const CertifiedOutput& output, std::span<const SurfaceInfo> surfaces,
-                         const PartMesh& part, std::vector<CellNumbers> cells = {}) {
-    const WrittenMesh mesh{part.vertices,   part.triangles,   part.regions_of,
-                           part.parents_of, part.surfaces_of, true};
-    cells.push_back({"triangle", as_cells(part.numbers)});
-    cells.push_back({"interface", cells_of(folder.parts.interface_of, part.numbers)});
-    cells.push_back({"patch", cells_of(folder.parts.patch_of, part.numbers)});
-    return difference(contents, output.format, {mesh, surfaces, std::move(cells)});
-}
+/// Compares the files of a folder.
+class FolderComparison {
+public:
+    FolderComparison(std::string_view contents, const Folder& folder, const BlocksClaim& claim,
+                     const CertifiedOutput& output, OutputCheck& check) :
+        contents_(contents),
+        folder_(folder), claim_(claim), names_(claim.names), surfaces_(output.surfaces),
+        check_(check) {}
 
-/// Compares with a block or an interface alone, of which VTP names only its own surfaces.
-std::string compare_single(std::string_view contents, const Folder& folder,
-                           const CertifiedOutput& output, PartMesh part) {
-    if (output.format != "vtp")
-        return compare_part(contents, folder, output, output.surfaces, part);
-    const auto surfaces = own_surfaces(part, output.surfaces);
-    return compare_part(contents, folder, output, surfaces, part);
-}
-
-std::string compare_all_blocks(std::string_view contents, const Folder& folder,
-                               const CertifiedOutput& output) {
-    Numbers part_of;
-    const PartMesh part = all_blocks_mesh(folder.mesh, folder.sides, folder.parts, part_of);
-    return compare_part(contents, folder, output, output.surfaces, part,
-                        {{"block", as_cells(part_of)}});
-}
-
-std::string compare_result(std::string_view contents, const Folder& folder,
-                           const CertifiedOutput& output) {
-    std::vector<std::int32_t> front, back;
-    for (const BlockSides& sides : folder.sides) {
-        front.push_back(static_cast<std::int32_t>(sides[0]));
-        back.push_back(static_cast<std::int32_t>(sides[1]));
+    std::string operator()(const FolderFile& file) const {
+        const auto& [mesh, sides, parts, format, files] = folder_;
+        switch (file.subject) {
+        case Subject::model:
+            return model();
+        case Subject::result:
+            return result();
+        case Subject::all_blocks: {
+            Numbers part_of;
+            const PartMesh all = all_blocks_mesh(mesh, sides, parts, part_of);
+            return part("vtp", all, surfaces_, names_, {{"block", as_cells(part_of)}});
+        }
+        case Subject::all_interfaces:
+            return part("vtp", all_interfaces_mesh(mesh, sides, parts.interfaces), surfaces_,
+                        names_);
+        case Subject::block:
+            return single(file.format, block_mesh(mesh, sides, parts, file.number),
+                          names_.subspan(file.number, 1));
+        case Subject::interface:
+            break;
+        }
+        const Interface& interface = parts.interfaces[file.number];
+        const auto [low, high] = interface.blocks;
+        return single(file.format, interface_mesh(mesh, sides, interface),
+                      std::array{names_[low], names_[high]});
     }
-    return difference(contents, output.format,
-                      {folder.mesh,
-                       output.surfaces,
-                       {{"volume_front", std::move(front)},
-                        {"volume_back", std::move(back)},
-                        {"interface", as_cells(folder.parts.interface_of)},
-                        {"patch", as_cells(folder.parts.patch_of)}}});
-}
 
-/// Returns the format of the parts among the outputs of a certificate; empty: they are together.
-std::string part_format(const Certificate& certificate) {
-    for (const CertifiedOutput& output : certificate.outputs) {
-        if (number_in(output.name, "interfaces/interface_", output.format)) return output.format;
-        if (is_called(output.name, all_interfaces)) return "";
+private:
+    [[nodiscard]] std::string model() const {
+        ModelLists lists{folder_.mesh, folder_.parts, surfaces_, claim_.model, names_, {}, {}};
+        for (const std::string& volume : claim_.volumes)
+            lists.volumes.push_back(nearest_double(mpq_class(volume)));
+        lists.file_of = [this](const std::string& kind, std::uint32_t number) {
+            return part_name(kind, number, folder_.part_format);
+        };
+        return difference(contents_, lists);
     }
-    return "vtp";
-}
 
-/// Returns the names of all files of a folder with these blocks, relative to it.
-std::set<std::string> file_names(const Folder& folder, const std::string& part_format) {
-    std::set<std::string> names{"model.json", "result.vtp"};
-    if (part_format.empty()) {
-        names.insert({all_blocks, all_interfaces});
-        return names;
+    [[nodiscard]] std::string result() const {
+        std::vector<std::int32_t> front, back;
+        for (const BlockSides& sides : folder_.sides) {
+            front.push_back(static_cast<std::int32_t>(sides[0]));
+            back.push_back(static_cast<std::int32_t>(sides[1]));
+        }
+        return difference(contents_, "vtp",
+                          ExpectedMesh{folder_.mesh,
+                                       surfaces_,
+                                       {{"volume_front", std::move(front)},
+                                        {"volume_back", std::move(back)},
+                                        {"interface", as_cells(folder_.parts.interface_of)},
+                                        {"patch", as_cells(folder_.parts.patch_of)}},
+                                       names_},
+                          check_);
     }
-    const auto add = [&](const std::string& start, std::size_t number) {
-        names.insert(start + std::to_string(number) + "." + part_format);
-    };
-    for (std::size_t i = 0; i < folder.parts.interfaces.size(); ++i) {
-        add("interfaces/interface_", i);
-        const auto [low, high] = folder.parts.interfaces[i].blocks;
-        if (low == high) continue;
-        for (const std::uint32_t block : {low, high})
-            if (block > 0) add("blocks/block_", block);
-    }
-    return names;
-}
 
-std::string compare_model(std::string_view contents, const Certificate& certificate,
-                          const Folder& folder, const CertifiedOutput& output,
-                          OutputVerdict& verdict) {
-    verdict.check = OutputCheck::numbers;
-    ModelLists lists{folder.mesh,  folder.parts, output.surfaces,
-                     folder.sides, {},           part_format(certificate)};
-    for (const std::string& volume : certificate.blocks()->volumes)
-        lists.volumes.push_back(nearest_double(mpq_class(volume)));
-    try {
-        compare_model_json(contents, lists);
-    } catch (const Difference& difference) {
-        return difference.place + ": " + difference.sentence;
+    /// Compares with a part, or with many; `cells` come before those that all parts have.
+    [[nodiscard]] std::string part(std::string_view format, const PartMesh& part,
+                                   std::span<const SurfaceInfo> surfaces,
+                                   std::span<const std::string> block_names,
+                                   std::vector<CellNumbers> cells = {}) const {
+        const WrittenMesh mesh{part.vertices,   part.triangles,   part.regions_of,
+                               part.parents_of, part.surfaces_of, true};
+        cells.push_back({"triangle", as_cells(part.numbers)});
+        cells.push_back({"interface", cells_of(folder_.parts.interface_of, part.numbers)});
+        cells.push_back({"patch", cells_of(folder_.parts.patch_of, part.numbers)});
+        return difference(contents_, format,
+                          ExpectedMesh{mesh, surfaces, std::move(cells), block_names}, check_);
     }
-    return "";
-}
+
+    /// Compares with a block or an interface alone, of which VTP names only its own surfaces.
+    [[nodiscard]] std::string single(std::string_view format, PartMesh mesh,
+                                     std::span<const std::string> block_names) const {
+        if (format != "vtp") return part(format, mesh, surfaces_, block_names);
+        const auto surfaces = own_surfaces(mesh, surfaces_);
+        return part(format, mesh, surfaces, block_names);
+    }
+
+    std::string_view contents_;
+    const Folder& folder_;
+    const BlocksClaim& claim_;
+    std::span<const std::string> names_;    ///< of blocks
+    std::span<const SurfaceInfo> surfaces_; ///< as the files call them
+    OutputCheck& check_;
+};
 
 // --- Tetrahedra ---------------------------------------------------------------------------------
-
-using TetrahedraReader = void (*)(std::string_view, const ExpectedTetrahedra&);
-
-constexpr std::array<std::pair<std::string_view, TetrahedraReader>, 3> tetrahedra_readers{
-    {{"vtu", compare_vtu}, {"msh", compare_msh}, {"msh22", compare_msh22}}};
 
 ExpectedTetrahedra expected_tetrahedra(const Certificate& certificate,
                                        const CertifiedOutput& output) {
@@ -196,7 +218,7 @@ ExpectedTetrahedra expected_tetrahedra(const Certificate& certificate,
     const auto of_triangles =
         surfaces_of_parents(certificate, certificate.rounded.value().parents_of);
     const Numbers box{static_cast<std::uint32_t>(surface_count(certificate))};
-    ExpectedTetrahedra expected{claim, output.surfaces, {}};
+    ExpectedTetrahedra expected{claim, output.surfaces, {}, certificate.blocks()->names};
     for (const std::uint32_t t : claim.triangle_of)
         if (t == no_number)
             expected.surfaces_of.push_back(box);
@@ -208,23 +230,17 @@ ExpectedTetrahedra expected_tetrahedra(const Certificate& certificate,
 } // namespace
 
 void check_folder_files(const Certificate& certificate, Violations& found) {
-    const auto& outputs = certificate.outputs;
-    if (outputs.empty()) return;
     const auto refute = [&](const std::string& what) {
         found.push_back({Rule::R21_output, {}, what});
     };
-    const auto model = std::ranges::find_if(
-        outputs, [](const CertifiedOutput& o) { return is_called(o.name, "model.json"); });
-    if (model == outputs.end()) return refute("no output is the model.json of a folder");
-    const auto folder =
-        model->name.substr(0, model->name.size() - std::string("model.json").size());
-    auto missing = file_names(make_folder(certificate), part_format(certificate));
-    for (const CertifiedOutput& output : outputs)
-        if (!output.name.starts_with(folder) ||
-            missing.erase(output.name.substr(folder.size())) == 0)
+    if (certificate.outputs.empty()) return;
+    auto missing = make_folder(certificate).files;
+    if (missing.empty()) return refute("no output is the model.json of a folder");
+    for (const CertifiedOutput& output : certificate.outputs)
+        if (missing.erase(output.name) == 0)
             return refute("the output " + output.name +
                           " is no file of the folder, or there twice");
-    if (!missing.empty()) refute("the file " + folder + *missing.begin() + " is no output");
+    if (!missing.empty()) refute("the file " + missing.begin()->first + " is no output");
 }
 
 std::string compare_block_file(std::string_view contents, const Certificate& certificate,
@@ -233,29 +249,12 @@ std::string compare_block_file(std::string_view contents, const Certificate& cer
     if (output.surfaces.size() != surface_count(certificate))
         return "another number of surfaces than in the inputs";
     verdict.renamed = renamed_surfaces(certificate, output);
-    const Folder& folder = folder_of(certificate, kept);
-    if (is_called(output.name, "model.json") && output.format == "json")
-        return compare_model(contents, certificate, folder, output, verdict);
-    if (is_called(output.name, "result.vtp") && output.format == "vtp")
-        return compare_result(contents, folder, output);
-    if (is_called(output.name, all_blocks) && output.format == "vtp")
-        return compare_all_blocks(contents, folder, output);
-    if (is_called(output.name, all_interfaces) && output.format == "vtp")
-        return compare_part(
-            contents, folder, output, output.surfaces,
-            all_interfaces_mesh(folder.mesh, folder.sides, folder.parts.interfaces));
-    if (output.format == "vtp" || output.format == "obj") {
-        if (const auto b = number_in(output.name, "blocks/block_", output.format);
-            b && *b > 0 && folder.parts.around.contains(*b))
-            return compare_single(contents, folder, output,
-                                  block_mesh(folder.mesh, folder.sides, folder.parts, *b));
-        if (const auto i = number_in(output.name, "interfaces/interface_", output.format);
-            i && *i < folder.parts.interfaces.size())
-            return compare_single(
-                contents, folder, output,
-                interface_mesh(folder.mesh, folder.sides, folder.parts.interfaces[*i]));
-    }
-    return "no file of a folder with blocks has this name and format";
+    if (!kept) kept = std::make_shared<Folder>(make_folder(certificate));
+    const auto file = kept->files.find(output.name);
+    if (file == kept->files.end() || file->second.format != output.format)
+        return "no file of a folder with blocks has this name and format";
+    const FolderComparison compare(contents, *kept, *certificate.blocks(), output, verdict.check);
+    return compare(file->second);
 }
 
 std::string compare_tetrahedra_file(std::string_view contents, const Certificate& certificate,
@@ -268,18 +267,8 @@ std::string compare_tetrahedra_file(std::string_view contents, const Certificate
     if (box && output.surfaces.back() != SurfaceInfo{"box", Role::boundary})
         return "the last surface is not the box";
     verdict.renamed = renamed_surfaces(certificate, output);
-    const auto reader = std::ranges::find(tetrahedra_readers, output.format,
-                                          [](const auto& entry) { return entry.first; });
-    if (reader == tetrahedra_readers.end()) {
-        verdict.check = OutputCheck::hash_only;
-        return "";
-    }
-    try {
-        reader->second(contents, expected_tetrahedra(certificate, output));
-    } catch (const Difference& difference) {
-        return difference.place + ": " + difference.sentence;
-    }
-    return "";
+    return difference(contents, output.format, expected_tetrahedra(certificate, output),
+                      verdict.check);
 }
 
 } // namespace terrane::verifier

@@ -45,6 +45,7 @@ bool check_lengths(const NumberedBlocks& truth, const BlocksClaim& claim, Violat
     if (!well_formed(claim.shells, shells)) wrong("the lists of sides are unsound");
     if (claim.block_of_shell.size() != shells) wrong("there is not one block per shell");
     if (claim.around.size() != shells) wrong("there is not one place per shell");
+    if (claim.names.size() != truth.volumes.size()) wrong("there is not one name per block");
     if (shells != truth.shells.size())
         found.push_back(
             {Rule::R31_shells,

@@ -2,11 +2,12 @@
 #include <terrane/algorithms/verify/detail/model_lines.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <map>
 #include <numeric>
 #include <utility>
+
+#include <terrane/algorithms/verify/detail/measure.hpp>
 
 namespace terrane::verifier {
 
@@ -97,11 +98,9 @@ private:
             e = here[here[0] == e ? here.size() - 1 : 0];
         } while (!is_corner(v) && v != line.vertices.front());
         put_least_first(line.vertices);
-        for (std::size_t i = 1; i < line.vertices.size(); ++i) {
-            const Point3 &p = mesh_.vertices[line.vertices[i - 1]],
-                         &q = mesh_.vertices[line.vertices[i]];
-            line.length += std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
-        }
+        for (std::size_t i = 1; i < line.vertices.size(); ++i)
+            line.length += distance_between(mesh_.vertices[line.vertices[i - 1]],
+                                            mesh_.vertices[line.vertices[i]]);
         found_.lines.push_back(std::move(line));
     }
 

@@ -12,6 +12,7 @@
 #include <terrane/algorithms/verify/detail/cut.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/kinds.hpp>
+#include <terrane/algorithms/verify/detail/model_claim.hpp>
 #include <terrane/algorithms/verify/detail/tetrahedra.hpp>
 
 namespace terrane::verifier {
@@ -29,10 +30,14 @@ std::uint32_t index_or_null(const Node& node) {
 }
 
 BlocksClaim blocks(const Node& node) {
-    node.expect_keys({"exact", "shells", "block_of_shell", "around", "volumes"});
+    node.expect_keys({"exact", "shells", "block_of_shell", "around", "volumes", "names"});
     const auto text = [](const Node& item) { return std::string(item.string()); };
-    return {node["exact"].index(), lists(node["shells"]), each(node["block_of_shell"], index),
-            each(node["around"], index_or_null), each(node["volumes"], text)};
+    return {node["exact"].index(),
+            lists(node["shells"]),
+            each(node["block_of_shell"], index),
+            each(node["around"], index_or_null),
+            each(node["volumes"], text),
+            each(node["names"], text)};
 }
 
 TetrahedraClaim tetrahedra(const Node& node) {
@@ -49,7 +54,9 @@ TetrahedraClaim tetrahedra(const Node& node) {
 void parse_volumes(const Node& node, Certificate& certificate) {
     parse_arrangement_sections(node, certificate);
     parse_cut_sections(node, certificate);
-    certificate.beside = blocks(node["blocks"]);
+    auto claim = blocks(node["blocks"]);
+    claim.model = model_claim(node["model"]);
+    certificate.beside = std::move(claim);
 }
 
 void parse_tetrahedra(const Node& node, Certificate& certificate) {
@@ -107,7 +114,8 @@ void judge_tetrahedra(std::span<const Surface> surfaces, const Certificate& cert
 } // namespace
 
 const Kind& volumes_kind() {
-    static constexpr std::array<std::string_view, 4> keys{"exact", "rounded", "blocks", "digest"};
+    static constexpr std::array<std::string_view, 5> keys{"exact", "rounded", "blocks", "model",
+                                                          "digest"};
     static constexpr Kind kind{
         CertificateKind::volumes, "volumes", keys, parse_volumes, judge_volumes, rounded_mesh,
         compare_block_file,       true};
