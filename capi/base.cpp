@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
 #include <memory>
-#include <new>
 #include <string>
 #include <thread>
 

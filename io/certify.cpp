@@ -2,7 +2,6 @@
 #include <terrane/io/certify.hpp>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <type_traits>
 #include <utility>

@@ -2,7 +2,6 @@
 #include <terrane/io/exact_text.hpp>
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
 #include <utility>
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/structure_json.hpp>
 
-#include <cmath>
-
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/io/report_members.hpp>
 #include <terrane/io/text/json.hpp>
 #include <terrane/io/text/names.hpp>
 
@@ -12,15 +11,6 @@ namespace terrane {
 namespace {
 
 using detail::Json;
-
-Json position(const Point3& p) {
-    return {p.x, p.y, p.z};
-}
-
-/// Returns null for NaN and infinities, which JSON cannot express.
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 Json surfaces_json(const Mesh& mesh, const Structure& structure) {
     std::vector<double> area(mesh.surfaces.size()), dangling(mesh.surfaces.size());
@@ -34,8 +24,8 @@ Json surfaces_json(const Mesh& mesh, const Structure& structure) {
         all.push_back(
             {{"name", mesh.surfaces[s].name},
              {"role", detail::role_names[static_cast<std::size_t>(mesh.surfaces[s].role)]},
-             {"area", number(area[s])},
-             {"dangling_area", number(dangling[s])}});
+             {"area", area[s]},
+             {"dangling_area", dangling[s]}});
     return all;
 }
 
@@ -47,10 +37,10 @@ Json blocks_json(const Structure& structure, const StructureExtras& extras) {
         if (!block.unit.empty()) json["unit"] = block.unit;
         if (block.age) json["age"] = *block.age;
         if (b > 0) { // the outside has no volume
-            if (!extras.exact_volumes.empty()) json["volume"] = number(extras.exact_volumes[b]);
-            json["volume_written"] = number(block.volume);
+            if (!extras.exact_volumes.empty()) json["volume"] = extras.exact_volumes[b];
+            json["volume_written"] = block.volume;
         }
-        json["area"] = number(block.area);
+        json["area"] = block.area;
         json["above"] = block.above;
         json["below"] = block.below;
         json["beside"] = block.beside;
@@ -70,7 +60,7 @@ Json interfaces_json(const Structure& structure, const StructureExtras& extras) 
         const ModelInterface& interface = structure.interfaces[i];
         Json json{{"volumes", interface.volumes},
                   {"surfaces", interface.surfaces},
-                  {"area", number(interface.area)},
+                  {"area", interface.area},
                   {"patches", interface.patches}};
         if (!extras.interface_files.empty()) json["file"] = extras.interface_files[i];
         all.push_back(std::move(json));
@@ -92,7 +82,7 @@ Json patches_json(const Structure& structure) {
     Json all = Json::array();
     for (const ModelPatch& patch : structure.patches)
         all.push_back({{"interface", std::uint32_t{patch.interface}},
-                       {"area", number(patch.area)},
+                       {"area", patch.area},
                        {"triangles", ranges(patch.triangles)},
                        {"lines", patch.lines}});
     return all;
@@ -105,7 +95,7 @@ Json lines_json(const Structure& structure) {
         json["corners"] = line.corners[0] == no_index ? Json(nullptr) : Json(line.corners);
         json["patches"] = line.patches;
         json["surfaces"] = line.surfaces;
-        json["length"] = number(line.length);
+        json["length"] = line.length;
         all.push_back(std::move(json));
     }
     return all;
@@ -115,27 +105,8 @@ Json corners_json(const Mesh& mesh, const Structure& structure) {
     Json all = Json::array();
     for (const ModelCorner& corner : structure.corners)
         all.push_back({{"vertex", std::uint32_t{corner.vertex}},
-                       {"position", position(mesh.vertices[corner.vertex])},
+                       {"position", mesh.vertices[corner.vertex]},
                        {"lines", corner.lines}});
-    return all;
-}
-
-Json borders_json(std::span<const FreeBorder> borders) {
-    Json all = Json::array();
-    for (const FreeBorder& border : borders) {
-        Json gaps = Json::array();
-        for (const BorderGap& gap : border.gaps)
-            gaps.push_back({{"surface", std::uint32_t{gap.surface}},
-                            {"length", number(gap.length)},
-                            {"least", number(gap.least)},
-                            {"largest", number(gap.largest)},
-                            {"place", position(gap.place)}});
-        all.push_back({{"line", border.line},
-                       {"surfaces", border.surfaces},
-                       {"length", number(border.length)},
-                       {"closed", border.closed},
-                       {"gaps", std::move(gaps)}});
-    }
     return all;
 }
 
@@ -143,11 +114,7 @@ Json leaks_json(const StructureExtras& extras) {
     Json all = Json::array();
     const auto leaks = leaks_of(extras.free_borders);
     for (std::size_t l = 0; l < leaks.size(); ++l) {
-        const Leak& leak = leaks[l];
-        Json json{{"from", std::uint32_t{leak.from}}, {"to", std::uint32_t{leak.to}},
-                  {"borders", leak.borders},          {"length", number(leak.length)},
-                  {"least", number(leak.least)},      {"largest", number(leak.largest)},
-                  {"place", position(leak.place)}};
+        Json json = leaks[l];
         if (l < extras.leak_verdicts.size() && extras.leak_verdicts[l] != LeakVerdict::wide)
             json["separates"] = extras.leak_verdicts[l] == LeakVerdict::separates;
         all.push_back(std::move(json));
@@ -181,21 +148,9 @@ std::string text_of(const Json& json) {
 namespace {
 
 Json seal_json(const StructureExtras& extras) {
-    Json changes = Json::array();
-    for (const SealChange& c : extras.seal_changes)
-        changes.push_back({{"kind", c.kind == SealKind::extended ? "extended" : "trimmed"},
-                           {"surface", std::uint32_t{c.surface}},
-                           {"length", c.length},
-                           {"distance", c.largest},
-                           {"place", {c.place.x, c.place.y, c.place.z}},
-                           {"triangles", c.triangles}});
     Json json{{"distance", *extras.seal_distance}};
-    for (const SealRule& rule : extras.seal_rules) {
-        Json surfaces = Json::array({std::uint32_t{rule.surface}});
-        if (rule.other) surfaces.push_back(std::uint32_t{*rule.other});
-        json["rules"].push_back({{"surfaces", std::move(surfaces)}, {"distance", rule.distance}});
-    }
-    json["changes"] = std::move(changes);
+    if (!extras.seal_rules.empty()) json["rules"] = extras.seal_rules;
+    json["changes"] = extras.seal_changes;
     return json;
 }
 
@@ -210,7 +165,7 @@ std::string to_json(const Mesh& mesh, const Structure& structure, const Structur
     json["patches"] = patches_json(structure);
     json["lines"] = lines_json(structure);
     json["corners"] = corners_json(mesh, structure);
-    json["free_borders"] = borders_json(extras.free_borders);
+    json["free_borders"] = extras.free_borders;
     json["leaks"] = leaks_json(extras);
     if (extras.seal_distance) json["seal"] = seal_json(extras);
     return text_of(json);

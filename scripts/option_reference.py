@@ -19,12 +19,12 @@ from terrane import _core
 
 NUMBER = r"[\d.e]+"
 ROOT = Path(__file__).resolve().parent.parent
-# Fields, the command, the object of a project, the function of Python, and the struct of C in mesh.h, where it has them
+# Fields, the command, the object of a project, and the struct of C in mesh.h, where it has them
 # in their order.
 STRUCTS = (
-    (_core.improve_fields, "improve", "improve", ("_quality.py", "improve"), "terrane_improve_options"),
-    (_core.fill_fields, "fill", "fill[]", ("_holes.py", "fill"), None),
-    (_core.tetrahedra_fields, "tetrahedralize", "tetrahedra", ("_tetrahedra.py", "tetrahedralize"), None),
+    (_core.improve_fields, "improve", "improve", "terrane_improve_options"),
+    (_core.fill_fields, "fill", "fill[]", None),
+    (_core.tetrahedra_fields, "tetrahedralize", "tetrahedra", None),
 )
 
 
@@ -94,22 +94,6 @@ def check_schema(pages, fields, key):
             pages.change(name, old, f'"description": {json.dumps(text)}', f"{key}.{field}")
 
 
-def check_python(pages, fields, file, function):
-    """Paragraphs of the docstring about keywords, `name : type` and indented lines, begin with the text."""
-    doc = re.search(rf'^def {function}\(.*?"""(.*?)"""', pages[file], re.S | re.M)[1]
-    for field in fields:
-        found = re.search(rf"^    {field['name']} : .*\n((?:        .*\n)+)", doc, re.M)
-        if field["type"] == "none" or not found:
-            continue
-        if " ".join(found[1].split()).startswith(field["text"]):
-            continue
-        zero = {"double": "; 0: ", "other value": "; None: "}.get(field["type"], "")
-        without = zero + field["default"] if zero and not re.fullmatch(NUMBER, field["default"]) else ""
-        lines = textwrap.wrap(field["text"] + without + ".", 112)
-        pages.change(file, found[0], found[0].replace(found[1], "".join(f"        {line}\n" for line in lines)),
-                     f"{function}(): {field['name']}")
-
-
 def check_c(pages, fields, struct):
     """Members come in the order that capi/detail/fields.hpp relies on: 64 bits first, then 32."""
     header = "capi/mesh.h"
@@ -151,10 +135,9 @@ def main():
     parser.add_argument("--check", action="store_true", help="compare, and write nothing")
     options = parser.parse_args()
     pages = Pages()
-    for fields, command, key, (module, function), struct in STRUCTS:
+    for fields, command, key, struct in STRUCTS:
         check_pages(pages, fields, f"terrane {command}", key)
         check_schema(pages, fields, key)
-        check_python(pages, fields, f"python/terrane/{module}", function)
         if struct:
             check_c(pages, fields, struct)
     if not options.check:

@@ -2,7 +2,6 @@
 #include <terrane/algorithms/arrangement/restricted.hpp>
 
 #include <algorithm>
-#include <utility>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/arrangement/intersection_edges.hpp>

@@ -2,7 +2,6 @@
 #include <terrane/algorithms/check/check.hpp>
 
 #include <algorithm>
-#include <numeric>
 
 #include <terrane/algorithms/arrangement/soup.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>

@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>

@@ -2,7 +2,6 @@
 #include <terrane/algorithms/model/resolution.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 

@@ -3,12 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
 #include <limits>
 #include <queue>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <terrane/algorithms/core/parallel.hpp>

@@ -2,7 +2,6 @@
 #include <terrane/algorithms/sealing/sealing.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 

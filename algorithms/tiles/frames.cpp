@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <memory>
-#include <string>
 #include <utility>
 
 #ifdef __GLIBC__

@@ -5,7 +5,6 @@
 // exact order is found there, and the order of the tiles is that of the points.
 #include <algorithm>
 #include <numeric>
-#include <span>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/intersection/renamed_construction.hpp>

@@ -3,7 +3,6 @@
 // Reads files and shares their vertices and triangles out by number.
 #include <algorithm>
 #include <limits>
-#include <span>
 #include <string>
 
 #include <terrane/algorithms/mesh/validation.hpp>

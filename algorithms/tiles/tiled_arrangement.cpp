@@ -2,10 +2,8 @@
 #include <terrane/algorithms/tiles/tiled_arrangement.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <functional>
-#include <limits>
 #include <span>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>

@@ -2,10 +2,8 @@
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <map>
-#include <new>
 #include <tuple>
 #include <utility>
 

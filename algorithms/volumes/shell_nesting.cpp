@@ -7,7 +7,6 @@
 #include <numeric>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/volumes/detail/triangle_boxes.hpp>

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <numeric>
-#include <string>
 
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/volumes/exact_volumes.hpp>

@@ -2,9 +2,7 @@
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 #include <tuple>
 #include <utility>

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
-#include <vector>
 
 #include <terrane/algorithms/core/fields.hpp>
 #include <terrane/capi/detail/call.hpp>

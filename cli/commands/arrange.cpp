@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <memory>
-#include <utility>
-#include <vector>
 
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/reports/arranged_report.hpp>
@@ -80,9 +78,7 @@ Command arrange_command(CLI::App& program) {
     add_msh(*app, options->model.files);
     add_proof(*app, options->model.proof);
     add_tilewise(*app, options->tilewise);
-    add_threads(*app, options->model.files);
-    add_stats(*app, options->model.files);
-    add_report(*app, options->model.files);
+    add_run(*app, options->model.files);
     options->model.project.last = BuildStage::arrange;
     app->footer(arrange_footer);
     return {app, [options] {

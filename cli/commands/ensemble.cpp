@@ -4,7 +4,6 @@
 // Python's. The program checks the options, and then becomes the interpreter: signals, output and the status
 // are those of one process.
 #include <cerrno>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>

@@ -194,9 +194,7 @@ Command fill_command(CLI::App& program) {
     app->add_flag("--ascii", options->model.files.ascii, "STL as text, with doubles, not float32");
     add_msh(*app, options->model.files);
     add_certificate(*app, options->model.proof.certificate);
-    add_threads(*app, options->model.files);
-    add_stats(*app, options->model.files);
-    add_report(*app, options->model.files);
+    add_run(*app, options->model.files);
     options->model.project.last = BuildStage::preprocess;
     app->footer(fill_footer);
     return {app, [app, options] {

@@ -120,9 +120,7 @@ Command improve_command(CLI::App& program) {
     app->add_flag("--ascii", command->model.files.ascii, "STL as text, with doubles, not float32");
     add_msh(*app, command->model.files);
     add_certificate(*app, command->model.proof.certificate);
-    add_threads(*app, command->model.files);
-    add_stats(*app, command->model.files);
-    add_report(*app, command->model.files);
+    add_run(*app, command->model.files);
     app->footer(improve_footer);
     return {app, [command, app] {
                 check_fields<ImproveOptions>(*app);

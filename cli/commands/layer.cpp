@@ -121,9 +121,7 @@ Command layer_command(CLI::App& program) {
     add_check(*app, command->model.project.check);
     app->add_flag("--ascii", command->model.files.ascii, "STL as text, with doubles, not float32");
     add_certificate(*app, command->model.proof.certificate);
-    add_threads(*app, command->model.files);
-    add_stats(*app, command->model.files);
-    add_report(*app, command->model.files);
+    add_run(*app, command->model.files);
     app->footer(layer_footer);
     return {app, [command] {
                 plan_inputs(*command);

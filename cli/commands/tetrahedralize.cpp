@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -181,9 +180,7 @@ Command tetrahedralize_command(CLI::App& program) {
     add_tetrahedra_options(*app, *command);
     add_certificate(*app, command->model.proof.certificate);
     add_arranging(*app, command->model);
-    add_threads(*app, command->model.files);
-    add_stats(*app, command->model.files);
-    add_report(*app, command->model.files);
+    add_run(*app, command->model.files);
     command->model.needs_blocks = true;
     command->model.tells_blocks = false;
     command->model.project.outputs.tetrahedra = {"vtu"}; // so that there are some

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/choices.hpp>
@@ -217,9 +216,7 @@ Command volume_command(CLI::App& program) {
     add_cells(*app, command->cells);
     add_certificate(*app, command->model.proof.certificate);
     add_arranging(*app, command->model);
-    add_threads(*app, command->model.files);
-    add_stats(*app, command->model.files);
-    add_report(*app, command->model.files);
+    add_run(*app, command->model.files);
     command->model.needs_blocks = true;
     command->model.project.last = BuildStage::blocks;
     app->footer(volume_footer);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // terrane-mpi: one arrangement on many machines. Each process runs this program; the first one speaks.
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>

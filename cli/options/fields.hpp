@@ -3,7 +3,6 @@
 // Options of the program for the described fields of a struct, see Field.
 #pragma once
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <type_traits>

@@ -177,6 +177,12 @@ void add_report(CLI::App& command, FileOptions& options) {
               "Write a page to look at: the model and its flaws");
 }
 
+void add_run(CLI::App& command, FileOptions& options) {
+    add_threads(command, options);
+    add_stats(command, options);
+    add_report(command, options);
+}
+
 /// Refuses options that say how files are read or written where there is no such file.
 void check_use(const FileOptions& options, const std::vector<Output>& outputs) {
     const auto writes = [&outputs](Format format) {

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,6 +50,8 @@ void add_threads(CLI::App& command, FileOptions& options);
 void add_stats(CLI::App& command, FileOptions& options);
 /// Adds --report, and notes the command.
 void add_report(CLI::App& command, FileOptions& options);
+/// Adds --threads, --stats and --report.
+void add_run(CLI::App& command, FileOptions& options);
 
 struct Output {
     std::string path;

@@ -4,14 +4,12 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/pipeline/project.hpp>
 #include <terrane/cli/options/files.hpp>
 

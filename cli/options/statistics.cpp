@@ -10,6 +10,7 @@
 #include <terrane/algorithms/triangulation/point_surface.hpp>
 #include <terrane/cli/session/text_width.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/report_members.hpp>
 
 namespace terrane::cli {
 
@@ -55,33 +56,9 @@ void add_statistics(Json& json, const RoundedMesh& rounded) {
                       {"intersection_edges", m.intersection_edges.size()},
                       {"regions", rounded.regions.size()},
                       {"volumes", nullptr}};
-    json["rounding"] = {{"iterations", r.rounds},
-                        {"surface_deviation", r.surface_deviation},
-                        {"max_allowed", r.max_allowed},
-                        {"sufficient_limit", r.sufficient_limit},
-                        {"vanished_length", r.vanished_length},
-                        {"max_move", r.max_move},
-                        {"arranged_again", r.arranged_again},
-                        {"deviation", r.deviation},
-                        {"moves", r.moves}, // vertices by decade of their move: see RoundingReport
-                        {"verified", r.clean},
-                        {"naive_contacts", r.naive_contacts},
-                        {"contacts", r.contacts.size()},
-                        {"moved_input_vertices", r.moved_input_vertices},
-                        {"merged_vertices", r.merged_vertices},
-                        {"collapsed_triangles", r.collapsed_triangles},
-                        {"surfaces_with_vanished_regions", r.vanished_regions.size()},
-                        {"vanished", r.vanished.size()}};
-    if (r.pairs) json["rounding"]["pairs"] = json_of(*r.pairs);
+    json["rounding"] = r;
+    if (r.pairs) json["rounding"]["pairs"] = *r.pairs;
     add_constants(json, "round", rounding_constants());
-}
-
-Json json_of(const PairCounts& pairs) {
-    return {{"tested", pairs.tested},
-            {"in_patches", pairs.in_patches},
-            {"separated", pairs.separated},
-            {"unmoved", pairs.unmoved},
-            {"apart", pairs.apart}};
 }
 
 void add_constants(Json& json, const char* stage, std::span<const NamedConstant> constants) {

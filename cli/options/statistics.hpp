@@ -23,9 +23,6 @@ void add_statistics(Json& json, const Arrangement& arrangement);
 /// Adds the keys output and rounding, with the constants of rounding.
 void add_statistics(Json& json, const RoundedMesh& rounded);
 
-/// Returns the keys tested, in_patches, separated, unmoved and apart.
-Json json_of(const PairCounts& pairs);
-
 /// Adds the constants of a stage under the key constants.
 void add_constants(Json& json, const char* stage, std::span<const NamedConstant> constants);
 

@@ -2,11 +2,8 @@
 #include <terrane/cli/options/volume_options.hpp>
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <iterator>
-#include <optional>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +16,7 @@
 #include <terrane/cli/session/text_width.hpp>
 #include <terrane/io/points/outline.hpp>
 #include <terrane/io/project.hpp>
+#include <terrane/io/report_members.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -188,15 +186,15 @@ std::string text_of(std::span<const ExtendedBorder> borders, const Inputs& input
 void add_statistics(Json& json, std::span<const ExtendedBorder> borders) {
     Json list = Json::array();
     for (const ExtendedBorder& b : borders)
-        list.push_back({{"surface", std::uint32_t{b.surface}},
+        list.push_back({{"surface", b.surface},
                         {"reached", b.reached},
                         {"length", b.length},
-                        {"place", {b.place.x, b.place.y, b.place.z}}});
+                        {"place", b.place}});
     json["extended"] = std::move(list);
 }
 
 void add_statistics(Json& json, const VolumeReport& report, const Inputs& inputs) {
-    Json surfaces = Json::array(), borders = Json::array();
+    Json surfaces = Json::array();
     for (std::size_t s = 0; s < report.surfaces.size(); ++s) {
         const SurfaceCut& cut = report.surfaces[s];
         surfaces.push_back({{"name", inputs.labels[s]},
@@ -206,12 +204,8 @@ void add_statistics(Json& json, const VolumeReport& report, const Inputs& inputs
                             {"pieces", cut.pieces},
                             {"open_length", cut.open_length}});
     }
-    for (const OpenBorder& b : report.borders)
-        borders.push_back({{"surface", std::uint32_t{b.surface}},
-                           {"length", b.length},
-                           {"place", {b.place.x, b.place.y, b.place.z}}});
     json["volume_of_interest"] = {{"surfaces", std::move(surfaces)},
-                                  {"open_borders", std::move(borders)}};
+                                  {"open_borders", report.borders}};
 }
 
 } // namespace terrane::cli

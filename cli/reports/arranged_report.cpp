@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/check/check.hpp>
-#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/cli/options/volume_options.hpp>
 #include <terrane/cli/reports/merge_report.hpp>

@@ -88,10 +88,6 @@ private:
     bool all_;
 };
 
-Json json_of(const Point3& p) {
-    return {p.x, p.y, p.z};
-}
-
 /// Turns numbers of triangles counted through all surfaces into surface and number within it.
 class TriangleNames {
 public:
@@ -128,7 +124,7 @@ Json contacts_json(const CheckReport& report, const TriangleNames& name) {
     for (const ImproperContact& c : report.contacts)
         json.push_back({{"kind", name_of(c.kind)},
                         {"triangles", Json::array({name(c.triangles[0]), name(c.triangles[1])})},
-                        {"place", json_of(c.place)}});
+                        {"place", c.place}});
     return json;
 }
 
@@ -161,9 +157,7 @@ Json json_of(const CheckReport& report, const Inputs& inputs) {
     for (const auto t : report.degenerate) json["degenerate"].push_back(name(t));
     json["repeated"] = name.pairs(report.repeated);
     json["shared"] = name.pairs(report.shared);
-    json["non_manifold_edges"] = Json::array();
-    for (const auto& [a, b] : report.non_manifold_edges)
-        json["non_manifold_edges"].push_back(Json::array({json_of(a), json_of(b)}));
+    json["non_manifold_edges"] = report.non_manifold_edges;
     return json;
 }
 

@@ -5,7 +5,6 @@
 
 #include <span>
 #include <string>
-#include <vector>
 
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>

@@ -16,6 +16,7 @@
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/quantities.hpp>
 #include <terrane/cli/session/styles.hpp>
+#include <terrane/io/report_members.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -109,33 +110,14 @@ std::string contacts_text(const FillWork& work, std::span<const NewContact> cont
 
 void add_statistics(Json& json, const FillWork& work) {
     Json list = Json::array();
-    const auto known = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
     for (const NumberedHole& hole : work.holes) {
         const BorderLoop& loop = loop_of(work, hole);
-        Json entry{{"hole", hole.number},
-                   {"surface", work.surfaces[hole.task].label},
-                   {"kind", name_of_kind(loop)},
-                   {"border", loop.vertices.size()},
-                   {"length", loop.length},
-                   {"area", loop.area},
-                   {"width", loop.width},
-                   {"throw", loop.fault_throw},
-                   {"centre", {loop.centre.x, loop.centre.y, loop.centre.z}}};
-        if (hole.report) {
-            Json models = Json::array();
-            for (const ModelShare& m : hole.report->models)
-                models.push_back({{"model", m.model},
-                                  {"weight", m.weight},
-                                  {"height", known(m.height)},
-                                  {"deviation", known(m.deviation)}});
-            entry["filled"] = {{"interpolated", hole.report->interpolated},
-                               {"area", hole.report->area},
-                               {"data", hole.report->data},
-                               {"expected_error", known(hole.report->expected_error)},
-                               {"validated_error", known(hole.report->validated_error)},
-                               {"model", hole.report->model},
-                               {"models", std::move(models)}};
-        }
+        Json entry{{"hole", hole.number},        {"surface", work.surfaces[hole.task].label},
+                   {"kind", name_of_kind(loop)}, {"border", loop.vertices.size()},
+                   {"length", loop.length},      {"area", loop.area},
+                   {"width", loop.width},        {"throw", loop.fault_throw},
+                   {"centre", loop.centre}};
+        if (hole.report) entry["filled"] = *hole.report;
         if (!hole.refused.empty()) entry["refused"] = hole.refused;
         list.push_back(std::move(entry));
     }

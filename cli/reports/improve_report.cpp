@@ -13,6 +13,7 @@
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/quantities.hpp>
 #include <terrane/cli/session/styles.hpp>
+#include <terrane/io/report_members.hpp>
 #include <terrane/io/text/histogram_svg.hpp>
 
 namespace terrane::cli {
@@ -78,6 +79,11 @@ struct VolumeChange {
     }
 };
 
+void describe(const auto& visit, const VolumeChange& c) {
+    visit("block", c.block, "volume_before", c.before, "volume_after", c.after, "change_percent",
+          c.percent());
+}
+
 /// Lists all blocks; none where the sides of sheets are not kept.
 std::vector<VolumeChange> volume_changes(const Improved& improved) {
     std::vector<VolumeChange> changes;
@@ -108,33 +114,6 @@ std::string volumes_text(const Improved& improved, const Quantities& quantities)
                             quantities.volume(c.before, digits), quantities.volume(c.after, digits),
                             figure(c.percent(), 2));
     return text;
-}
-
-Json volumes_json(const Improved& improved) {
-    Json all = Json::array();
-    for (const VolumeChange& c : volume_changes(improved))
-        all.push_back({{"block", c.block},
-                       {"volume_before", c.before},
-                       {"volume_after", c.after},
-                       {"change_percent", c.percent()}});
-    return all;
-}
-
-Json json_of(const Spread& s) {
-    return {{"min", s.min},
-            {"mean", s.mean},
-            {"max", s.max},
-            {"percentiles_1_5_50_95_99", s.percentiles}};
-}
-
-Json json_of(const QualityReport& q) {
-    return {{"triangles", q.triangles},
-            {"q", json_of(q.q)},
-            {"share_above_08", q.share_above_08},
-            {"smallest_angle", json_of(q.smallest_angle)},
-            {"largest_angle", json_of(q.largest_angle)},
-            {"edge_length", json_of(q.edge_length)},
-            {"histogram", q.histogram}};
 }
 
 } // namespace
@@ -174,38 +153,21 @@ void add_statistics(Json& json, const ImprovedAndMeasured& measured) {
     json["output"]["triangles"] = improved.mesh->triangles.size();
     json["output"]["vertices"] = improved.mesh->vertices.size();
     json["output"]["intersection_edges"] = improved.mesh->intersection_edges.size();
-    json["improve"] = {{"passes", r.passes},
-                       {"splits", r.splits},
-                       {"collapses", r.collapses},
-                       {"swaps", r.swaps},
-                       {"moves", r.moves},
-                       {"refused_contact", r.refused_contact},
-                       {"refused_deviation", r.refused_deviation},
-                       {"refused_shape", r.refused_shape},
-                       {"corners", r.corners},
-                       {"curves", r.curves},
-                       {"sheets", r.sheets},
-                       {"attempts", r.attempts},
-                       {"least_quality", r.least_quality},
-                       {"thin_triangles", r.thin_triangles},
-                       {"held_blocks", r.held_blocks},
-                       {"blocks", volumes_json(improved)},
-                       {"worst_cause", name_of(r.worst_cause)}};
-    if (const auto& pairs = improved.conforming->pairs())
-        json["improve"]["pairs"] = json_of(*pairs);
-    json["quality"] = {{"before", json_of(r.before)}, {"after", json_of(r.after)}};
+    json["improve"] = r;
+    json["improve"]["blocks"] = volume_changes(improved);
+    json["improve"]["worst_cause"] = r.worst_cause;
+    if (const auto& pairs = improved.conforming->pairs()) json["improve"]["pairs"] = *pairs;
+    json["quality"] = {{"before", r.before}, {"after", r.after}};
     Json out = Json::array(), back = Json::array();
     for (const Deviation& d : measured.deviations) {
         out.push_back(d.out);
         back.push_back(d.back);
     }
-    Json bounds_back = Json::array(); // null: no bound was proven
-    for (const double b : measured.bounds_back)
-        bounds_back.push_back(std::isfinite(b) ? Json(b) : Json());
-    json["deviation"] = {{"bound_of_surfaces", r.bound_of},
-                         {"measured_of_surfaces", out},
-                         {"bound_back_of_surfaces", bounds_back},
-                         {"measured_back", back}};
+    json["deviation"] = {
+        {"bound_of_surfaces", r.bound_of},
+        {"measured_of_surfaces", out},
+        {"bound_back_of_surfaces", measured.bounds_back}, // null: no bound was proven
+        {"measured_back", back}};
 }
 
 std::string histogram_of(const ImproveReport& report) {

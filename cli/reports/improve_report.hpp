@@ -3,9 +3,7 @@
 // Reports on an improved mesh.
 #pragma once
 
-#include <span>
 #include <string>
-#include <vector>
 
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/cli/options/statistics.hpp>

@@ -2,7 +2,6 @@
 #include <terrane/cli/reports/layer_report.hpp>
 
 #include <algorithm>
-#include <cstdint>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/quantities.hpp>
 #include <terrane/cli/session/styles.hpp>
+#include <terrane/io/report_members.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -43,8 +43,7 @@ void add_statistics(Json& json, const Inputs& inputs, const Layered& layered) {
                        {"largest_move", r.largest_move},
                        {"step_length", r.step_length}});
     json["layers"] = std::move(all);
-    if (const auto& pairs = layered.rounded.report.pairs)
-        json["rounding"]["pairs"] = json_of(*pairs);
+    if (const auto& pairs = layered.rounded.report.pairs) json["rounding"]["pairs"] = *pairs;
     add_constants(json, "round", rounding_constants());
 }
 

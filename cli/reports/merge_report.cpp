@@ -51,7 +51,7 @@ void add_statistics(Json& json, const BlockMerge& report, const Inputs& inputs) 
         merged.push_back({{"volume", m.volume},
                           {"thickness", m.thickness},
                           {"into", std::isfinite(m.into) ? Json(m.into) : Json("outside")},
-                          {"place", {m.place.x, m.place.y, m.place.z}},
+                          {"place", m.place},
                           {"surfaces", labels_of(m.surfaces, inputs)},
                           {"area", m.area},
                           {"triangles", m.triangles}});
@@ -86,7 +86,7 @@ void add_statistics(Json& json, const ToleranceReport& report, const Inputs& inp
     for (const ThinCell& cell : report.left)
         left.push_back({{"thickness", cell.thickness},
                         {"volume", cell.volume},
-                        {"place", {cell.place.x, cell.place.y, cell.place.z}},
+                        {"place", cell.place},
                         {"surfaces", labels_of(cell.surfaces, inputs)}});
     json["tolerance"] = {{"tolerance", report.tolerance},
                          {"is_refused", report.is_refused},

@@ -11,6 +11,7 @@
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/quantities.hpp>
 #include <terrane/cli/session/styles.hpp>
+#include <terrane/io/report_members.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -97,15 +98,7 @@ std::string resolution_text(Json& json, const Arranged& arranged, const Inputs& 
 }
 
 void add_statistics(Json& json, const SimplifyReport& report, const Inputs& inputs) {
-    Json left = Json::array(), blocks = Json::array(), contacts = Json::array(),
-         deviations = Json::object(), vanished = Json::array();
-    for (const LeftAlone& l : report.left)
-        left.push_back({{"distance", l.distance},
-                        {"place", {l.place.x, l.place.y, l.place.z}},
-                        {"reason", name_of(l.reason)}});
-    for (const ChangedBlock& b : report.blocks)
-        blocks.push_back(
-            {{"block", b.block}, {"volume", b.volume}, {"parts", b.parts}, {"into", b.into}});
+    Json contacts = Json::array(), deviations = Json::object(), vanished = Json::array();
     for (const ChangedContact& c : report.block_contacts)
         contacts.push_back({{"blocks", c.between}, {"new", c.is_new}});
     for (const ChangedContact& c : report.surface_contacts)
@@ -118,14 +111,15 @@ void add_statistics(Json& json, const SimplifyReport& report, const Inputs& inpu
         vanished.push_back(inputs.labels[s]);
         deviations.erase(inputs.labels[s]);
     }
-    json["resolution"] = {{"length", report.resolution},     {"max_move", report.max_move},
-                          {"corners", report.corners},       {"curves", report.curves},
-                          {"surfaces", report.sheets},       {"divided", report.divided},
-                          {"rounds", report.rounds},         {"attempts", report.attempts},
-                          {"verified", report.is_shown},     {"deviation", std::move(deviations)},
-                          {"blocks", std::move(blocks)},     {"contacts", std::move(contacts)},
-                          {"vanished", std::move(vanished)}, {"kept_blocks", report.kept},
-                          {"left_alone", std::move(left)}};
+    Json entry = report;
+    entry["verified"] = report.is_shown;
+    entry["deviation"] = std::move(deviations);
+    entry["blocks"] = report.blocks;
+    entry["contacts"] = std::move(contacts);
+    entry["vanished"] = std::move(vanished);
+    entry["kept_blocks"] = report.kept;
+    entry["left_alone"] = report.left;
+    json["resolution"] = std::move(entry);
 }
 
 } // namespace terrane::cli

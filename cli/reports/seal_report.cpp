@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/cli/reports/seal_report.hpp>
 
-#include <algorithm>
-#include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/quantities.hpp>
+#include <terrane/io/report_members.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -16,10 +15,6 @@ namespace {
 constexpr std::size_t most_changes = 20; ///< printed
 
 constexpr std::size_t most_open = 10; ///< printed
-
-const char* name_of(SealKind kind) {
-    return kind == SealKind::extended ? "extended" : "trimmed";
-}
 
 const char* sentence_for(OpenReason reason) {
     switch (reason) {
@@ -83,34 +78,6 @@ std::string text_of(const SealReport& report, const Inputs& inputs) {
     return text + open_text(report, inputs);
 }
 
-Json json_of(const SealReport& report) {
-    Json changes = Json::array();
-    for (const SealChange& c : report.changes)
-        changes.push_back({{"kind", name_of(c.kind)},
-                           {"surface", std::uint32_t{c.surface}},
-                           {"length", c.length},
-                           {"distance", c.largest},
-                           {"place", {c.place.x, c.place.y, c.place.z}},
-                           {"triangles", c.triangles}});
-    Json json{
-        {"distance", report.distance}, {"changes", std::move(changes)}, {"left", report.left}};
-    Json& open = json["open"] = Json::array();
-    for (const OpenGap& gap : report.open)
-        open.push_back({{"from", std::uint32_t{gap.from}},
-                        {"to", std::uint32_t{gap.to}},
-                        {"reason", std::string(name_of(gap.reason))},
-                        {"edges", gap.edges},
-                        {"length", gap.length},
-                        {"distance", gap.width},
-                        {"place", {gap.place.x, gap.place.y, gap.place.z}}});
-    for (const SealRule& rule : report.rules) {
-        Json surfaces = Json::array({std::uint32_t{rule.surface}});
-        if (rule.other) surfaces.push_back(std::uint32_t{*rule.other});
-        json["rules"].push_back({{"surfaces", std::move(surfaces)}, {"distance", rule.distance}});
-    }
-    return json;
-}
-
 std::string text_of(const SealChoice& choice, const Inputs& inputs) {
     const Quantities quantities = inputs.quantities();
     auto text = fmt::format("gaps up to {}, a fifth of the median edge:\n",
@@ -124,17 +91,7 @@ std::string text_of(const SealChoice& choice, const Inputs& inputs) {
 }
 
 void add_statistics(Json& json, const SealChoice& choice) {
-    Json breaks = Json::array();
-    for (const GapBreak& b : choice.breaks)
-        breaks.push_back({{"low", b.low},
-                          {"high", b.high},
-                          {"distance", b.distance},
-                          {"gaps", b.gaps},
-                          {"length", b.length}});
-    json["seal_choice"] = {{"edge_length", choice.edge_length},
-                           {"widest", choice.widest},
-                           {"breaks", std::move(breaks)},
-                           {"distance", choice.distance}};
+    json["seal_choice"] = choice;
 }
 
 std::string text_of(const SealAdvice& advice, const Inputs& inputs) {
@@ -154,20 +111,15 @@ std::string text_of(const SealAdvice& advice, const Inputs& inputs) {
 
 void add_statistics(Json& json, const SealAdvice& advice) {
     add_statistics(json, advice.choice);
-    Json trials = Json::array();
-    for (const SealTrial& t : advice.trials)
-        trials.push_back({{"distance", t.distance},
-                          {"blocks", t.blocks},
-                          {"small", t.small},
-                          {"changes", t.changes},
-                          {"triangles", t.triangles},
-                          {"length", t.length},
-                          {"left", t.left}});
-    json["seal_trials"] = {{"small_volume", advice.small_volume}, {"trials", std::move(trials)}};
+    json["seal_trials"] = {{"small_volume", advice.small_volume}, {"trials", advice.trials}};
 }
 
 void add_statistics(Json& json, const SealReport& report, const Inputs& inputs) {
-    Json entry = json_of(report);
+    Json entry{{"distance", report.distance},
+               {"changes", report.changes},
+               {"left", report.left},
+               {"open", report.open}};
+    if (!report.rules.empty()) entry["rules"] = report.rules;
     for (Json& change : entry["changes"])
         change["name"] = inputs.labels[change["surface"].get<std::size_t>()];
     for (Json& gap : entry["open"])

@@ -13,10 +13,6 @@ namespace terrane::cli {
 
 std::string text_of(const SealReport& report, const Inputs& inputs);
 
-/// Returns distance, changes (kind, surface, length, distance, place, triangles), left, open (from,
-/// to, reason, edges, length, distance, place) and, if there are any, rules (surfaces, distance).
-Json json_of(const SealReport& report);
-
 /// Reports the natural breaks in the widths of gaps, and the distance that was chosen.
 std::string text_of(const SealChoice& choice, const Inputs& inputs);
 
@@ -29,7 +25,7 @@ std::string text_of(const SealAdvice& advice, const Inputs& inputs);
 /// Adds "seal_choice" and "seal_trials".
 void add_statistics(Json& json, const SealAdvice& advice);
 
-/// Adds "seal" with json_of(report) in it.
+/// Adds "seal": distance, changes, left, open and, if there are any, rules.
 void add_statistics(Json& json, const SealReport& report, const Inputs& inputs);
 
 } // namespace terrane::cli

@@ -10,6 +10,7 @@
 
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/quantities.hpp>
+#include <terrane/io/report_members.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -107,23 +108,15 @@ Json bad_json(const TetrahedraShape& shape) {
     for (std::size_t i = 0; i < bad_causes; ++i) {
         const BadTetrahedra& bad = shape.bad[i];
         const bool any = bad.count > 0;
-        json[cause_keys[i]] = {
-            {"tetrahedra", bad.count},
-            {"least", any ? Json(bad.least) : Json(nullptr)},
-            {"place", any ? Json{bad.place.x, bad.place.y, bad.place.z} : Json(nullptr)}};
+        json[cause_keys[i]] = {{"tetrahedra", bad.count},
+                               {"least", any ? Json(bad.least) : Json()},
+                               {"place", any ? Json(bad.place) : Json()}};
     }
     return json;
 }
 
-/// Returns null for an infinite value, which JSON does not have.
-Json number_or_null(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json spread_json(const ShapeSpread& spread) {
-    return {{"min", number_or_null(spread.least)},
-            {"mean", number_or_null(spread.mean)},
-            {"max", number_or_null(spread.largest)}};
+    return {{"min", spread.least}, {"mean", spread.mean}, {"max", spread.largest}};
 }
 
 /// Counts the violations of all kinds.
@@ -148,29 +141,6 @@ std::string optimised_text(const OptimiseReport& report) {
                        report.is_cut_short ? ", up to the limit of effort" : "",
                        figure(report.before.least_angle, 3), figure(report.before.largest_angle, 4),
                        figure(report.after.least_angle, 3), figure(report.after.largest_angle, 4));
-}
-
-Json worst_json(const WorstShapes& worst) {
-    return {{"quality", number_or_null(worst.quality)},
-            {"least_angle", worst.least_angle},
-            {"largest_angle", worst.largest_angle}};
-}
-
-Json optimised_json(const OptimiseReport& report) {
-    return {{"passes", report.passes},
-            {"removed_edges", report.removed_edges},
-            {"removed_faces", report.removed_faces},
-            {"moved", report.moved},
-            {"on_surfaces", report.loosened},
-            {"contracted", report.contracted},
-            {"inserted", report.inserted},
-            {"remeshed", report.remeshed},
-            {"left", report.left},
-            {"untried", report.untried},
-            {"effort", report.effort},
-            {"cut_short", report.is_cut_short},
-            {"before", worst_json(report.before)},
-            {"after", worst_json(report.after)}};
 }
 
 /// Reports the verdict, the volumes and both histograms, whose empty classes are left out.
@@ -256,7 +226,7 @@ void add_statistics(Json& json, const FilledBlocks& filled) {
                           {"twin_faces", mesh.twins.size()}};
     if (filled.optimised) {
         add_constants(json, "optimise", optimise_constants());
-        json["tetrahedra"]["optimised"] = optimised_json(*filled.optimised);
+        json["tetrahedra"]["optimised"] = *filled.optimised;
     }
     json["tetrahedra"]["check"] = report_json(filled.report);
 }
@@ -282,17 +252,9 @@ std::string changes_text(const Built& built, const std::string& unit) {
 }
 
 void add_changes(Json& json, const Built& built) {
-    json["tetrahedra"]["moved_vertices"] = {{"count", built.loosened.count},
-                                            {"farthest", built.loosened.farthest}};
+    json["tetrahedra"]["moved_vertices"] = built.loosened;
     if (built.rounds.empty()) return;
-    Json rounds = Json::array();
-    for (const RefinementRound& round : built.rounds)
-        rounds.push_back({{"triangles", round.triangles},
-                          {"tetrahedra", round.tetrahedra},
-                          {"bad", round.bad},
-                          {"apart", round.apart},
-                          {"misshapen", round.misshapen}});
-    json["tetrahedra"]["rounds"] = rounds;
+    json["tetrahedra"]["rounds"] = built.rounds;
     json["tetrahedra"]["taken_round"] = built.kept_round;
 }
 

@@ -7,6 +7,7 @@
 
 #include <terrane/algorithms/core/figure.hpp>
 #include <terrane/cli/session/console.hpp>
+#include <terrane/io/report_members.hpp>
 
 namespace terrane::cli {
 
@@ -14,23 +15,6 @@ using namespace tiles;
 using Json = terrane::detail::Json;
 
 namespace {
-
-Json counts_of_work(const Work& w) {
-    return {{"read", w.homes},
-            {"faces", w.faces},
-            {"own_faces", w.owned},
-            {"candidates", w.candidates},
-            {"improper_contacts", w.improper},
-            {"divided", w.divided},
-            {"predicates", w.predicates},
-            {"constructed_points", w.constructed},
-            {"triangles", w.triangles},
-            {"pairs_of_doubles", w.rounded_pairs},
-            {"near_boxes", w.near_boxes},
-            {"messages", w.messages},
-            {"bytes", w.bytes},
-            {"memory", w.memory}};
-}
 
 /// Tells how the doubles were repaired: near what was in the way, by moving the input, in one process, or
 /// not at all.
@@ -109,8 +93,8 @@ Json tile_json(const TiledReport& r, const RoundingReport* repaired, std::size_t
                {"triangles", r.triangles},
                {"intersection_edges", r.intersection_edges}}},
              {"rounding", rounding_json(r, repaired)},
-             {"most_in_a_tile", counts_of_work(r.largest)},
-             {"all_tiles", counts_of_work(r.total)}};
+             {"most_in_a_tile", r.largest},
+             {"all_tiles", r.total}};
     if (!r.digest.empty()) all["digest"] = r.digest;
     if (r.volumes) all["volumes"] = volumes_json(*r.volumes, r.volume_names);
     return all;

@@ -5,7 +5,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/cli/options/statistics.hpp>

@@ -2,7 +2,6 @@
 #include <terrane/cli/stages/outputs.hpp>
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 

@@ -3,8 +3,6 @@
 // Output of a conforming mesh of surfaces, shared by the commands that write one.
 #pragma once
 
-#include <filesystem>
-#include <string>
 #include <vector>
 
 #include <terrane/algorithms/mesh/mesh.hpp>

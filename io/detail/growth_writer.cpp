@@ -8,7 +8,6 @@
 #include <numeric>
 #include <optional>
 #include <queue>
-#include <utility>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>

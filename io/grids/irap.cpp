@@ -2,7 +2,6 @@
 #include <terrane/io/grids/irap.hpp>
 
 #include <cmath>
-#include <vector>
 
 #include <fmt/format.h>
 

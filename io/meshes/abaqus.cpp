@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/meshes/abaqus.hpp>
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <vector>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/meshes/vtk.hpp>
 
-#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>

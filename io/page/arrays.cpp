@@ -2,7 +2,6 @@
 #include <terrane/io/page/arrays.hpp>
 
 #include <algorithm>
-#include <stdexcept>
 #include <vector>
 
 #include <zlib.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/page/page.hpp>
 
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>

@@ -6,7 +6,6 @@
 #include <climits>
 #include <cmath>
 #include <map>
-#include <string>
 #include <utility>
 
 #include <fmt/format.h>

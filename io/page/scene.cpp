@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/page/scene.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 

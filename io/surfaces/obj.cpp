@@ -2,7 +2,6 @@
 #include <terrane/io/surfaces/obj.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 
 #include <fmt/format.h>

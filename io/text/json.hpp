@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +18,9 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include <terrane/algorithms/core/described.hpp>
+#include <terrane/kernel/point.hpp>
 
 namespace terrane::detail {
 
@@ -56,6 +60,19 @@ public:
              requires(const List& list) { list.begin() != list.end(); }) Json(const List& list) {
         auto& entries = value_.emplace<std::vector<Json>>();
         for (const auto& entry : list) entries.push_back(Json(entry));
+    }
+    Json(const Point3& p) : Json(std::array{p.x, p.y, p.z}) {}
+    /// Makes a text of a kind that has a name.
+    template <class Kind>
+    requires(std::is_enum_v<Kind>&& requires(Kind kind) { name_of(kind); }) Json(Kind kind) :
+        Json(name_of(kind)) {}
+    /// Makes an object of the members of a report.
+    template <Described Report>
+    Json(const Report& report) {
+        value_.emplace<Object>();
+        each_member(report, [this](std::string_view name, const auto& value) {
+            add_member(std::string(name), Json(value));
+        });
     }
     /// Makes an object if all items are pairs that begin with a string, else an array.
     Json(std::initializer_list<JsonItem> items);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +7,7 @@
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/search/method.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
+#include <terrane/io/report_members.hpp>
 
 #include "handles.hpp"
 #include "surfaces.hpp"
@@ -82,9 +82,7 @@ py::dict dict_of_cut(const VolumeReport& report) {
     const auto cuts = rows(report.surfaces, &SurfaceCut::area_inside, &SurfaceCut::area_outside,
                            &SurfaceCut::area_on_boundary, &SurfaceCut::pieces,
                            &SurfaceCut::open_length, &SurfaceCut::open_borders);
-    const auto borders =
-        rows(report.borders, &OpenBorder::surface, &OpenBorder::length, &OpenBorder::place);
-    return py::dict("surfaces"_a = cuts, "borders"_a = borders);
+    return py::dict("surfaces"_a = cuts, "borders"_a = rows(report.borders));
 }
 
 py::tuple cut(const ArrangementPointer& arrangement, const std::vector<std::uint32_t>& boundary,
@@ -145,17 +143,14 @@ void bind_boundaries(py::module_& module) {
 } // namespace
 
 py::dict to_dict(const RoundingReport& r) {
-    const auto lost = rows(r.vanished_regions, &VanishedRegions::surface, &VanishedRegions::exact,
-                           &VanishedRegions::rounded);
-    return py::dict(
-        "clean"_a = r.clean, "rounds"_a = r.rounds, "naive_contacts"_a = r.naive_contacts,
-        "contacts"_a = to_list(r.contacts), "surface_deviation"_a = r.surface_deviation,
-        "max_allowed"_a = r.max_allowed, "sufficient_limit"_a = r.sufficient_limit,
-        "vanished_length"_a = r.vanished_length, "max_move"_a = r.max_move,
-        "arranged_again"_a = r.arranged_again, "deviation"_a = r.deviation,
-        "moved_input_vertices"_a = r.moved_input_vertices, "merged_vertices"_a = r.merged_vertices,
-        "collapsed_triangles"_a = r.collapsed_triangles, "vanished_regions"_a = lost,
-        "vanished"_a = owned(r.vanished));
+    auto all = dict_of(r);
+    all["clean"] = r.clean;
+    all["rounds"] = r.rounds;
+    all["contacts"] = to_list(r.contacts);
+    all["vanished_regions"] = rows(r.vanished_regions, &VanishedRegions::surface,
+                                   &VanishedRegions::exact, &VanishedRegions::rounded);
+    all["vanished"] = owned(r.vanished);
+    return all;
 }
 
 void bind_arrangement(py::module_& module) {

@@ -22,6 +22,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <terrane/algorithms/core/described.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/kernel/point.hpp>
 
@@ -136,9 +137,37 @@ py::object shown(const T& value) {
         return py::cast(value);
 }
 
+/// A tuple of the members that each report describes.
+template <class Items>
+py::list rows(const Items& reports) {
+    py::list all;
+    for (const auto& report : reports) {
+        py::list row;
+        each_member(report,
+                    [&row](std::string_view, const auto& value) { row.append(shown(value)); });
+        all.append(py::tuple(row));
+    }
+    return all;
+}
+
+/// A dict of the members that a report describes; lists stay lists.
+template <Described Report>
+py::dict dict_of(const Report& report) {
+    py::dict all;
+    each_member(report, [&all]<class T>(std::string_view name, const T& value) {
+        if constexpr (Described<T>)
+            all[to_text(name)] = dict_of(value);
+        else if constexpr (requires { value.size(); } && !std::is_same_v<T, std::string>)
+            all[to_text(name)] = py::cast(value);
+        else
+            all[to_text(name)] = shown(value);
+    });
+    return all;
+}
+
 /// A tuple of these members, or of what these functions return, for each item.
 template <class Items, class... Members>
-py::list rows(const Items& items, Members... members) {
+requires(sizeof...(Members) > 0) py::list rows(const Items& items, Members... members) {
     py::list all;
     for (const auto& item : items) all.append(py::make_tuple(shown(std::invoke(members, item))...));
     return all;

@@ -2,7 +2,6 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <terrane/algorithms/reconstruction/fill.hpp>

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
+#include <terrane/io/report_members.hpp>
 
 #include "fields.hpp"
 #include "handles.hpp"
@@ -20,34 +19,29 @@ using namespace py::literals;
 namespace {
 
 py::dict dict_of_improvement(const ImproveReport& r) {
-    return py::dict("corners"_a = r.corners, "curves"_a = r.curves, "sheets"_a = r.sheets,
-                    "splits"_a = r.splits, "collapses"_a = r.collapses, "swaps"_a = r.swaps,
-                    "moves"_a = r.moves, "refused_contact"_a = r.refused_contact,
-                    "refused_deviation"_a = r.refused_deviation,
-                    "refused_shape"_a = r.refused_shape, "least_quality"_a = r.least_quality,
-                    "attempts"_a = r.attempts, "held_blocks"_a = r.held_blocks,
-                    "passes"_a = r.passes, "sides_kept"_a = r.sides_kept,
-                    "worst_cause"_a = to_text(name_of(r.worst_cause)));
+    auto all = dict_of(r);
+    all["sides_kept"] = r.sides_kept;
+    all["worst_cause"] = shown(r.worst_cause);
+    return all;
 }
 
 py::dict dict_of_joined(const SimplifyReport& r) {
     py::list blocks;
-    for (const ChangedBlock& b : r.blocks)
-        blocks.append(py::dict("block"_a = b.block, "volume"_a = b.volume, "parts"_a = b.parts,
-                               "into"_a = b.into));
+    for (const ChangedBlock& b : r.blocks) blocks.append(dict_of(b));
     const auto contacts = [](const std::vector<ChangedContact>& list) {
         return rows(
             list, [](const ChangedContact& c) { return c.between[0]; },
             [](const ChangedContact& c) { return c.between[1]; }, &ChangedContact::is_new);
     };
-    const auto left = rows(r.left, &LeftAlone::distance, &LeftAlone::place, &LeftAlone::reason);
-    const auto deviations = rows(r.deviations, &Deviation::out, &Deviation::back);
-    return py::dict("length"_a = r.resolution, "max_move"_a = r.max_move, "corners"_a = r.corners,
-                    "curves"_a = r.curves, "surfaces"_a = r.sheets, "divided"_a = r.divided,
-                    "rounds"_a = r.rounds, "attempts"_a = r.attempts, "blocks"_a = blocks,
-                    "block_contacts"_a = contacts(r.block_contacts),
-                    "surface_contacts"_a = contacts(r.surface_contacts), "vanished"_a = r.vanished,
-                    "kept_blocks"_a = r.kept, "deviations"_a = deviations, "left_alone"_a = left);
+    auto all = dict_of(r);
+    all["blocks"] = blocks;
+    all["block_contacts"] = contacts(r.block_contacts);
+    all["surface_contacts"] = contacts(r.surface_contacts);
+    all["vanished"] = r.vanished;
+    all["kept_blocks"] = r.kept;
+    all["deviations"] = rows(r.deviations, &Deviation::out, &Deviation::back);
+    all["left_alone"] = rows(r.left);
+    return all;
 }
 
 /// An improved mesh, and what was joined at a resolution before.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <algorithm>
 #include <vector>
 
 #include <terrane/algorithms/check/check.hpp>
@@ -7,6 +6,7 @@
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
 #include <terrane/algorithms/regions/regions.hpp>
+#include <terrane/io/report_members.hpp>
 
 #include "handles.hpp"
 #include "surfaces.hpp"
@@ -47,22 +47,14 @@ const Mesh& mesh_in(const MeshHandle& handle) {
     return *handle.mesh;
 }
 
-py::dict dict_of_spread(const Spread& s) {
-    return py::dict("min"_a = s.min, "mean"_a = s.mean, "max"_a = s.max,
-                    "percentiles"_a =
-                        py::cast(std::vector<double>(s.percentiles.begin(), s.percentiles.end())));
-}
-
 py::dict quality(const MeshPointer& handle, const HowToRun& how) {
     const auto q = run_stage(how, [mesh = handle->mesh](const Run& run) {
         return measure_quality(mesh->vertices, mesh->triangles, run);
     });
-    const std::vector<std::size_t> histogram(q.histogram.begin(), q.histogram.end());
-    return py::dict("triangles"_a = q.triangles, "q"_a = dict_of_spread(q.q),
-                    "smallest_angle"_a = dict_of_spread(q.smallest_angle),
-                    "largest_angle"_a = dict_of_spread(q.largest_angle),
-                    "edge_length"_a = dict_of_spread(q.edge_length),
-                    "share_above_08"_a = q.share_above_08, "histogram"_a = py::cast(histogram));
+    auto all = dict_of(q);
+    for (const char* spread : {"q", "smallest_angle", "largest_angle", "edge_length"})
+        all[spread]["percentiles"] = all[spread].attr("pop")("percentiles_1_5_50_95_99");
+    return all;
 }
 
 py::dict check_all(const std::vector<Surface>& surfaces, const HowToRun& how) {

@@ -9,6 +9,7 @@
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/structure/relations.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
+#include <terrane/io/report_members.hpp>
 #include <terrane/io/results.hpp>
 
 #include "fields.hpp"
@@ -108,20 +109,15 @@ ModelPointer make(const py::sequence& surfaces, const py::sequence& boundary,
     });
 }
 
-py::list to_list(const std::vector<Leak>& leaks) {
-    return rows(leaks, &Leak::from, &Leak::to, &Leak::borders, &Leak::length, &Leak::least,
-                &Leak::largest, &Leak::place);
-}
-
 /// (separating, all, verdicts, distance)
 py::tuple leaks(const ModelHandle& m) {
-    const auto all = to_list(leaks_of(m.model.borders));
+    const auto all = rows(leaks_of(m.model.borders));
     py::list verdicts;
     if (!m.leaks) return py::make_tuple(py::list(), all, verdicts, 0.0);
     constexpr std::array<const char*, 3> names{"separates", "harmless", "wide"};
     for (const LeakVerdict v : m.leaks->verdicts)
         verdicts.append(names[static_cast<std::size_t>(v)]);
-    return py::make_tuple(to_list(m.leaks->separating), all, verdicts, m.leaks->distance);
+    return py::make_tuple(rows(m.leaks->separating), all, verdicts, m.leaks->distance);
 }
 
 py::list borders(const ModelHandle& m) {

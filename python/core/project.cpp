@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/pipeline/build.hpp>
 #include <terrane/io/atomic/atomic_folder.hpp>
 #include <terrane/io/project.hpp>

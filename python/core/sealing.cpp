@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +7,7 @@
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/seal_rules.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
+#include <terrane/io/report_members.hpp>
 
 #include "handles.hpp"
 #include "model_handle.hpp"
@@ -20,21 +20,6 @@ using namespace py::literals;
 namespace {
 
 using NamedDistances = std::vector<std::pair<std::string, double>>;
-
-py::list to_list(const std::vector<SealChange>& changes) {
-    return rows(
-        changes,
-        [](const SealChange& c) {
-            return std::string(c.kind == SealKind::extended ? "extended" : "trimmed");
-        },
-        &SealChange::surface, &SealChange::length, &SealChange::largest, &SealChange::place,
-        &SealChange::triangles);
-}
-
-py::list to_list(const std::vector<OpenGap>& gaps) {
-    return rows(gaps, &OpenGap::from, &OpenGap::to, &OpenGap::reason, &OpenGap::edges,
-                &OpenGap::length, &OpenGap::width, &OpenGap::place);
-}
 
 py::list to_list(const std::vector<ClosedGap>& gaps) {
     return rows(gaps, &ClosedGap::from, &ClosedGap::to, &ClosedGap::length, &ClosedGap::width,
@@ -67,8 +52,8 @@ py::tuple seal_all(const py::sequence& surfaces, double distance, const py::dict
     auto made = run_stage(how, [given, distance, of = to_distances(distance_of)](const Run& run) {
         return sealed(std::move(*given), distance, of, run);
     });
-    const py::dict report("changes"_a = to_list(made.changes), "closed"_a = to_list(made.closed),
-                          "open"_a = to_list(made.open), "left"_a = made.left,
+    const py::dict report("changes"_a = rows(made.changes), "closed"_a = to_list(made.closed),
+                          "open"_a = rows(made.open), "left"_a = made.left,
                           "passes"_a = made.passes);
     return py::make_tuple(std::make_shared<Arrangement>(std::move(made.arrangement)),
                           from_surfaces(std::move(made.surfaces)), report);
@@ -79,20 +64,15 @@ py::dict suggest(const py::sequence& surfaces, const py::sequence& boundary, con
     auto around = std::make_shared<const std::vector<Surface>>(to_surfaces(boundary));
     const auto advice = run_stage(
         how, [given, around](const Run& run) { return advise_seal(*given, *around, {}, run); });
-    const auto breaks = rows(advice.choice.breaks, &GapBreak::low, &GapBreak::high,
-                             &GapBreak::distance, &GapBreak::gaps, &GapBreak::length);
-    const auto trials =
-        rows(advice.trials, &SealTrial::distance, &SealTrial::blocks, &SealTrial::small,
-             &SealTrial::changes, &SealTrial::triangles, &SealTrial::length, &SealTrial::left);
-    return py::dict("distance"_a = advice.choice.distance, "breaks"_a = breaks, "trials"_a = trials,
-                    "small_volume"_a = advice.small_volume);
+    return py::dict("distance"_a = advice.choice.distance, "breaks"_a = rows(advice.choice.breaks),
+                    "trials"_a = rows(advice.trials), "small_volume"_a = advice.small_volume);
 }
 
 } // namespace
 
 py::dict to_dict(const SealReport& report) {
-    return py::dict("distance"_a = report.distance, "changes"_a = to_list(report.changes),
-                    "closed"_a = to_list(report.closed), "open"_a = to_list(report.open),
+    return py::dict("distance"_a = report.distance, "changes"_a = rows(report.changes),
+                    "closed"_a = to_list(report.closed), "open"_a = rows(report.open),
                     "left"_a = report.left);
 }
 

@@ -4,7 +4,6 @@
 // and which nobody changes any more. The stages get a copy of it, which is freed when the stage ends.
 #pragma once
 
-#include <memory>
 #include <string_view>
 #include <vector>
 

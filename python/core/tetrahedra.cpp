@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/tetrahedra/check_tetrahedra.hpp>
-#include <terrane/algorithms/tetrahedra/split_nodes.hpp>
 #include <terrane/io/files.hpp>
+#include <terrane/io/report_members.hpp>
 
 #include "fields.hpp"
 #include "handles.hpp"
@@ -119,21 +117,9 @@ py::list block_volumes(const FilledBlocks& f) {
                 &BlockVolume::difference, &BlockVolume::bound, &BlockVolume::equal);
 }
 
-py::dict dict_of_shapes(const WorstShapes& s) {
-    return py::dict("quality"_a = s.quality, "least_angle"_a = s.least_angle,
-                    "largest_angle"_a = s.largest_angle);
-}
-
 /// What became of the shapes; None: they were left as the mesher made them.
 py::object optimised(const FilledBlocks& f) {
-    if (!f.optimised) return py::none();
-    const OptimiseReport& r = *f.optimised;
-    return py::dict("before"_a = dict_of_shapes(r.before), "after"_a = dict_of_shapes(r.after),
-                    "passes"_a = r.passes, "removed_edges"_a = r.removed_edges,
-                    "removed_faces"_a = r.removed_faces, "moved"_a = r.moved,
-                    "on_surfaces"_a = r.loosened, "contracted"_a = r.contracted,
-                    "inserted"_a = r.inserted, "remeshed"_a = r.remeshed, "left"_a = r.left,
-                    "untried"_a = r.untried, "effort"_a = r.effort, "cut_short"_a = r.is_cut_short);
+    return f.optimised ? py::object(dict_of(*f.optimised)) : py::none();
 }
 
 py::dict shape(const FilledBlocks& f) {

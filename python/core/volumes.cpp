@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <terrane/algorithms/mesh/validation.hpp>

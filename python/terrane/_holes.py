@@ -16,7 +16,7 @@ from ._interop import meshio_mesh, polydata
 from ._picture import card
 from ._report import facts
 from ._results import Result, by_value, counted
-from ._run import how
+from ._run import describing, how
 from ._surface import Surface, as_surface, parts_of_surfaces, surface_of_parts
 
 
@@ -231,6 +231,7 @@ def _holes_of(rows: Sequence[Tuple[Any, ...]]) -> List[FilledHole]:
             for number, border, report, refused in rows]
 
 
+@describing(_core.fill_fields)
 def fill(surface: Any, *, method: str = "kriging", holes: Optional[Sequence[int]] = None, model: str = "auto",
          max_area: float = math.inf, mesh_size: float = 0, rings: int = 5, gap_slope: float = 0.25,
          isotropic: bool = False, bridge_faults: bool = False,
@@ -247,14 +248,7 @@ def fill(surface: Any, *, method: str = "kriging", holes: Optional[Sequence[int]
         Numbers of the holes, from 1, the largest first; all unless given.
     model : str, optional
         Of the variogram: "auto", "spherical", "exponential", "gaussian", "power", "matern".
-    max_area, mesh_size : float, optional
-        Larger holes stay open, squared unit; edge length of the filling, 0: that of the border.
-    rings : int, optional
-        For kriging: least number of rings of triangles round the hole that are data, 1 to 1000.
-    gap_slope, isotropic : optional
-        When a hole is a gap; whether the variogram is the same in all directions.
-    bridge_faults : bool, optional
-        Fills gaps that a fault has torn as well.
+    OPTIONS
     smoothing : float or "auto", optional
         Misfit of "rbf" to noisy data, unit of the surface.
 

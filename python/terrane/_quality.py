@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import inspect
 from typing import Any, Dict, Mapping, Optional
 
 import numpy as np
@@ -13,11 +12,10 @@ from ._arrays import Float64Array, UInt32Array, as_count, as_flag, as_mapping, a
 from ._blocks import Volumes
 from ._errors import bad_option
 from ._mesh import Mesh, OnMesh, mesh_of, proven
-from ._run import how
+from ._run import describing, how
 from ._surface import as_surface, parts_of_surfaces
 
-_FIELDS = {field["name"]: field for field in _core.improve_fields}
-_OPTIONS = tuple(name for name, field in _FIELDS.items() if field["type"] == "double")
+_OPTIONS = tuple(field["name"] for field in _core.improve_fields if field["type"] == "double")
 
 
 class Improved(OnMesh):
@@ -96,6 +94,7 @@ def improve_options(mesh: Mesh, edge_length: float, options: Mapping[str, Any]) 
     return values
 
 
+@describing(_core.improve_fields)
 def improve(mesh: Any, edge_length: float = 0, *, max_deviation: float = 0,
             edge_length_of: Optional[Mapping[str, float]] = None, passes: int = 6,
             resolution: float = 0, dissolve: bool = False,
@@ -105,21 +104,11 @@ def improve(mesh: Any, edge_length: float = 0, *, max_deviation: float = 0,
     Parameters
     ----------
     mesh : Mesh, or a result with one
-    edge_length : float, optional
-        Wanted length of edges; 0: each surface keeps about as many triangles as it has.
-    max_deviation : float, optional
-        No point of a surface moves farther from the original surface than this; 0: a twentieth of the wanted length.
+    OPTIONS
+    **options : float
+        Those of them that the signature does not have.
     edge_length_of : dict, optional
         Wanted length of edges on one surface; None: `edge_length`.
-    passes : int, optional
-        Limits the passes of the four operations, 1 to 100.
-    resolution : float, optional
-        Experimental. Joins places that are nearer than this first, where it can: corners, short curves, narrow strips,
-        thin gaps, sharp wedges. No surface moves by more, both steps together; 0: nothing is joined.
-    dissolve : bool, optional
-        Lets blocks go that are thinner than `resolution` on average.
-    **options : float
-        More of them, by keyword.
 
     Examples
     --------
@@ -143,17 +132,6 @@ def improve(mesh: Any, edge_length: float = 0, *, max_deviation: float = 0,
                                                                                   how(threads, progress))
     made = Mesh(core)
     return Improved(made, Volumes(volumes, made), near_of, bounds, deviations, report, joined)
-
-
-def _list_options() -> None:
-    """State what each option does in the docstring of improve()."""
-    own = inspect.signature(improve).parameters
-    others = [f"{name}: {field['text']}; default {field['default']}."
-              for name, field in _FIELDS.items() if name not in own]
-    improve.__doc__ = (improve.__doc__ or "").replace("More of them, by keyword.", "\n        ".join(others))
-
-
-_list_options()
 
 
 def distance(from_surface: Any, to_surface: Any, *, threads: Optional[int] = None, progress: Any = None) -> float:

@@ -60,4 +60,4 @@ class RoundingReport(NamedTuple):
 def rounding_report(values: Dict[str, Any]) -> RoundingReport:
     """Return the report of the extension module with names."""
     named: Dict[str, Any] = {**values, "contacts": [Contact(*c) for c in values["contacts"]]}
-    return RoundingReport(**named)
+    return RoundingReport(**{name: named[name] for name in RoundingReport._fields})

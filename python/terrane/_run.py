@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The keyword arguments ``threads`` and ``progress``, which all stages have."""
+"""The keyword arguments of stages: ``threads`` and ``progress``, which all have, and described options."""
 
 from __future__ import annotations
 
 import os
-from typing import Any, Callable, Optional
+from typing import Any, Callable, Dict, Optional, Sequence, TypeVar
 
 from . import _core
 from ._arrays import as_count
 
 Progress = Callable[[str, float], Any]
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+_TYPES = {"double": "float", "other value": "float", "uint32_t": "int", "bool": "bool"}
+_WORDS = {"false": "False", "true": "True"}
 
 
 def cores() -> int:
@@ -42,3 +46,18 @@ def how(threads: Optional[int], progress: Any) -> _core.HowToRun:
     if hasattr(progress, "update") and hasattr(progress, "n"):
         return _core.HowToRun(count, _Bar(progress))
     raise TypeError("progress is a function of (stage, share), or a bar with update(), such as tqdm's")
+
+
+def describing(fields: Sequence[Dict[str, Any]]) -> Callable[[Function], Function]:
+    """Return a decorator that lists described options, if a docstring lacks them, where it says OPTIONS."""
+    def describe(function: Function) -> Function:
+        doc = function.__doc__ or ""
+        lines = []
+        for field in fields:
+            name, default = field["name"], _WORDS.get(field["default"], field["default"])
+            if field["type"] in _TYPES and f"\n    {name} :" not in doc:
+                lines.append(f"    {name} : {_TYPES[field['type']]}, optional\n"
+                             f"        {field['text']}; default: {default}.\n")
+        function.__doc__ = doc.replace("    OPTIONS\n", "".join(lines))
+        return function
+    return describe

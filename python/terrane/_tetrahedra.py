@@ -15,7 +15,7 @@ from ._errors import Error, bad_option
 from ._interop import meshio_mesh, unstructured_grid
 from ._parts import Parts, number_of
 from ._results import Part, Result, counted
-from ._run import how
+from ._run import describing, how
 
 
 class Violation(NamedTuple):
@@ -237,6 +237,7 @@ class Tetrahedra(Result):
         return self.vertices, self.faces
 
 
+@describing(_core.tetrahedra_fields)
 def tetrahedralize(model: Parts, *, edge_length: Optional[float] = None,
                    size_of: Optional[Mapping[str, float]] = None,
                    size_in: Optional[Mapping[Any, float]] = None, quality: Optional[float] = None,
@@ -250,29 +251,20 @@ def tetrahedralize(model: Parts, *, edge_length: Optional[float] = None,
     Parameters
     ----------
     model : Model
-    edge_length : float, optional
-        Wanted length of edges everywhere; None: as few tetrahedra as possible.
+    OPTIONS
     size_of : dict, optional
         Edge lengths on surfaces, by name.
     size_in : dict, optional
         Edge lengths in blocks, by name or number.
-    quality : float, optional
-        Largest ratio of circumradius to shortest edge, at least 1.1; None: no limit.
-    max_volume : float, optional
-        Largest volume of a tetrahedron, cubic unit.
     split : list of str, optional
         Surfaces whose sides get nodes of their own; "fault": all with that role.
-    split_surfaces : bool, optional
-        Lets triangles of surfaces be divided for `quality`.
     optimise : bool, optional
         Improve the shapes that the mesher made; `optimised` of the result says what that did.
     outside : bool, optional
         Fill the space between the model and a box around it as well, as block 0.
-    around, margin : optional
-        That box as two corners; or the bounding box, larger by this share of its longest edge.
+    around : pair of points, optional
+        Corners of that box.
     mesher : {"auto", "tetgen", "gmsh"}, optional
-    time_limit : float, optional
-        Time limit in seconds for each of the ways in which a mesher is tried.
     helper, gmsh_helper : path, optional
         The helper programs, where they are not found.
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <cmath>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 

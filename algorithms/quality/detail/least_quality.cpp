@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/quality/detail/least_quality.hpp>
 
-#include <algorithm>
 #include <utility>
 
 #include <terrane/algorithms/quality/detail/constants.hpp>

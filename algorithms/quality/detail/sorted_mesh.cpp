@@ -2,7 +2,6 @@
 #include <terrane/algorithms/quality/detail/sorted_mesh.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <tuple>

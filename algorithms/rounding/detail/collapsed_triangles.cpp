@@ -2,7 +2,6 @@
 #include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
 
 #include <algorithm>
-#include <utility>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>

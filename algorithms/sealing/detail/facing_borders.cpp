@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>

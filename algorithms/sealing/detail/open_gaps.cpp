@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/sealing/detail/open_gaps.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <utility>
 #include <vector>
 
 #include <terrane/algorithms/mesh/triangle_tree.hpp>

@@ -2,10 +2,8 @@
 #include <terrane/algorithms/simplification/detail/glue.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include <terrane/algorithms/mesh/vectors.hpp>

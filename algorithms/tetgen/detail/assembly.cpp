@@ -3,11 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
-#include <limits>
 #include <numeric>
-#include <string>
 #include <tuple>
 
 #include <fmt/format.h>

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <span>
-#include <string>
 #include <type_traits>
 
 #include <fmt/format.h>

@@ -9,9 +9,7 @@
 #include <map>
 #include <new>
 #include <numeric>
-#include <set>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <gmsh.h>

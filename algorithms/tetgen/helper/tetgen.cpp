@@ -6,7 +6,6 @@
 // the program as a whole is AGPL-3.0-or-later.
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <new>
 #include <span>
 #include <string>

@@ -6,9 +6,7 @@
 #include <terrane/algorithms/tolerance/detail/thin_cells.hpp>
 
 #include <algorithm>
-#include <array>
 #include <functional>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <set>

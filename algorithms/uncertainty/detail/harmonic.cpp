@@ -2,7 +2,6 @@
 #include <terrane/algorithms/uncertainty/detail/harmonic.hpp>
 
 #include <algorithm>
-#include <utility>
 
 #include <terrane/kernel/assertion.hpp>
 

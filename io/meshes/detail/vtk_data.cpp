@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/meshes/detail/vtk_data.hpp>
 
-#include <algorithm>
 #include <array>
 #include <new>
 #include <type_traits>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/points/detail/heading.hpp>
 
-#include <algorithm>
 #include <initializer_list>
 #include <string>
 #include <utility>
