@@ -11,8 +11,8 @@
 
 namespace terrane {
 
-/// The rules that the verifier judges by. R22 to R29, R35 and R36 are for surfaces that were
-/// changed, R30 to R34 for volumes, R40 to R49 for tetrahedra, R50 to R52 for
+/// The rules that the verifier judges by. R22 to R29, R35, R36 and R39 are for surfaces that were
+/// changed, R37 and R38 for the mesh of doubles, R30 to R34 for volumes, R40 to R49 for tetrahedra, R50 to R52 for
 /// volumes of interest, R53 to R57 for sealed surfaces, R60 to R69 for layers.
 enum class Rule : std::uint8_t {
     R1_indices,   ///< an index is out of range, a list unsorted or empty
@@ -60,6 +60,9 @@ enum class Rule : std::uint8_t {
     R35_fillings,         ///< new triangles do not close whole borders of a surface
     R36_embedded,         ///< a new triangle has no area, or meets another one of its surface
                           ///< improperly
+    R37_images,           ///< the parts of input triangles are torn, or enclose a space
+    R38_places,           ///< triangles bound other blocks than in the exact part
+    R39_beside,           ///< sheets lie around a curve, or between blocks, otherwise than before
     // Tetrahedra: see docs/explanation/tetrahedra.md.
     R40_tetrahedra_lists = 39, ///< as R1, in the lists about tetrahedra
     R41_positive,              ///< a tetrahedron is flat or inverted
@@ -130,14 +133,23 @@ inline constexpr std::size_t most_contacts_listed = 100'000;
 
 /// Options of verify_certificate().
 struct VerifyOptions {
-    /// The largest deviation that is accepted, unit of the input. None: the largest of
-    /// (1) 2^-20 of the diagonal of the box around the triangles of the inputs,
-    /// (2) 2^-40 of their largest coordinate, which is 4096 units in its last place, and
-    /// (3) 16 times the smallest positive double.
+    /// The largest deviation that is accepted, unit of the input. None: 2^-40 of the largest
+    /// coordinate of the triangles in the input files, which is at least 4 096 spacings of the
+    /// doubles there, or 16 times the smallest positive double if that is more.
     std::optional<double> max_deviation{};
     /// The largest limit of a change that is accepted, unit of the input. None: a twentieth of the
     /// diagonal of the box around the triangles of the inputs.
     std::optional<double> max_change{};
+};
+
+/// How the mesh of doubles differs from the exact part. A meeting is a set of input triangles that
+/// have a vertex in common, without those that have vanished.
+struct Differences {
+    std::size_t lost = 0;   ///< meetings in the exact part only
+    std::size_t made = 0;   ///< meetings in the doubles only
+    std::size_t turned = 0; ///< edges around which the same triangles lie in another order
+
+    friend bool operator==(const Differences&, const Differences&) = default;
 };
 
 /// The verifier's own measure of the mesh of doubles.
@@ -146,6 +158,11 @@ struct Measured {
     double max_deviation = 0; ///< the largest that was accepted
     std::size_t vanished = 0; ///< number of input triangles with area of which nothing is left
     std::size_t partly_vanished = 0; ///< number of those of which only a thin part is not left
+    bool same_cells =
+        false; ///< the doubles have the triangles of the exact part, in the same order
+               ///< around edges and with the same blocks: the same regions, curves
+               ///< and blocks
+    Differences differences; ///< from the exact part
 };
 
 /// The verifier's own measure of blocks and tetrahedra.

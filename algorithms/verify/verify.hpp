@@ -57,13 +57,17 @@ std::vector<Violation> verify_conforming(std::span<const Point3> vertices,
 //     within `deviation` of the mesh (R12); so are thin parts of others that have vanished. The
 //     verifier computes the deviation itself, and refuses one that is larger than the largest that
 //     is accepted; see VerifyOptions.
+//     The triangles that name an input triangle are connected as its exact parts are, without
+//     further holes or closed parts, and so are those of two with a common side; no two surfaces
+//     come apart (R37).
 // (4) If the mesh has the triangles of the exact part, each vertex is within `max_move` of the
-//     exact vertex (R14).
+//     exact vertex (R14), and what bounds its blocks is around the same others (R38).
 // (5) Its intersection edges, its regions and the digest are correct (R15 to R17).
-// (6) An improved mesh is conforming, has the regions, curves and corners of the mesh before, and
-//     is within the stated limits of it, both ways (R22 to R27).
-// (7) Filled surfaces have all that was given, and new triangles close whole borders without
-//     meeting others (R28, R29, R35, R36).
+// (6) An improved mesh is conforming, has the regions, curves and corners of the mesh before, in the
+//     same order and between the same blocks, and is within the stated limits of it, both ways (R22
+//     to R27, R39).
+// (7) Filled surfaces have all that was given, and new triangles are discs that close whole borders
+//     without meeting others (R28, R29, R35, R36).
 // (8) Layers are the pointwise stack of the surfaces that they were made of (R60 to R66).
 // (9) The mesh of a volume of interest is the part inside of it, all of that and nothing else (R50
 //     to R52); (3) and (4) hold for the parts inside.
@@ -106,6 +110,11 @@ Verdict verify_certificate(std::span<const InputFile> files, const Certificate& 
 /// R2.
 Verdict verify_rounded(std::span<const Surface> inputs, const ArrangementClaim& exact,
                        const RoundedClaim& rounded, const VerifyOptions& options = {});
+
+/// Judges the mesh of doubles of a certificate by itself. `surfaces` are those that the exact part is
+/// about. Precondition: as for verify_rounded(), and the certificate has doubles.
+Verdict verify_doubles(std::span<const Surface> surfaces, const Certificate& certificate,
+                       const VerifyOptions& options);
 
 /// Judges an output file by its contents: whether it is the file that the certificate names, and
 /// has all bytes that follow from the certificate, and no others (R21). A file of float32 must be

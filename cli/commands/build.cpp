@@ -233,7 +233,7 @@ private:
         const auto written = must(
             terrane::write_certificates(results(), read_, built().arranged, to, session_.run()));
         for (const WrittenCertificate& c : written) {
-            warn_of_deviation(c.name, c.deviation, built().arranged.surfaces);
+            warn_of_refusal(c.name, to / c.name, result_of(built().arranged));
             written_.push_back(c.name);
         }
     }

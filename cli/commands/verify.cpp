@@ -34,9 +34,9 @@ formats that it does not write are bound by their SHA-256 only. Name a file that
 A certificate may come from anybody: of the files that it names, only those in its folder, or in that
 of --folder, are opened. Only files of the stated size are read.
 
-The verifier computes how far the mesh is from the inputs. It accepts at most 2^-20 of the diagonal
-of the box around them or, if that is more, 2^-40 of their largest coordinate. Where surfaces were
-changed, it accepts limits up to a twentieth of that diagonal.
+The verifier computes how far the mesh is from the inputs. It accepts at most 2^-40 of their largest
+coordinate, some thousand spacings of the doubles. Where surfaces were changed, it accepts limits up
+to a twentieth of the diagonal of the box around the inputs.
 
 Exit status: 0 all is verified; 1 refuted (which rule, which elements); 2 a file cannot be read, or
 nothing is verified about an output file; 3 a limit of time or memory was reached, or internal.

@@ -69,6 +69,7 @@ std::string doubles_text(const Judgement& judged) {
     const Measured& measured = *judged.verdict.measured;
     auto text = counted(rounded->triangles.size(), "triangle") + " of doubles, " +
                 (rounded->clean ? "conforming" : "not conforming, as it says");
+    if (measured.same_cells) text += ", with the same regions, curves and blocks";
     text += measured.deviation > 0
                 ? fmt::format(", at most {} from the exact result ({} is accepted)",
                               figure(measured.deviation, 3), figure(measured.max_deviation, 3))
@@ -78,6 +79,11 @@ std::string doubles_text(const Judgement& judged) {
     if (measured.partly_vanished > 0)
         text += fmt::format("; a thin part of {} vanished",
                             counted(measured.partly_vanished, "input triangle"));
+    const auto& [lost, made, turned] = measured.differences;
+    if (lost + made > 0)
+        text += fmt::format("; {} of input triangles lost, {} new", counted(lost, "meeting"), made);
+    if (turned > 0)
+        text += fmt::format("; another order of triangles around {}", counted(turned, "edge"));
     return text;
 }
 
@@ -247,6 +253,10 @@ std::string verdict_json(const Judgement& judged) {
         json["max_deviation"] = measured->max_deviation;
         json["vanished"] = measured->vanished;
         json["partly_vanished"] = measured->partly_vanished;
+        json["same_cells"] = measured->same_cells;
+        json["lost_meetings"] = measured->differences.lost;
+        json["new_meetings"] = measured->differences.made;
+        json["turned_edges"] = measured->differences.turned;
     }
     if (const auto& blocks = judged.verdict.blocks) {
         json["blocks"] = blocks->blocks;

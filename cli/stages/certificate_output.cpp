@@ -2,6 +2,7 @@
 #include <terrane/cli/stages/certificate_output.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,8 @@
 #include <terrane/io/text/utf8.hpp>
 
 namespace terrane::cli {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -70,10 +73,37 @@ void add_proof(CLI::App& command, ProofOptions& options) {
               "Write the exact coordinates, as fractions");
 }
 
-void warn_of_deviation(const std::string& certificate, double deviation,
-                       std::span<const Surface> inputs) {
+namespace {
+
+/// Warns if doubles that were divided anew are not connected as the exact part. Surfaces that nearly
+/// coincide can overlap themselves where rounding joins them.
+void warn_of_images(const std::string& certificate, const fs::path& file,
+                    const CertifiedResult& result) {
+    if (stated_deviation(result) == result.rounded->report.deviation) return;
+    const auto text = must(read_file(file));
+    const auto parsed = must(parse_certificate(text, certificate));
+    const auto found =
+        verify_doubles(result.surfaces, parsed, {.max_deviation = parsed.rounded->deviation})
+            .violations;
+    const auto flaw = std::ranges::find(found, Rule::R37_images, &Violation::rule);
+    if (flaw != found.end())
+        warn(fmt::format("terrane verify refuses {}: {}", certificate, flaw->sentence));
+}
+
+} // namespace
+
+void warn_of_refusal(const std::string& certificate, const fs::path& file,
+                     const CertifiedResult& result) {
+    if (result.rounded != nullptr && result.layered == nullptr)
+        warn_of_images(certificate, file, result);
+    const double deviation = stated_deviation(result);
+    if (deviation == 0) return;
+    const auto own = result.surfaces.first(result.surfaces.size() - result.boundary_count);
+    std::vector<Surface> inputs(own.begin(), own.end());
+    for (std::size_t s = 0; s < result.growth.size(); ++s)
+        inputs[s].triangles.resize(result.growth[s].given);
     const double accepted = default_max_deviation(inputs);
-    if (!(deviation > accepted)) return;
+    if (deviation <= accepted) return;
     warn(fmt::format("{} states a deviation of {}, and terrane verify accepts at most {} unless it "
                      "is given --max-deviation {}",
                      certificate, figure(deviation), figure(accepted, 3), deviation));
@@ -133,7 +163,7 @@ void write_certificate(const std::string& path, const CertifiedResult& result, s
                        Session& session) {
     session.begin("certificate", Phase::computing);
     write(path, must(certify(result, path, session.run())), told, session);
-    warn_of_deviation(path, stated_deviation(result), result.surfaces);
+    warn_of_refusal(path, path, result);
 }
 
 void write_exact(const ProofOptions& options, const Arrangement& exact, std::FILE* told,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdio>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,10 +26,10 @@ void add_proof(CLI::App& command, ProofOptions& options);
 /// Adds --certificate only.
 void add_certificate(CLI::App& command, std::string& certificate);
 
-/// Warns if `terrane verify` refuses a certificate unless an option allows its deviation. `inputs`
-/// are all surfaces that it is about.
-void warn_of_deviation(const std::string& certificate, double deviation,
-                       std::span<const Surface> inputs);
+/// Warns if `terrane verify` refuses the certificate of a result in `file`, or accepts its deviation
+/// only with an option.
+void warn_of_refusal(const std::string& certificate, const std::filesystem::path& file,
+                     const CertifiedResult& result);
 
 /// Checks the file names before any work is done. Errors: bad_option, cannot_open.
 void plan_proof(const ProofOptions& options, const FileOptions& files);

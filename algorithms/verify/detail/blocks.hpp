@@ -27,9 +27,20 @@ struct Shells {
     Numbers component_of;          ///< per shell: the lowest triangle of its component
 };
 
-/// Links the sides of triangles around each edge. Precondition: the mesh is conforming, so that no
-/// two triangles at an edge have the same direction. Cost: sorting, and exact directions at edges
-/// with more than two triangles.
+/// Two sides that face each other around an edge.
+struct Facing {
+    Edge edge{};
+    std::array<std::uint32_t, 2> sides{};
+
+    friend auto operator<=>(const Facing&, const Facing&) = default;
+};
+
+/// Returns the sides that face each other around edges, sorted. Precondition: the mesh is
+/// conforming, so that no two triangles at an edge have the same direction. Cost: sorting, and exact
+/// directions at edges with more than two triangles.
+std::vector<Facing> facing_sides(const ExactMesh& mesh);
+
+/// Links the sides that face each other. Precondition and cost as for facing_sides().
 Shells find_shells(const ExactMesh& mesh);
 
 /// Where the shells lie.

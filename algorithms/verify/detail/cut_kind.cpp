@@ -11,11 +11,13 @@
 #include <iterator>
 #include <utility>
 
+#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/verify/detail/cut.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 #include <terrane/algorithms/verify/detail/rounded_parts.hpp>
 #include <terrane/algorithms/verify/detail/sealed.hpp>
+#include <terrane/algorithms/verify/verify.hpp>
 
 namespace terrane::verifier {
 
@@ -144,16 +146,12 @@ void judge_lists(std::span<const Surface> files, const Certificate& certificate,
             {Rule::R51_dropped, {}, "the dropped triangles are unsorted or out of range"});
 }
 
-/// Returns the options with the largest deviation that is accepted. It does not depend on what was
-/// added to surfaces.
-VerifyOptions with_deviation(const std::vector<Surface>& surfaces, std::span<const Surface> own,
-                             VerifyOptions options) {
-    if (options.max_deviation) return options;
-    std::vector<Surface> given(own.begin(), own.end());
-    given.insert(given.end(), surfaces.begin() + static_cast<std::ptrdiff_t>(own.size()),
-                 surfaces.end());
+/// Returns the options with the largest deviation that is accepted. It depends on the surfaces
+/// of the input files alone, not on a volume or on triangles that the certificate names.
+VerifyOptions with_deviation(std::span<const Surface> own, VerifyOptions options) {
     Violations none; // R1 holds
-    options.max_deviation = default_max_deviation(join_inputs(given, none));
+    if (!options.max_deviation)
+        options.max_deviation = default_max_deviation(join_inputs(own, none));
     return options;
 }
 
@@ -182,7 +180,7 @@ void judge_surfaces(std::span<const Surface> files, const Certificate& certifica
         check_sealed({surfaces, own, *certificate.sealed, certificate.exact, cut.dropped, outside},
                      found);
     if (certificate.rounded)
-        judge_doubles(surfaces, certificate, with_deviation(surfaces, own, options), verdict);
+        judge_doubles(surfaces, certificate, with_deviation(own, options), verdict);
 }
 
 void parse_cut_sections(const Node& node, Certificate& certificate) {
@@ -232,3 +230,17 @@ const Kind& sealed_kind() {
 }
 
 } // namespace terrane::verifier
+
+namespace terrane {
+
+Verdict verify_doubles(std::span<const Surface> surfaces, const Certificate& certificate,
+                       const VerifyOptions& options) {
+    if (!certificate.cut)
+        return verify_rounded(surfaces, certificate.exact, *certificate.rounded, options);
+    const StandardArithmetic arithmetic;
+    Verdict verdict;
+    verifier::judge_doubles(surfaces, certificate, options, verdict);
+    return verdict;
+}
+
+} // namespace terrane

@@ -281,7 +281,7 @@ void check_vanished(const RoundedParts& parts, std::uint32_t input, const Remain
 } // namespace
 
 Distances check_distances(const RoundedParts& parts, Violations& found) {
-    if (parts.same_triangles) return {root_above(largest_move(parts, found), parts.scale), 0};
+    if (parts.same_triangles) return {root_above(largest_move(parts, found), parts.scale), {}};
     Squared farthest = farthest_from_parents(parts, found);
     const Remains remains(parts);
     Distances result;
@@ -292,12 +292,12 @@ Distances check_distances(const RoundedParts& parts, Violations& found) {
             parts.exact_children[input].empty() || is_unchanged(parts, input))
             continue;
         all_unchanged = false;
-        if (!parts.is_cut.empty() && parts.is_cut[input])
-            result.partly_vanished += check_cut(parts, input, remains, found) ? 1 : 0;
-        else if (parts.children[input].empty())
+        const bool is_cut = !parts.is_cut.empty() && parts.is_cut[input];
+        if (!is_cut && parts.children[input].empty())
             check_vanished(parts, input, remains, found);
-        else if (check_covered(parts, input, remains, found))
-            ++result.partly_vanished;
+        else if (is_cut ? check_cut(parts, input, remains, found)
+                        : check_covered(parts, input, remains, found))
+            result.partly_vanished.push_back(input);
     }
     // (5/2 c)^2, and more than the integers moved points
     const mpz_class root = 5 * parts.quarter + (parts.is_cut.empty() ? 0 : 8);

@@ -5,13 +5,14 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <terrane/algorithms/verify/detail/contacts.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
+#include <terrane/algorithms/verify/detail/joined_sets.hpp>
 #include <terrane/algorithms/verify/detail/output.hpp>
 
 namespace terrane::verifier {
@@ -46,6 +47,7 @@ public:
         merge_vertices();
         find_uses();
         check_edges();
+        check_fillings();
         check_rings();
         check_contacts();
         check_extent();
@@ -134,6 +136,48 @@ private:
         }
     }
 
+    /// A connected filling. Without the corners and edges of its border, the Euler characteristic of
+    /// a disc is 1.
+    struct Filling {
+        std::int64_t characteristic = 0;
+        std::size_t along = 0, against = 0; ///< edges of the border, by the given triangles there
+    };
+
+    /// Checks that each connected filling is a disc, and faces the side of some given triangle at
+    /// its border.
+    void check_fillings() {
+        std::map<std::uint32_t, Filling> fillings;
+        std::set<std::uint32_t> seen;
+        for (const auto& [edge, uses] : uses_)
+            for (const std::uint32_t a : uses[0])
+                for (const std::uint32_t b : uses[1])
+                    if (a >= new_from() && b >= new_from()) joined_.join(a, b);
+        for (std::uint32_t t = new_from(); t < triangles_.size(); ++t) {
+            Filling& filling = fillings[joined_.find(t)];
+            ++filling.characteristic;
+            for (const std::uint32_t v : triangles_[t])
+                if (v >= given_.vertices.size() && seen.insert(v).second) ++filling.characteristic;
+        }
+        for (const auto& [edge, uses] : uses_) {
+            Numbers all = uses[0];
+            all.insert(all.end(), uses[1].begin(), uses[1].end());
+            const auto [given, added] = std::ranges::minmax(all);
+            if (added < new_from()) continue;
+            Filling& filling = fillings[joined_.find(added)];
+            if (given >= new_from())
+                --filling.characteristic;
+            else
+                ++(uses[0].size() == 1 ? filling.along : filling.against);
+        }
+        for (const auto& [t, filling] : fillings) {
+            if (filling.characteristic != 1)
+                report(Rule::R35_fillings, t, "is of a filling that is no disc in one hole");
+            if (filling.along == 0)
+                report(Rule::R35_fillings, t,
+                       "faces another side than all given triangles around its hole");
+        }
+    }
+
     /// Checks that the triangles round a new vertex form one ring, and that no ring is closed round
     /// a given one.
     void check_rings() {
@@ -191,19 +235,8 @@ private:
 
     // --- R26 -------------------------------------------------------------------------------------
 
-    std::uint32_t root(std::uint32_t t) {
-        while (joined_[t] != t) t = joined_[t] = joined_[joined_[t]];
-        return t;
-    }
-
     /// Checks the box of each connected filling.
     void check_extent() {
-        joined_.resize(triangles_.size());
-        std::iota(joined_.begin(), joined_.end(), 0U);
-        for (const auto& [edge, uses] : uses_)
-            for (const std::uint32_t a : uses[0])
-                for (const std::uint32_t b : uses[1])
-                    if (a >= new_from() && b >= new_from()) joined_[root(a)] = root(b);
         std::vector<Point3> points(vertices_.begin(), vertices_.end());
         points.push_back({part_.limit, 0, 0});
         const auto exact = scale_to_integers(points).points;
@@ -214,7 +247,7 @@ private:
         std::map<std::uint32_t, Extent> borders;
         for_each_new_corner([&](std::uint32_t t, std::uint32_t v) {
             if (v >= given_.vertices.size()) return;
-            Extent& box = borders[root(t)];
+            Extent& box = borders[joined_.find(t)];
             for (std::size_t i = 0; i < 3; ++i) {
                 const mpz_class& at = exact[v][i];
                 if (!box.any || at < box.low[i]) box.low[i] = at;
@@ -223,7 +256,7 @@ private:
             box.any = true;
         });
         for_each_new_corner([&](std::uint32_t t, std::uint32_t v) {
-            const Extent& box = borders[root(t)];
+            const Extent& box = borders[joined_.find(t)];
             for (std::size_t i = 0; i < 3; ++i)
                 if (!box.any || exact[v][i] > box.high[i] + exact.back()[0] ||
                     exact[v][i] < box.low[i] - exact.back()[0])
@@ -246,7 +279,7 @@ private:
     std::vector<Triangle> triangles_; ///< indices into vertices_
     bool oriented_ = true;            ///< no two given triangles face different sides at an edge
     std::map<Edge, Uses> uses_;
-    Numbers joined_; ///< disjoint sets of triangles
+    JoinedSets joined_{part_.triangles}; ///< of new triangles of the same filling
 };
 
 void check_numbers(const FilledClaim& filled, std::size_t surfaces, double accepted,

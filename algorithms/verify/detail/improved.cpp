@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
+#include <terrane/algorithms/verify/detail/blocks.hpp>
 #include <terrane/algorithms/verify/detail/distance.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/nearness.hpp>
@@ -34,7 +37,9 @@ public:
         points_.insert(points_.end(), improved.vertices.begin(), improved.vertices.end());
         auto all = points_;
         for (const double limit : improved.limits) all.push_back({limit, 0, 0});
-        exact_ = scale_to_integers(all).points;
+        auto [exact, scale] = scale_to_integers(all);
+        exact_ = std::move(exact);
+        scale_ = std::move(scale);
         for (std::size_t s = 0; s < improved.limits.size(); ++s)
             limits_.push_back({improved.limits[s], exact_[points_.size() + s][0]});
         exact_.resize(points_.size());
@@ -49,7 +54,8 @@ public:
     void check() {
         check_sheets();
         check_curves();
-        if (!found_.empty()) return; // distances are between what corresponds
+        if (!found_.empty()) return; // the rest is between what corresponds
+        check_places();
         for (std::uint32_t s = 0; s < old_.triangles.size(); ++s) {
             check_distances_of_sheet(s);
             check_side(s);
@@ -109,6 +115,12 @@ private:
                    "the curve along vertices " + text(Edge{edge[0], edge[1]}) +
                        " of the mesh before has not been kept");
         }
+        for (const auto& [key, count] : old_.points)
+            if (!new_.points.contains(key))
+                report(rule, {}, "a point where parts of the mesh before touch has not been kept");
+        for (const auto& [key, count] : new_.points)
+            if (!old_.points.contains(key))
+                report(rule, {}, "parts of the mesh touch in a point where none did before");
         for (const auto& [key, count] : new_.chains)
             if (!old_.chains.contains(key)) {
                 const Triangle& edge = new_.curves.at(key).front();
@@ -116,6 +128,117 @@ private:
                        "the curve along vertices " + text(Edge{edge[0], edge[1]}) +
                            " was none before, or ended elsewhere");
             }
+    }
+
+    // --- R39: places -----------------------------------------------------------------------------
+
+    /// Returns twice the sheet of a side, and one more for the back; for sheets whose triangles face
+    /// different sides, the number of the front for both.
+    [[nodiscard]] std::uint32_t side_of_sheet(const Sheets& sheets, std::uint32_t side) const {
+        const std::uint32_t sheet = sheets.sheet_of[side / 2];
+        return 2 * sheet + (old_.shapes[sheet].oriented ? side % 2 : 0);
+    }
+
+    using Facings = std::vector<std::array<std::uint32_t, 2>>;
+
+    /// Returns how sides of sheets face each other around the edges of curves, each way once.
+    [[nodiscard]] std::set<Facings> orders_of(const ExactMesh& mesh, const Sheets& sheets) const {
+        const auto all = facing_sides(mesh);
+        std::set<Facings> orders;
+        for (std::size_t first = 0, last = 0; first < all.size(); first = last) {
+            Facings order;
+            for (; last < all.size() && all[last].edge == all[first].edge; ++last) {
+                order.push_back({side_of_sheet(sheets, all[last].sides[0]),
+                                 side_of_sheet(sheets, all[last].sides[1])});
+                std::ranges::sort(order.back());
+            }
+            std::ranges::sort(order);
+            if (order.size() != 2 || order[0][0] / 2 != order[1][1] / 2) orders.insert(order);
+        }
+        return orders;
+    }
+
+    /// Returns the blocks beside each sheet: {in front, behind} of its triangles, each pair once.
+    [[nodiscard]] std::vector<std::set<Edge>> blocks_beside(const Blocks& blocks,
+                                                            const Sheets& sheets) const {
+        std::vector<std::set<Edge>> beside(sheets.triangles.size());
+        for (std::uint32_t t = 0; t < sheets.sheet_of.size(); ++t) {
+            const auto [front, back] = blocks.of_sides(t);
+            auto& pairs = beside[sheets.sheet_of[t]];
+            pairs.insert({front, back});
+            if (!old_.shapes[sheets.sheet_of[t]].oriented) pairs.insert({back, front});
+        }
+        return beside;
+    }
+
+    /// Returns the box around triangles: low x, y, z, high x, y, z.
+    [[nodiscard]] std::array<mpz_class, 6> box_of(const std::vector<Triangle>& triangles,
+                                                  const Numbers& which) const {
+        std::array<mpz_class, 6> box;
+        for (std::size_t i = 0; i < 3; ++i) {
+            box[i] = box[i + 3] = exact_[triangles[which.front()][0]][i];
+            for (const std::uint32_t t : which)
+                for (const std::uint32_t v : triangles[t]) {
+                    box[i] = std::min(box[i], exact_[v][i]);
+                    box[i + 3] = std::max(box[i + 3], exact_[v][i]);
+                }
+        }
+        return box;
+    }
+
+    /// Checks that no closed sheet has left its place: the boxes around it before and now have points
+    /// in common.
+    void check_boxes() {
+        std::set<std::uint32_t> bordered;
+        for (const auto& [label, sheets] : old_.sheets_of_label)
+            bordered.insert(sheets.begin(), sheets.end());
+        for (std::uint32_t s = 0; s < old_.triangles.size(); ++s) {
+            if (bordered.contains(s)) continue;
+            const auto was = box_of(old_triangles_, old_.triangles[s]);
+            const auto is = box_of(new_triangles_, new_.triangles[s]);
+            for (std::size_t i = 0; i < 3; ++i)
+                if (was[i + 3] < is[i] || is[i + 3] < was[i]) {
+                    report(Rule::R39_beside, {new_.triangles[s].front()},
+                           "the region of improved triangle " + text(new_.triangles[s].front()) +
+                               " is not where it was");
+                    break;
+                }
+        }
+    }
+
+    void check_places() {
+        check_boxes();
+        const auto before = make_exact_mesh(exact_, scale_, old_triangles_);
+        const auto after = make_exact_mesh(exact_, scale_, new_triangles_);
+        if (orders_of(before, old_) != orders_of(after, new_))
+            report(Rule::R39_beside, {}, "sheets lie around a curve in another order than before");
+        const Blocks old = find_blocks(before), now = find_blocks(after);
+        const auto ours = blocks_beside(old, old_), theirs = blocks_beside(now, new_);
+        std::map<std::uint32_t, std::uint32_t> becomes{{0, 0}}, was{{0, 0}};
+        for (std::size_t s = 0; s < ours.size(); ++s)
+            if (ours[s].size() == 1 && theirs[s].size() == 1)
+                for (const std::size_t side : {0U, 1U}) {
+                    becomes.try_emplace((*ours[s].begin())[side], (*theirs[s].begin())[side]);
+                    was.try_emplace((*theirs[s].begin())[side], (*ours[s].begin())[side]);
+                }
+        for (std::uint32_t s = 0; s < ours.size(); ++s)
+            if (is_other(ours[s], theirs[s], becomes) || is_other(theirs[s], ours[s], was))
+                report(Rule::R39_beside, {new_.triangles[s].front()},
+                       "the region of improved triangle " + text(new_.triangles[s].front()) +
+                           " is between other blocks than before");
+        if (old.count != now.count)
+            report(Rule::R39_beside, {},
+                   "there are " + text(now.count - 1) + " blocks, not " + text(old.count - 1));
+    }
+
+    /// Tells whether blocks beside a sheet correspond to none beside the same one.
+    static bool is_other(const std::set<Edge>& of, const std::set<Edge>& in,
+                         const std::map<std::uint32_t, std::uint32_t>& numbers) {
+        return std::ranges::any_of(of, [&](const Edge& pair) {
+            const auto front = numbers.find(pair[0]), back = numbers.find(pair[1]);
+            return front != numbers.end() && back != numbers.end() &&
+                   !in.contains({front->second, back->second});
+        });
     }
 
     // --- R26: distances --------------------------------------------------------------------------
@@ -241,6 +364,7 @@ private:
     std::uint32_t offset_ = 0; ///< number of vertices before
     std::vector<Point3> points_;
     std::vector<Vector4> exact_;
+    mpz_class scale_;
     double rounding_ = 0;                                 ///< see PointPairs
     std::vector<Bound> limits_;                           ///< per surface
     std::vector<Triangle> old_triangles_, new_triangles_; ///< indices into points_

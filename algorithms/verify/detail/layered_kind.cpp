@@ -44,7 +44,7 @@ void judge_layered(std::span<const Surface> surfaces, const Certificate& certifi
     const double accepted = options.max_deviation.value_or(default_max_deviation(inputs));
     const LayeredClaim& layered = *certificate.layered();
     check_layered(surfaces, layered, accepted, verdict.violations);
-    verdict.measured = Measured{layered.deviation, accepted, 0, 0};
+    verdict.measured = Measured{layered.deviation, accepted, 0, 0, false, {}};
 }
 
 std::optional<WrittenMesh> written_layered(const Certificate& certificate) {

@@ -19,7 +19,6 @@ Vector3 normal_of(const CornerVectors& corners) {
 } // namespace
 
 void check_rounded_orientation(const RoundedParts& parts, Violations& found) {
-    if (parts.same_triangles) return;
     for (std::uint32_t t = 0; t < parts.rounded.triangles.size(); ++t) {
         const std::uint32_t parent = parts.rounded.parents_of[t].front();
         const CornerVectors corners = parts.corners(t);

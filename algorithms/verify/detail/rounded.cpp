@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/verify/detail/cut.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 #include <terrane/algorithms/verify/detail/rounded_parts.hpp>
@@ -138,7 +139,9 @@ void check_all(const RoundedParts& parts, double accepted, Verdict& verdict) {
     check_vanished_list(parts, found);
     if (check_stated(parts, accepted, found)) {
         const auto [deviation, partly] = verifier::check_distances(parts, found);
-        verdict.measured = Measured{deviation, accepted, parts.rounded.vanished.size(), partly};
+        verdict.measured =
+            Measured{deviation,     accepted, parts.rounded.vanished.size(),
+                     partly.size(), false,    verifier::check_images(parts, partly, found)};
     }
     verifier::check_rounded_orientation(parts, found);
     verifier::check_intersection_edges(
@@ -167,7 +170,16 @@ Verdict verifier::verify_rounded_part(std::span<const Surface> surfaces,
             options.max_deviation.value_or(verifier::default_max_deviation(inputs));
         RoundedParts parts = verifier::make_rounded_parts(inputs, exact, rounded);
         parts.is_cut = std::move(is_cut);
+        if (std::isfinite(accepted)) parts.accepted = mpq_class(accepted) * parts.scale;
         check_all(parts, accepted, verdict);
+        if (parts.same_triangles && rounded.clean && verdict.violations.empty()) {
+            const std::size_t turned = verifier::check_places(
+                verifier::exact_mesh_of(surfaces, exact),
+                verifier::make_exact_mesh(parts.points, parts.scale, rounded.triangles),
+                verdict.violations);
+            verdict.measured->differences.turned = turned;
+            verdict.measured->same_cells = turned == 0 && verdict.violations.empty();
+        }
     }
     verifier::sort_by_rule(verdict.violations);
     return verdict;

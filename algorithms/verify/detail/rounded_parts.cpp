@@ -15,7 +15,7 @@ RoundedParts make_rounded_parts(const Inputs& inputs, const ArrangementClaim& ex
     // A quarter is an integer, too, unless it is below the smallest double.
     all.push_back({move, rounded.deviation, rounded.deviation / 4});
     auto [points, scale] = scale_to_integers(all);
-    RoundedParts parts{inputs, exact, rounded, {}, {}, {}, {}, 0, 0, 0, scale, false, {}, {}};
+    RoundedParts parts{inputs, exact, rounded, {}, {}, {}, {}, 0, 0, 0, scale, false, {}, 0, {}};
     parts.max_move = points.back()[0];
     parts.deviation = points.back()[1];
     parts.quarter = parts.deviation / 4;
@@ -33,25 +33,13 @@ RoundedParts make_rounded_parts(const Inputs& inputs, const ArrangementClaim& ex
 }
 
 double default_max_deviation(const Inputs& inputs) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    std::array<double, 3> low{infinity, infinity, infinity};
-    std::array<double, 3> high{-infinity, -infinity, -infinity};
     double largest = 0;
     for (const Triangle& t : inputs.triangles)
         for (const std::uint32_t corner : t) {
-            const Point3& p = inputs.vertices[corner];
-            const std::array<double, 3> at{p.x, p.y, p.z};
-            for (std::size_t i = 0; i < 3; ++i) {
-                low[i] = std::min(low[i], at[i]);
-                high[i] = std::max(high[i], at[i]);
-                largest = std::max(largest, std::fabs(at[i]));
-            }
+            const auto& [x, y, z] = inputs.vertices[corner];
+            largest = std::max({largest, std::fabs(x), std::fabs(y), std::fabs(z)});
         }
-    double diagonal = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-        if (low[i] < high[i]) diagonal = std::hypot(diagonal, high[i] * 0x1p-20 - low[i] * 0x1p-20);
-    constexpr double least = 16 * std::numeric_limits<double>::denorm_min();
-    return std::max({diagonal, largest * 0x1p-40, least});
+    return std::max(largest * 0x1p-40, 16 * std::numeric_limits<double>::denorm_min());
 }
 
 } // namespace terrane::verifier

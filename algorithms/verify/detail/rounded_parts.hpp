@@ -10,6 +10,7 @@
 
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/verify/certificate.hpp>
+#include <terrane/algorithms/verify/detail/contacts.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 #include <terrane/algorithms/verify/detail/rational.hpp>
 #include <terrane/algorithms/verify/verdict.hpp>
@@ -32,6 +33,7 @@ struct RoundedParts {
     bool same_triangles = false; ///< the mesh has the vertices, triangles and parents of the exact
                                  ///< part, each vertex at another place at most
     IndexLists<std::uint32_t> exact_children; ///< per input triangle: its exact triangles
+    mpz_class accepted;                       ///< the largest deviation that is accepted
     std::vector<bool> is_cut; ///< per input triangle: some of its exact triangles were left out;
                               ///< empty: none
 
@@ -59,8 +61,8 @@ double default_max_deviation(const Inputs& inputs);
 
 /// The results of check_distances().
 struct Distances {
-    double deviation = 0;            ///< upper bound, both ways; unit of the input
-    std::size_t partly_vanished = 0; ///< input triangles of which a thin part is not left
+    double deviation = 0;    ///< upper bound, both ways; unit of the input
+    Numbers partly_vanished; ///< input triangles of which a thin part is not left, sorted
 };
 
 /// Checks the distances between the mesh and the inputs, both ways (R12, R13, R14, R18), and
@@ -87,10 +89,25 @@ struct Distances {
 ///     most c away from the sides, and the sides are at most c away from the mesh.
 Distances check_distances(const RoundedParts& parts, Violations& found);
 
-/// Reports the triangles that are turned over (R19). Where the triangles are those of the exact
-/// part, that part was judged. Otherwise a triangle faces the side that its first parent faces,
-/// unless its smallest height is at most the stated deviation: rounding can turn such a triangle.
+/// Reports the triangles that are turned over (R19): a triangle faces the side that its first parent
+/// faces, unless its smallest height is at most the stated deviation: rounding can turn such a
+/// triangle.
 void check_rounded_orientation(const RoundedParts& parts, Violations& found);
+
+/// Compares how the triangles that name input triangles are connected with the exact part (R37).
+/// The image of an input triangle consists of the triangles that name it, with their edges and
+/// vertices. It may have no more pieces and holes than in the exact part, and enclose no space. The
+/// same holds for what two input triangles with a common side have in common. Input triangles that
+/// meet along more than the deviation still meet, unless one is as near to the plane of the other
+/// as is accepted. `thinned` are the input triangles of which a part has vanished: they may be torn, as
+/// those may whose smallest height is at most the deviation.
+/// Returns the differences of all kinds. With the triangles of the exact part there are none.
+Differences check_images(const RoundedParts& parts, const Numbers& thinned, Violations& found);
+
+/// Checks that shells with the same sides, of two meshes with the same triangles, are around the same
+/// shells and bound what is around their component likewise (R38). Returns the number of edges
+/// around which the triangles lie in another order. Precondition: both are conforming.
+std::size_t check_places(const ExactMesh& exact, const ExactMesh& doubles, Violations& found);
 
 /// Checks that regions are the parts into which intersection edges divide the surfaces (R16).
 void check_regions(const RoundedParts& parts, Violations& found);

@@ -2,8 +2,9 @@
 #include <terrane/algorithms/verify/detail/sheets.hpp>
 
 #include <algorithm>
-#include <numeric>
 #include <set>
+
+#include <terrane/algorithms/verify/detail/joined_sets.hpp>
 
 namespace terrane::verifier {
 
@@ -35,9 +36,7 @@ std::vector<HalfEdge> half_edges(const std::vector<Triangle>& triangles) {
 class SheetFinder {
 public:
     SheetFinder(const LabelledMesh& mesh, SharedNumbers& numbers) :
-        mesh_(mesh), numbers_(numbers), joined_(mesh.triangles.size()) {
-        std::iota(joined_.begin(), joined_.end(), 0U);
-    }
+        mesh_(mesh), numbers_(numbers), joined_(mesh.triangles.size()) {}
 
     Sheets operator()() {
         name_sheets();
@@ -49,6 +48,7 @@ public:
         count_vertices();
         count_components();
         follow_chains();
+        find_points();
         return std::move(found_);
     }
 
@@ -83,7 +83,7 @@ private:
             edges_.push_back({sides[0].edge, label});
             return;
         }
-        join(sides[0].triangle, sides[1].triangle);
+        joined_.join(sides[0].triangle, sides[1].triangle);
         if (sides[0].ascends == sides[1].ascends) found_.shapes[sheets[0]].oriented = false;
     }
 
@@ -95,15 +95,35 @@ private:
                     ++found_.shapes[found_.sheet_of[t]].characteristic;
     }
 
-    std::uint32_t root(std::uint32_t t) {
-        while (joined_[t] != t) t = joined_[t] = joined_[joined_[t]];
-        return t;
-    }
-    void join(std::uint32_t a, std::uint32_t b) { joined_[root(a)] = root(b); }
-
     void count_components() {
-        for (std::uint32_t t = 0; t < joined_.size(); ++t)
-            if (root(t) == t) ++found_.shapes[found_.sheet_of[t]].components;
+        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+            if (joined_.find(t) == t) ++found_.shapes[found_.sheet_of[t]].components;
+    }
+
+    /// Finds the vertices at which several fans of triangles meet.
+    void find_points() {
+        std::map<std::uint32_t, Numbers> triangles_at;
+        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+            for (const std::uint32_t v : mesh_.triangles[t]) triangles_at[v].push_back(t);
+        for (const auto& [v, triangles] : triangles_at)
+            if (auto fans = fans_of(v, triangles); fans.size() > 1)
+                ++found_.points[{numbers_.corners(mesh_.vertices[v]), std::move(fans)}];
+    }
+
+    /// Returns the sheets of each fan at a vertex, sorted.
+    [[nodiscard]] std::vector<Numbers> fans_of(std::uint32_t v, const Numbers& triangles) const {
+        JoinedSets sets(triangles.size());
+        std::map<std::uint32_t, std::uint32_t> first_with; // by the other end of an edge
+        for (std::uint32_t i = 0; i < triangles.size(); ++i)
+            for (const std::uint32_t w : mesh_.triangles[triangles[i]])
+                if (w != v) sets.join(i, first_with.try_emplace(w, i).first->second);
+        std::map<std::uint32_t, std::set<std::uint32_t>> sheets;
+        for (std::uint32_t i = 0; i < triangles.size(); ++i)
+            sheets[sets.find(i)].insert(found_.sheet_of[triangles[i]]);
+        std::vector<Numbers> fans;
+        for (const auto& [fan, all] : sheets) fans.emplace_back(all.begin(), all.end());
+        std::ranges::sort(fans);
+        return fans;
     }
 
     // --- Chains ----------------------------------------------------------------------------------
@@ -156,7 +176,7 @@ private:
     const LabelledMesh& mesh_;
     SharedNumbers& numbers_;
     Sheets found_;
-    Numbers joined_;                                    ///< disjoint sets of triangles
+    JoinedSets joined_;                                 ///< of triangles
     std::vector<std::pair<Edge, std::uint32_t>> edges_; ///< curve edges with their labels
     std::map<std::uint32_t, Numbers> at_;               ///< curve edges at a vertex
     std::vector<bool> followed_;                        ///< per curve edge

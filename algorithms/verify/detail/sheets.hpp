@@ -7,6 +7,8 @@
 //   edge. Its label is the list of the sheets of its triangles, and whether it is an intersection
 //   edge.
 // - A corner is a vertex at which other than two curve edges meet, or two with different labels.
+// - A fan consists of triangles at a vertex that are connected by edges there. Where several fans meet,
+//   there is a corner, too.
 // - A chain is a sequence of curve edges from corner to corner, or a closed one without corners.
 #pragma once
 
@@ -38,8 +40,10 @@ private:
     std::map<Value, std::uint32_t> number_of_;
 };
 
-using SheetName = std::array<Numbers, 2>;        ///< surfaces, regions
-using CurveLabel = std::pair<Numbers, bool>;     ///< sheets, intersection edge or not
+using SheetName = std::array<Numbers, 2>;    ///< surfaces, regions
+using CurveLabel = std::pair<Numbers, bool>; ///< sheets, intersection edge or not
+/// A corner, and the sheets of each of the fans of triangles that meet there.
+using PointClass = std::pair<std::uint32_t, std::vector<Numbers>>;
 using CurveClass = std::array<std::uint32_t, 3>; ///< label, and the corners at the ends
 
 /// The numbers of sheets, labels and corners that two meshes share.
@@ -76,6 +80,7 @@ struct Sheets {
     std::map<CurveClass, std::size_t> chains;           ///< number of chains of a class
     std::map<CurveClass, std::vector<Triangle>> curves; ///< edges {a, b, b} of these chains
     std::map<std::uint32_t, Numbers> sheets_of_label;   ///< the sheets at a curve edge
+    std::map<PointClass, std::size_t> points;           ///< vertices with several fans of triangles
     std::size_t intersection_edges = 0;                 ///< that are edges of the mesh
 };
 

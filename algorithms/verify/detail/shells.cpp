@@ -87,29 +87,34 @@ void sort_by_angle(const ExactMesh& mesh, std::vector<AtEdge>& around) {
     for (std::size_t i = 0; i < around.size(); ++i) around[i] = sorted[i].second;
 }
 
-/// Joins the sides that face each other around edges, and in `components` the triangles themselves.
-void link(const ExactMesh& mesh, JoinedSets& sides, JoinedSets& components) {
+} // namespace
+
+std::vector<Facing> facing_sides(const ExactMesh& mesh) {
     const auto all = triangles_at_edges(mesh.triangles);
+    std::vector<Facing> pairs;
+    pairs.reserve(all.size());
     std::vector<AtEdge> around;
     for (std::size_t i = 0; i < all.size();) {
         around.clear();
         for (const Edge edge = all[i].edge; i < all.size() && all[i].edge == edge; ++i)
             around.push_back(all[i]);
         sort_by_angle(mesh, around);
-        for (std::size_t k = 0; k < around.size(); ++k) {
-            const AtEdge& next = around[(k + 1) % around.size()];
-            sides.join(around[k].ahead(), next.ahead() ^ 1U);
-            components.join(around[k].triangle, next.triangle);
-        }
+        const auto first = static_cast<std::ptrdiff_t>(pairs.size());
+        for (std::size_t k = 0; k < around.size(); ++k)
+            pairs.push_back({around[k].edge,
+                             {around[k].ahead(), around[(k + 1) % around.size()].ahead() ^ 1U}});
+        std::sort(pairs.begin() + first, pairs.end());
     }
+    return pairs;
 }
-
-} // namespace
 
 Shells find_shells(const ExactMesh& mesh) {
     const std::size_t count = mesh.triangles.size();
     JoinedSets sides(2 * count), components(count);
-    link(mesh, sides, components);
+    for (const auto& [edge, facing] : facing_sides(mesh)) {
+        sides.join(facing[0], facing[1]);
+        components.join(facing[0] / 2, facing[1] / 2);
+    }
     Shells shells;
     shells.of_side.assign(2 * count, no_number);
     for (std::uint32_t s = 0; s < 2 * count; ++s) {

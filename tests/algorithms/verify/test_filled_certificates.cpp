@@ -252,6 +252,47 @@ TEST_CASE("filled certificates: forged fillings") {
         });
 }
 
+TEST_CASE("filled certificates: a filling is a disc, and faces a side of the border of its hole") {
+    // Square rings above each other; the upper one faces down.
+    Surface rings{"rings", Role::unknown, {}, {}};
+    for (const double z : {0.0, 1.0})
+        for (const auto& [low, high] : {std::pair{0.0, 3.0}, {1.0, 2.0}})
+            for (const auto& [x, y] : {std::pair{low, low}, {high, low}, {high, high}, {low, high}})
+                rings.vertices.push_back({x, y, z});
+    for (std::uint32_t k = 0; k < 4; ++k) {
+        const std::uint32_t n = (k + 1) % 4;
+        for (const Triangle& t : {Triangle{k, n, 4 + n}, Triangle{k, 4 + n, 4 + k},
+                                  Triangle{8 + k, 12 + n, 8 + n}, Triangle{8 + k, 12 + k, 12 + n}})
+            rings.triangles.push_back(t);
+    }
+    const auto judged_with = [](Surface surface, const std::vector<Triangle>& added) {
+        Subject s;
+        const auto records = add_inputs(s, {{"in.obj", obj_text({surface})}});
+        const std::size_t given = surface.triangles.size();
+        surface.triangles.insert(surface.triangles.end(), added.begin(), added.end());
+        std::vector<std::int32_t> interpolated(given, 0);
+        interpolated.resize(surface.triangles.size(), 1);
+        const std::vector<double> deviation(surface.vertices.size(), 0);
+        s.certificate = Json::parse(
+            to_filled_certificate(records, s.surfaces, {},
+                                  std::vector<FilledRecord>{{&surface, surface.vertices.size(),
+                                                             given, interpolated, deviation}}));
+        return judged(s);
+    };
+    CHECK(judged_with(rings, {{4, 5, 6}, {4, 6, 7}, {12, 14, 13}, {12, 15, 14}}) == "");
+    std::vector<Triangle> tube;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+        const std::uint32_t n = (k + 1) % 4;
+        tube.push_back({4 + k, 4 + n, 12 + n});
+        tube.push_back({4 + k, 12 + n, 12 + k});
+    }
+    CHECK(judged_with(rings, tube) == "R35");
+    Surface mixed = rings; // a triangle of the upper ring faces up
+    std::swap(mixed.triangles[2][0], mixed.triangles[2][1]);
+    CHECK(judged_with(mixed, {{4, 5, 6}, {4, 6, 7}}) == "");
+    CHECK(judged_with(mixed, {{4, 6, 5}, {4, 7, 6}}) == "R35");
+}
+
 TEST_CASE("filled certificates: VTP files with other expected errors") {
     const Subject right = filled_subject(holed(), {"vtp"});
     check_forgeries(

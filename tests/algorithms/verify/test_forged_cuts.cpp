@@ -24,8 +24,8 @@ std::size_t own_inputs(const Subject& s) {
     return count - 12;
 }
 
-/// Adds a sliver to the doubles, beyond an edge on the boundary and parallel to it. It is nearer to
-/// what is inside than the deviation, which is stated larger for that.
+/// Adds a sliver to the doubles at an edge on the boundary, on the outer side. It is nearer to what is
+/// inside than the deviation, which is stated larger for that.
 void add_sliver_outside(Json& m, std::size_t own) {
     const auto is_boundary = [&](std::size_t t) { return m["parents"][t].back() >= own; };
     std::set<std::set<std::size_t>> boundary;
@@ -45,17 +45,13 @@ void add_sliver_outside(Json& m, std::size_t own) {
                 return std::array{number_in(at[0]), number_in(at[1]), number_in(at[2])};
             };
             const auto a = corner(0), b = corner(1), inner = corner(2);
-            const auto v = m["vertices"].size();
-            for (const auto& [along, beyond] :
-                 {std::pair(0.75, 1e-9), std::pair(0.25, 1e-9), std::pair(0.5, 2e-9)}) {
-                Json point = Json::array({"", "", ""});
-                for (std::size_t k = 0; k < 3; ++k)
-                    point[k] = decimal_text(a[k] + along * (b[k] - a[k]) +
-                                            beyond * ((a[k] + b[k]) / 2 - inner[k]));
-                m["vertices"].push_back(point);
-            }
-            add_triangle(m, {static_cast<int>(v), static_cast<int>(v + 1), static_cast<int>(v + 2)},
+            Json point = Json::array({"", "", ""});
+            for (std::size_t k = 0; k < 3; ++k)
+                point[k] = decimal_text((a[k] + b[k]) / 2 + 2e-9 * ((a[k] + b[k]) / 2 - inner[k]));
+            const Json& corners = m["triangles"][t];
+            add_triangle(m, {corners[(i + 1) % 3], corners[i], m["vertices"].size()},
                          {m["parents"][t][0].get<int>()});
+            m["vertices"].push_back(point);
             m["regions"].back() = {999};
             m["max_move"] = nullptr;
             m["deviation"] = decimal_text(1e-7);
@@ -71,7 +67,7 @@ TEST_CASE("cut certificates: a triangle of doubles outside is refused", "[volume
     add_sliver_outside(wrong.certificate["rounded"], own_inputs(wrong));
     wrong.certificate["outputs"] = Json::array();
     wrong.contents.clear();
-    CHECK(judged(wrong) == "R52");
+    CHECK(judged(wrong, {.max_deviation = 1e-7}).find("R52") != std::string::npos);
 }
 
 TEST_CASE("cut certificates: volumes that no text can state are refused", "[volume_of_interest]") {

@@ -244,6 +244,51 @@ TEST_CASE("improved certificates: forged lists and limits") {
         });
 }
 
+TEST_CASE("improved certificates: bodies stay in each other, and parts touch nowhere else") {
+    std::vector<Surface> bodies;
+    for (const auto& [low, size] : {std::pair{0.0, 12.0}, {2.0, 1.0}, {300.0, 6.0}})
+        bodies.push_back({"body",
+                          Role::unknown,
+                          {{low, low, low},
+                           {low + size, low, low},
+                           {low, low + size, low},
+                           {low, low, low + size}},
+                          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}});
+    const Subject right = improved_subject({{"bodies.obj", obj_text(bodies)}}, {});
+    const auto inner_moved = [](double by) {
+        return [by](Json& m) {
+            for (Json& p : m["vertices"])
+                if (number_in(p[0]) >= 2 && number_in(p[0]) <= 3 && number_in(p[1]) >= 2)
+                    shift_number(p[0], by);
+            for (Json& limit : m["limits"]) limit = "20";
+        };
+    };
+    const auto touching = [](Json& m) {
+        std::map<std::vector<double>, std::size_t> at;
+        for (std::size_t v = 0; v < m["vertices"].size(); ++v) {
+            const Json& p = m["vertices"][v];
+            at[{number_in(p[0]), number_in(p[1]), number_in(p[2])}] = v;
+        }
+        for (Json& t : m["triangles"])
+            for (Json& corner : t)
+                if (corner == at.at({2, 2, 2})) corner = at.at({0, 0, 0});
+        drop_unused(m);
+        for (Json& limit : m["limits"]) limit = "20";
+    };
+    const auto exchanged = [](Json& m) {
+        for (Json& p : m["vertices"])
+            if (const double x = number_in(p[0]); x >= 300) shift_number(p[0], 13);
+        for (Json& limit : m["limits"]) limit = "20";
+    };
+    check_forgeries(right, {improved("the inner body is outside", inner_moved(9), "R39"),
+                            improved("the body apart is elsewhere", exchanged, "R39"),
+                            improved("the inner body touches the outer one", touching, "R25")});
+    Subject moved = right;
+    inner_moved(0.25)(moved.certificate["improved"]);
+    seal(moved);
+    CHECK(judged(moved).find("R39") == std::string::npos);
+}
+
 TEST_CASE("improved certificates: an output file with one digit changed") {
     check_changed_digits(right_improved(), first_vertex);
 }
