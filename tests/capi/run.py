@@ -42,7 +42,6 @@ def prepare_certificates(options, folder):
             ("improved", "improved.vtp", ("improve", *three, "--edge-length", "150")),
             ("cut", "cut.off", ("arrange", *three, *box)),
             ("sealed", "sealed.stl", ("arrange", *three, "--seal", "20")),
-            ("volumes", "volumes", ("volume", *three, *box)),
             ("tetrahedra", "tetrahedra.vtu", ("tetrahedralize", *three, *box, "--blocks-only", "--mesher", "tetgen",
                             "--no-optimise")),
             ("filled", "filled.vtp", ("fill", "holed.obj")),

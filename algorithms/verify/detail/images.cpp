@@ -252,10 +252,11 @@ private:
 
     /// Tells whether all corners of one triangle are as near to the plane of another as is accepted.
     [[nodiscard]] bool is_flat(std::uint32_t one, std::uint32_t other) const {
-        const auto [a, b, c] = parts_.input_corners(other);
-        const Vector3 normal = cross(difference(*b, *a), difference(*c, *a));
+        const auto corners = parts_.input_corners(other);
+        const Vector4 &a = *corners[0], &b = *corners[1], &c = *corners[2];
+        const Vector3 normal = cross(difference(b, a), difference(c, a));
         return std::ranges::all_of(parts_.input_corners(one), [&](const Vector4* corner) {
-            const mpz_class height = dot(normal, difference(*corner, *a));
+            const mpz_class height = dot(normal, difference(*corner, a));
             return within(Squared{height * height, dot(normal, normal)}, parts_.accepted);
         });
     }

@@ -20,9 +20,10 @@ namespace terrane::verifier {
 namespace {
 
 /// Both meshes in exact numbers. The vertices of the improved mesh follow those before.
-class Comparison {
+class ImprovedComparison {
 public:
-    Comparison(const LabelledMesh& before, const ImprovedClaim& improved, Violations& found) :
+    ImprovedComparison(const LabelledMesh& before, const ImprovedClaim& improved,
+                       Violations& found) :
         after_{improved.vertices, improved.triangles, improved.surfaces_of, improved.regions_of,
                improved.intersection_edges},
         found_(found) {
@@ -404,7 +405,7 @@ void check_improved(const LabelledMesh& before, const ImprovedClaim& improved, V
     for (Violation& flaw : verify_conforming(improved.vertices, improved.triangles))
         found.push_back(
             {Rule::R23_improved_conforming, std::move(flaw.elements), std::move(flaw.sentence)});
-    if (found.empty()) Comparison(before, improved, found).check();
+    if (found.empty()) ImprovedComparison(before, improved, found).check();
 }
 
 } // namespace terrane::verifier
