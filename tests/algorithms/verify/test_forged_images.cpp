@@ -8,7 +8,7 @@ namespace {
 
 using namespace forged;
 
-const Surface sheet{
+const Surface square_sheet{
     "sheet", Role::unknown, {{0, 0, 0}, {100, 0, 0}, {0, 100, 0}, {100, 100, 0}}, {{0, 1, 2}}};
 
 /// Replaces the mesh of doubles by one of which each triangle has one parent.
@@ -42,8 +42,9 @@ TEST_CASE("images: a triangle may be divided, but not doubled, torn or slit") {
     const auto with = [](const std::vector<Point3>& vertices,
                          const std::vector<Triangle>& triangles,
                          const std::vector<int>& regions = {}) {
-        return judged_with({sheet}, [&](Json& r) {
-            auto all = std::vector<Point3>(sheet.vertices.begin(), sheet.vertices.begin() + 3);
+        return judged_with({square_sheet}, [&](Json& r) {
+            auto all = std::vector<Point3>(square_sheet.vertices.begin(),
+                                           square_sheet.vertices.begin() + 3);
             all.insert(all.end(), vertices.begin(), vertices.end());
             replace(r, all, triangles, std::vector<int>(triangles.size(), 0), regions);
         });
@@ -63,7 +64,7 @@ TEST_CASE("images: a triangle may be divided, but not doubled, torn or slit") {
 }
 
 TEST_CASE("images: triangles with a common side stay joined along it") {
-    Surface square = sheet;
+    Surface square = square_sheet;
     square.triangles = {{0, 1, 2}, {2, 1, 3}};
     const auto with = [&](double gap) {
         return judged_with({square}, [&](Json& r) {
@@ -82,8 +83,9 @@ TEST_CASE("images: triangles with a common side stay joined along it") {
 TEST_CASE("images: surfaces that meet along more than the deviation still meet") {
     const Surface wall{
         "wall", Role::unknown, {{20, 20, 0}, {40, 20, 0}, {30, 20, 30}}, {{0, 1, 2}}};
-    CHECK(judged_with({sheet, wall}, [&](Json& r) {
-              std::vector<Point3> vertices(sheet.vertices.begin(), sheet.vertices.begin() + 3);
+    CHECK(judged_with({square_sheet, wall}, [&](Json& r) {
+              std::vector<Point3> vertices(square_sheet.vertices.begin(),
+                                           square_sheet.vertices.begin() + 3);
               for (Point3 p : wall.vertices) {
                   p.z += 2e-12;
                   vertices.push_back(p);
