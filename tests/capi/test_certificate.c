@@ -270,7 +270,6 @@ static void test_blocks(void) {
     s.certified.model = model;
     s.certified.model_folder = NULL;
     s.certified.output_count = 1;
-    free((char*)folder);
     free((char*)own);
 #ifdef TERRANE_TETGEN_HELPER
     terrane_tetrahedra* tetrahedra = NULL;
