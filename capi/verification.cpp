@@ -52,7 +52,8 @@ void add_outputs(const Judgement& judged, terrane_verdict& verdict) {
         verdict.items.push_back(
             {"output",
              output.path + ": " +
-                 (output.missing.empty() ? "the verifier has no writer for its format" : output.missing),
+                 (output.missing.empty() ? "the verifier has no writer for its format"
+                                         : output.missing),
              {static_cast<std::uint32_t>(output.number)}});
     }
 }

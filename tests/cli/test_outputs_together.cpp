@@ -91,8 +91,7 @@ TEST_CASE("cli: an interrupt ends commands that wait for a project or a certific
           "[cli][outputs]") {
     const Folder folder;
     REQUIRE(folder.shell("mkfifo in/p").status == 0);
-    for (const std::string command :
-         {"build in/p -o out", "verify -", "ensemble in/p -o out"})
+    for (const std::string command : {"build in/p -o out", "verify -", "ensemble in/p -o out"})
         for (const std::string name : {"INT", "TERM", "HUP"}) {
             INFO(command << ", " << name);
             const auto r = folder.shell("$K " + name + " waits $T " + command + " <>in/p");

@@ -131,7 +131,8 @@ std::string volume_flaw(const VolumeClaim& volume, std::span<const Surface> file
     }
     const Shell shell = joined_shell(volume.boundary);
     if (shell.triangles.empty()) return "the boundary has no triangles";
-    if ((volume.shape == "prism") == (volume.corners.empty() || volume.between.empty()) ||
+    const bool is_prism = volume.shape == "prism";
+    if (volume.corners.empty() == is_prism || volume.between.empty() == is_prism ||
         (volume.shape == "surface") == (volume.files == 0))
         return "the volume is described otherwise than its shape needs it";
     if (volume.shape == "surface") {

@@ -84,4 +84,10 @@ TEST_CASE("cut certificates: volumes that no text can state are refused", "[volu
     Certificate nameless = *parsed;
     nameless.cut->volume.shape = "";
     CHECK(rule_of(nameless) == Rule::R50_volume);
+    Certificate rotated = *parsed; // a box is a hexahedron, too, which has no polygon
+    rotated.cut->volume.shape = "hexahedron";
+    rotated.cut->volume.between.clear();
+    CHECK(rule_of(rotated) == Rule::R50_volume);
+    rotated.cut->volume.corners.clear();
+    CHECK(verify_certificate(boxed_sheets().inputs, rotated).violations.empty());
 }
