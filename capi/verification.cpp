@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/capi/verification.h>
 
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,8 +14,6 @@
 
 namespace terrane::capi::detail {
 namespace {
-
-namespace fs = std::filesystem;
 
 terrane_verify_options default_verifying() noexcept {
     const JudgementLimits limits;
