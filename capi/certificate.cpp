@@ -36,7 +36,7 @@ std::vector<SourceFile> files_of(const terrane_input_file* files, std::size_t co
 
 /// Returns the name of an output's format in certificates.
 std::string format_in(const terrane_output_file& file) {
-    const std::string given = file.format ? file.format : "";
+    std::string given = file.format ? file.format : "";
     if (given == "stl-ascii") return given;
     const fs::path path = needed_file(file.path);
     const auto format = given.empty() ? format_of(path) : format_named(given);
