@@ -188,7 +188,8 @@ std::string offending_pairs(const Inputs& inputs, const Arranged& arranged) {
                             name_of(c.kind), inputs.quantities().place(c.place));
     }
     if (contacts.size() > most_pairs)
-        text += fmt::format("  and {}{} more\n", at_least(contacts.size()),
+        text += fmt::format("  and {}{} more\n",
+                            at_least(contacts.size() > RoundingReport::most_counted),
                             contacts.size() - most_pairs);
     return text;
 }
