@@ -32,7 +32,7 @@ struct ModelClaim {
     std::vector<Block> blocks;      ///< [0] is the outside
     std::vector<std::string> gaps;  ///< per free border: a list
     std::vector<std::string> leaks; ///< objects
-    std::string seal;               ///< an object; empty: there is none
+    std::string seal;               ///< an object; empty without sealing
 };
 
 /// The claims about blocks. Number 0 is the outside.

@@ -64,7 +64,7 @@ public:
         return files;
     }
 
-    /// Adds a violation for each expected file that is none of the inputs that were read.
+    /// Adds a violation for each expected file that is missing among the inputs.
     [[nodiscard]] Status check_expected(const std::vector<JudgedInput>& read,
                                         std::vector<Violation>& violations) const {
         for (const auto& path : request_.expected) {

@@ -208,7 +208,7 @@ TEST_CASE("judgement: limits of time and memory, and the caller's stop") {
         return judged.error().code;
     };
     CHECK(error_within({1e-3, 16e9}) == ErrorCode::timed_out);
-    // As much as the text alone; the certificate takes about three times as much.
+    // The limit lets the text in, but not the parsed certificate, which is three times as large.
     CHECK(error_within({3600, 1. + double(fs::file_size(made.certificate))}) ==
           ErrorCode::out_of_memory);
     std::stop_source stopped;

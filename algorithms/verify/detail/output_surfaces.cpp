@@ -36,7 +36,7 @@ std::vector<std::vector<std::uint32_t>> triangles_of_surfaces(const ExpectedMesh
     return triangles;
 }
 
-/// Returns the normal of a triangle: of length 1 but for rounding, or 0 if there is none.
+/// Returns the normal of a triangle: of length 1 but for rounding; 0 for a triangle without area.
 std::array<float, 3> normal_of(const WrittenMesh& mesh, const Triangle& triangle) {
     const Point3 &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]],
                  &c = mesh.vertices[triangle[2]];

@@ -186,8 +186,8 @@ private:
              << lines << "</" << element << ">\n";
     }
 
-    /// Compares compressed blocks with these bytes. Before them are their number, their size, the
-    /// size of the last one (0 if it is no smaller), and their compressed sizes.
+    /// Compares compressed blocks with these bytes. A header states their number, their size, the
+    /// size of the last block (0 if it is as large), and the compressed size of each.
     void inflated(std::string_view name, std::string_view bytes) {
         constexpr std::size_t block = std::size_t(1) << 20;
         const std::size_t blocks = (bytes.size() + block - 1) / block;

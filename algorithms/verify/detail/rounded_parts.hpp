@@ -101,7 +101,7 @@ void check_rounded_orientation(const RoundedParts& parts, Violations& found);
 /// meet along more than the deviation still meet, unless one is as near to the plane of the other
 /// as is accepted. `thinned` are the input triangles of which a part has vanished: they may be torn, as
 /// those may whose smallest height is at most the deviation.
-/// Returns the differences of all kinds. With the triangles of the exact part there are none.
+/// Returns the differences of all kinds. A mesh with the triangles of the exact part differs in nothing.
 Differences check_images(const RoundedParts& parts, const Numbers& thinned, Violations& found);
 
 /// Checks that shells with the same sides, of two meshes with the same triangles, are around the same
