@@ -4,13 +4,12 @@
 #pragma once
 
 #include <condition_variable>
+#include <ctime>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <stop_token>
 #include <thread>
-
-#include <time.h>
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/io/judgement/judgement.hpp>
