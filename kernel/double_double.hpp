@@ -14,6 +14,17 @@
 
 namespace terrane {
 
+/// What the bounds of DoubleDouble allow for rounding, in units of 2^-52 unless said otherwise.
+/// kernel/proofs/twofold_*.g are proofs that Gappa checks with these numbers.
+namespace twofold {
+inline constexpr double sum_factor = 2;         ///< times the sizes of the low parts that are added
+inline constexpr double product_factor = 2;     ///< likewise
+inline constexpr double renormalised = 0x1p-40; ///< share of a bound that its computation may lose
+inline constexpr double divisor_factor = 4;     ///< of the high part of a divisor
+inline constexpr double quotient_factor = 8;    ///< of the bound of a remainder's quotient
+inline constexpr double size_factor = 4;        ///< of the sum of the low part and the bound
+} // namespace twofold
+
 /// A number of about 106 bits with a running error bound: the true value is within err of hi + lo.
 /// The bound holds only in the rounding mode "to nearest". Overflow makes err infinite or NaN;
 /// nearest() then returns std::nullopt. Source: Dekker (1971) for the sums and products; the bounds
@@ -34,7 +45,7 @@ public:
         const double rest = (a.hi_ - (s - t)) + (b.hi_ - t);
         const double low = rest + (a.lo_ + b.lo_);
         const double lost = std::fabs(rest) + std::fabs(a.lo_) + std::fabs(b.lo_);
-        return normal(s, low, a.err_ + b.err_ + 2 * unit * lost).stands_for([&] {
+        return normal(s, low, a.err_ + b.err_ + twofold::sum_factor * unit * lost).stands_for([&] {
             return a.twin() + b.twin();
         });
     }
@@ -49,7 +60,8 @@ public:
         const double m = a.hi_ * b.lo_, n = a.lo_ * b.hi_;
         const double lost = std::fabs(rest) + std::fabs(m) + std::fabs(n);
         const double err = a.size() * b.err_ + b.size() * a.err_ + a.err_ * b.err_ +
-                           std::fabs(a.lo_ * b.lo_) + 2 * unit * lost + underflow;
+                           std::fabs(a.lo_ * b.lo_) + twofold::product_factor * unit * lost +
+                           underflow;
         const bool is_exact = a.is_double() && b.is_double() && std::fabs(p) > least_product;
         return normal(p, rest + (m + n), is_exact ? 0 : err).stands_for([&] {
             return a.twin() * b.twin();
@@ -66,9 +78,11 @@ public:
         DoubleDouble q = first + second;
         const auto quotient = [&] { return a.twin() / b.twin(); };
         if (open.is_zero()) return q.stands_for(quotient);
-        const double divisor = std::fabs(b.hi_) * (1 - 4 * unit) - std::fabs(b.lo_) - b.err_;
-        q.err_ +=
-            (divisor > 0 ? (open.size() + open.err_) / divisor : HUGE_VAL) * (1 + 8 * unit) + least;
+        const double divisor =
+            std::fabs(b.hi_) * (1 - twofold::divisor_factor * unit) - std::fabs(b.lo_) - b.err_;
+        q.err_ += (divisor > 0 ? (open.size() + open.err_) / divisor : HUGE_VAL) *
+                      (1 + twofold::quotient_factor * unit) +
+                  least;
         return q.stands_for(quotient);
     }
 
@@ -105,7 +119,9 @@ public:
     /// Returns the low part.
     [[nodiscard]] double low() const { return lo_; }
     /// Returns an upper bound of the distance between the true value and value().
-    [[nodiscard]] double error() const { return (std::fabs(lo_) + err_) * (1 + 4 * unit); }
+    [[nodiscard]] double error() const {
+        return (std::fabs(lo_) + err_) * (1 + twofold::size_factor * unit);
+    }
 
 private:
     static constexpr double unit = std::numeric_limits<double>::epsilon();
@@ -122,7 +138,7 @@ private:
     /// covers the rounding of the bound itself.
     static DoubleDouble normal(double high, double low, double err) {
         const double s = high + low, t = s - high;
-        return {s, (high - (s - t)) + (low - t), err * (1 + 0x1p-40)};
+        return {s, (high - (s - t)) + (low - t), err * (1 + twofold::renormalised)};
     }
 
     // The exact twin exists in shadow builds only; elsewhere these functions do nothing.

@@ -29,6 +29,11 @@ private:
     std::span<const Box> boxes_;
 };
 
+/// Queries of CellGrid are widened by half of the largest box, by grid_width_share of that, and by
+/// grid_size_share of the largest coordinate. kernel/proofs/grid_widening.g is a proof that Gappa checks
+/// with these numbers.
+inline constexpr double grid_width_share = 0x1p-40, grid_size_share = 0x1p-50;
+
 /// The structured search of paper 2.1. Cells are at least as large as the largest box (equation 3),
 /// and each box is stored in the cell of its centre (7, 8). A query visits all cells that the query
 /// box overlaps after widening by half the largest box. This finds every overlapping box: its

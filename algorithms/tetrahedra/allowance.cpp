@@ -16,8 +16,6 @@ namespace {
 
 using polynomial::cartesian;
 
-constexpr double rounded_up = 1 + 0x1p-40; ///< more than what a dozen operations lose
-
 /// Whether a polynomial, generic over the number type, is >= 0.
 template <class Polynomial>
 bool not_negative(const Polynomial& value) {
@@ -113,7 +111,7 @@ double reach(const std::array<Point3, 3>& triangle) {
     // Along the axis of projection: e of that coordinate and twice the sum of the others. Which
     // axis that is does not matter if each gets all.
     const double sum = e.x + e.y + e.z;
-    return std::sqrt(e.x * e.x + e.y * e.y + e.z * e.z + 4 * sum * sum) * rounded_up;
+    return std::sqrt(e.x * e.x + e.y * e.y + e.z * e.z + 4 * sum * sum) * (1 + rounding_room);
 }
 
 double volume_within_reach(const std::array<Point3, 3>& triangle) {
@@ -122,7 +120,8 @@ double volume_within_reach(const std::array<Point3, 3>& triangle) {
     const double d = reach(triangle), area = length(ab) * length(ac) / 2; // at least the area
     const double perimeter = length(ab) + length(ac) + length(bc);
     const double pi = std::numbers::pi;
-    return (2 * d * area + pi / 2 * d * d * perimeter + pi * 4 / 3 * d * d * d) * rounded_up;
+    return (2 * d * area + pi / 2 * d * d * perimeter + pi * 4 / 3 * d * d * d) *
+           (1 + rounding_room);
 }
 
 } // namespace terrane::tetrahedra

@@ -15,6 +15,10 @@ namespace terrane::tetrahedra {
 
 constexpr double allowed_spacings = 5;
 
+/// What reach and volume_within_reach add of themselves, so that rounding makes neither too small.
+/// kernel/proofs/allowance.g is a proof that Gappa checks with this number.
+constexpr double rounding_room = 0x1p-40;
+
 /// The distance between the doubles in the binade of x, at least that of the denormals.
 double spacing_at(double x);
 

@@ -10,14 +10,14 @@
 # slant: the direction of the line in which the planes meet errs by twice the error of the cross
 # product over its length.
 # edge: a true sine of the angle between this line and an edge over the computed one, which is above
-# 2^-7 and errs by slant and by 16 units from its own computation.
+# least_edge_sine and errs by slant and by 16 units from its own computation.
 # cotangent: the code takes 2 / least, where the cotangents are below the inverse of the true sine.
 # least: lemma_least_sine_factor 538
 
 errors = share / @lemma_least_sine_factor@;
 sine = 1 - 1.05 * errors;
 slant = 2.1 * errors;
-edge = 1 - (slant + 16 * 1b-52) * 128;
+edge = 1 - (slant + 16 * 1b-52) / @lemma_least_edge_sine@;
 cotangent = 2 * edge;
 
 { share in [0, 1] -> sine >= 0.5 /\ edge >= 0.5 /\ cotangent >= 1 }

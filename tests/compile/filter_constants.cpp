@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Prints the constants of the static filters and of the proof of separation, as they are compiled:
-// a name and a number in Gappa's notation on each line. gappa_bounds.py puts them into the proofs
+// Prints the constants of filters, of numbers with running bounds, of searches and of the proof of
+// separation, as they are compiled: a name and a number in Gappa's notation on each line. gappa_bounds.py puts them into the proofs
 // of kernel/proofs.
 #include <terrane/algorithms/rounding/detail/separation_bounds.hpp>
+#include <terrane/algorithms/search/detail/stars.hpp>
+#include <terrane/algorithms/search/methods.hpp>
+#include <terrane/algorithms/tetrahedra/allowance.hpp>
 #include <terrane/kernel/ball_filter.hpp>
+#include <terrane/kernel/double_double.hpp>
 #include <terrane/kernel/separation_filter.hpp>
 #include <terrane/kernel/static_filter_bounds.hpp>
 
@@ -71,5 +75,19 @@ int main() {
     print("lemma_rise_factor", lemma::rise_factor);
     print("lemma_condition_factor", lemma::condition_factor);
     print("lemma_least_sine_factor", lemma::least_sine_factor);
+    print("lemma_least_edge_sine", lemma::least_edge_sine);
+    print("frame_error_factor", lemma::frame_error_factor);
+    print("twofold_sum_factor", terrane::twofold::sum_factor);
+    print("twofold_product_factor", terrane::twofold::product_factor);
+    print("twofold_renormalised", terrane::twofold::renormalised);
+    print("twofold_divisor_factor", terrane::twofold::divisor_factor);
+    print("twofold_quotient_factor", terrane::twofold::quotient_factor);
+    print("twofold_size_factor", terrane::twofold::size_factor);
+    print("star_across_error", terrane::search::across_error);
+    print("star_arc_error", terrane::search::arc_error);
+    print("star_least_middle", terrane::search::least_middle);
+    print("grid_width_share", terrane::search::grid_width_share);
+    print("grid_size_share", terrane::search::grid_size_share);
+    print("allowance_room", terrane::tetrahedra::rounding_room);
     return std::cout.flush() ? 0 : 1;
 }

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Lets Gappa check the proofs of the error bounds, kernel/proofs/*.g.
 
-    gappa_bounds.py --gappa GAPPA --constants PROGRAM [--proofs FOLDER]
+    gappa_bounds.py --constants PROGRAM [--gappa GAPPA] [--proofs FOLDER]
 
 PROGRAM prints the constants as they are compiled, a name and a number on each line. They take the
 place of @NAME@ in the proofs, so a proof is about the constants that the filters use. Besides, in a
@@ -15,6 +15,7 @@ proof a comment
 import argparse
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -92,11 +93,13 @@ def float_text(value):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
-    parser.add_argument("--gappa", required=True)
+    parser.add_argument("--gappa", default="gappa")
     parser.add_argument("--constants", required=True)
     root = pathlib.Path(__file__).resolve().parents[2]
     parser.add_argument("--proofs", type=pathlib.Path, default=root / "kernel" / "proofs")
     options = parser.parse_args()
+    if not shutil.which(options.gappa):
+        sys.exit(f"{options.gappa} is not installed, so nothing is proven")
     proofs = Proofs(options.gappa, options.proofs, constants_of(options.constants))
     flaws = [flaw for name in proofs.texts for flaw in proofs.flaws(name)]
     used = {place for text in proofs.texts.values() for place in PLACE.findall(text)}

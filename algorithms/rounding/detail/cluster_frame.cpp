@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/rounding/detail/separation_bounds.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
 
 namespace terrane::rounding::detail {
@@ -163,7 +164,8 @@ Point3 ClusterFrame::back(const Point3& q) const {
 /// the operations on a coordinate errs by at most 2^-52 of its result, in any rounding mode.
 double ClusterFrame::error_between(const Point3& q, const Point3& given,
                                    const std::array<double, 3>& errors) const {
-    constexpr double unit = 0x1p-49, least = std::numeric_limits<double>::denorm_min();
+    constexpr double unit = frame_error_factor * std::numeric_limits<double>::epsilon(),
+                     least = std::numeric_limits<double>::denorm_min();
     const auto most = [&](auto member) {
         const std::array<double, 3> step{axes_[0].step.*member, axes_[1].step.*member,
                                          axes_[2].step.*member};

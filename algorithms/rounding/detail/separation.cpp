@@ -119,7 +119,6 @@ Cut Prover::cut(std::uint32_t f_slot, std::uint32_t g_slot, const Point3& origin
 /// in the conditions cover the consequences.
 bool Prover::is_clear_as_a_whole(std::uint32_t f_slot, std::uint32_t g_slot,
                                  const Common& common) const {
-    constexpr double least_edge_sine = 0x1p-7;
     const Face &f = faces_.faces[f_slot], &g = faces_.faces[g_slot];
     const Point3 across = cross(f.normal, g.normal);
     const double sine = length(across);

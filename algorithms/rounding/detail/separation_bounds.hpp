@@ -20,7 +20,11 @@ constexpr double margin_factor = 4;
 /// statement (4) must be twice as large as the true ones.
 constexpr double condition_factor = 64, rise_factor = 128;
 /// (5) The sine of the angle between planes must exceed least_sine_factor times the errors of their
-/// normals: it then errs by a hundredth of itself at most.
-constexpr double least_sine_factor = 1024;
+/// normals: it then errs by a hundredth of itself at most. Its angle with edges must have a sine above
+/// least_edge_sine.
+constexpr double least_sine_factor = 1024, least_edge_sine = 0x1p-7;
+/// (6) The place of a point in space errs by at most frame_error_factor units of the terms of its
+/// coordinates in the frame of a cluster, and of their sizes.
+constexpr double frame_error_factor = 8;
 
 } // namespace terrane::rounding::detail

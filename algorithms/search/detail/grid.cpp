@@ -47,10 +47,10 @@ void CellGrid::choose_cells(std::span<const Box> boxes) {
         origin_[k] = low[k];
         const double extent = high[k] - low[k];
         size_[k] = extent > 0 && extent < unbounded ? extent / cells[k] : 1;
-        // The widening is half of the largest box, not of a cell. The terms in 2^-40 and 2^-50
-        // cover the rounding of the centre, the smallest normal number that of halves of denormals.
-        widening_[k] = largest[k] * 0.5 * (1 + 0x1p-40) +
-                       0x1p-50 * std::max(std::fabs(low[k]), std::fabs(high[k])) +
+        // The widening is half of the largest box, not of a cell. The smallest normal number covers
+        // the rounding of halves of denormals.
+        widening_[k] = largest[k] * 0.5 * (1 + grid_width_share) +
+                       grid_size_share * std::max(std::fabs(low[k]), std::fabs(high[k])) +
                        std::numeric_limits<double>::min();
     }
 }

@@ -36,9 +36,6 @@ namespace {
 using Vector = std::array<double, 3>;
 using Pairs = std::vector<CandidatePair>;
 
-/// Errors of directions are some units of 2^-53 over the sine of an angle; see the uses.
-constexpr double widening = 0x1p-36, error = 0x1p-46;
-
 constexpr Box everywhere{{-2, -2, -2}, {2, 2, 2}};
 
 double dot(const Vector& a, const Vector& b) {
@@ -49,8 +46,8 @@ Vector sum(double s, const Vector& a, double t, const Vector& b) {
     return {s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2]};
 }
 
-/// Returns the direction from one point to another as a unit vector, with an error of a few 2^-53;
-/// nothing where the difference overflows.
+/// Returns the direction from one point to another as a unit vector, each coordinate with an error of at most
+/// 8 units of 2^-52 of itself (star_direction.g); nothing where the difference overflows.
 std::optional<Vector> direction(const Point3& from, const Point3& to) {
     Vector d{to.x - from.x, to.y - from.y, to.z - from.z};
     const double most = std::max({std::fabs(d[0]), std::fabs(d[1]), std::fabs(d[2])});
@@ -73,7 +70,7 @@ Box box_round(const Vector& a, const Vector& b, double width) {
 /// Adds boxes that contain the arc from a to b. Long arcs are cut into short ones, since an arc
 /// bulges over its chord by the square of half its length.
 void add_arc(const Vector& a, const Vector& b, std::vector<Box>& boxes) {
-    constexpr double longest = 0.25, least_middle = 0.01;
+    constexpr double longest = 0.25;
     const Vector across = sum(1, b, -1, a), middle = sum(1, a, 1, b);
     if (dot(middle, middle) < least_middle * least_middle) {
         boxes.push_back(everywhere);
@@ -89,7 +86,7 @@ void add_arc(const Vector& a, const Vector& b, std::vector<Box>& boxes) {
         const double length = std::sqrt(dot(to, to));
         for (double& x : to) x /= length;
         const Vector chord = sum(1, to, -1, from);
-        boxes.push_back(box_round(from, to, dot(chord, chord) / 4 + widening));
+        boxes.push_back(box_round(from, to, dot(chord, chord) / 4 + arc_error));
         from = to;
     }
 }
@@ -100,9 +97,9 @@ Box box_across(const Point3& v, const Vector& axis, const Point3& to) {
     if (!along) return everywhere;
     Vector across = sum(1, *along, -dot(*along, axis), axis);
     const double sine = std::sqrt(dot(across, across));
-    if (!(sine > 4 * error)) return everywhere;
+    if (!(sine > 4 * across_error)) return everywhere;
     for (double& x : across) x /= sine;
-    return box_round(across, across, error / sine);
+    return box_round(across, across, across_error / sine);
 }
 
 /// Searches the triangles of one star.

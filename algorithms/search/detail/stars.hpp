@@ -21,6 +21,14 @@
 
 namespace terrane::search {
 
+/// By how much boxes around directions are widened. kernel/proofs/star_*.g are proofs that Gappa
+/// checks with these numbers.
+/// A direction across a line errs by at most this over the sine of its angle with the line.
+inline constexpr double across_error = 0x1p-44;
+/// An arc between directions whose sum is longer than least_middle is within this, and what it
+/// bulges over its chord, of the chord.
+inline constexpr double arc_error = 0x1p-36, least_middle = 0.01;
+
 /// Disjoint sets of triangles, each at one crowded vertex.
 struct Stars {
     std::vector<std::uint32_t> of; ///< per triangle: its star or no_group; empty without stars
