@@ -224,8 +224,8 @@ std::string verdict_text(const Judgement& judged, const std::string& name) {
             judged.certificate.tetrahedra() != nullptr ? "tetrahedra" : "triangles";
         text += blocks_text(judged);
         for (const JudgedInput& input : judged.inputs)
-            text += fmt::format("{}: read, {} bytes, sha256:{}\n", one_line(input.path),
-                                input.bytes, input.sha256);
+            text += fmt::format("{}: {} bytes, read as all commands read them, sha256:{}\n",
+                                one_line(input.path), input.bytes, input.sha256);
         for (const JudgedOutput& output : judged.outputs)
             text += output_text(output, judged.certificate.outputs[output.number].format, cells);
         if (judged.outputs.empty())
