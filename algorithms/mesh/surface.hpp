@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -33,6 +34,14 @@ struct CoordinateFrame {
     bool column_of_depths = false; ///< z is a column called depth that was not turned over
 };
 
+/// Faces of a file with more than three corners whose triangles may be others than were meant: they cross
+/// themselves, or are not flat. No geometry depends on them.
+struct FlawedFaces {
+    std::size_t crossing = 0; ///< number of those that cross or touch themselves
+    std::size_t bent = 0;     ///< number of those with more than four corners that are not flat
+    Point3 first{};           ///< first corner of the first one; unit of the file
+};
+
 /// A triangulated surface as it is read. It may be open, cross itself, and have duplicate or
 /// degenerate triangles; only its coordinates must be finite.
 struct Surface {
@@ -41,6 +50,7 @@ struct Surface {
     std::vector<Point3> vertices;    ///< order and unit of the file; finite
     std::vector<Triangle> triangles; ///< order of the file; indices < vertices.size()
     CoordinateFrame frame{};         ///< what the file states about the coordinates
+    FlawedFaces flawed_faces{};      ///< those of the file
 };
 
 } // namespace terrane

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/io/meshes/detail/parts.hpp>
+#include <terrane/io/surfaces/detail/parts.hpp>
 #include <terrane/io/text/text.hpp>
 
 namespace terrane {
@@ -277,8 +277,7 @@ private:
                                                                     : unused))
                     return trouble;
             if (auto trouble = read_corners(type, corners)) return trouble;
-            append_fan(corners,
-                       triangles_[physical != 0 ? Key{false, physical} : Key{true, entity}]);
+            append_face(corners, parts_[physical != 0 ? Key{false, physical} : Key{true, entity}]);
         }
         return std::nullopt;
     }
@@ -300,33 +299,33 @@ private:
         if (auto trouble = integer(tokens_.next(), type)) return trouble;
         if (auto trouble = count(tokens_.next(), elements)) return trouble;
         if (auto trouble = check_type(type)) return trouble;
-        std::vector<std::vector<Triangle>*> to;
+        std::vector<FilePart*> to;
         if (const auto groups = physical_of_.find(entity); groups != physical_of_.end())
             for (const std::int64_t group : groups->second)
-                to.push_back(&triangles_[Key{false, group}]);
-        if (to.empty() && has_area(type)) to.push_back(&triangles_[Key{true, entity}]);
+                to.push_back(&parts_[Key{false, group}]);
+        if (to.empty() && has_area(type)) to.push_back(&parts_[Key{true, entity}]);
         std::vector<std::uint32_t> corners;
         for (std::size_t i = 0; i < elements; ++i) {
             if (auto trouble = need_line("$Elements")) return trouble;
             if (!has_area(type)) continue;
             if (auto trouble = read_corners(type, corners)) return trouble;
-            for (std::vector<Triangle>* triangles : to) append_fan(corners, *triangles);
+            for (FilePart* part : to) append_face(corners, *part);
         }
         return std::nullopt;
     }
 
     /// Names the surfaces, in their order.
     std::vector<FilePart> parts() {
-        std::erase_if(triangles_, [](const auto& entry) { return entry.second.empty(); });
+        std::erase_if(parts_, [](const auto& entry) { return entry.second.triangles.empty(); });
         std::vector<FilePart> all;
-        for (auto& [key, triangles] : triangles_) {
+        for (auto& [key, part] : parts_) {
             const auto named = key.is_entity ? name_of_.end() : name_of_.find(key.tag);
-            std::string name(name_);
+            part.name = name_;
             if (named != name_of_.end())
-                name = named->second;
-            else if (triangles_.size() > 1)
-                name += fmt::format(" {} {}", key.is_entity ? "entity" : "physical", key.tag);
-            all.push_back({std::move(name), Role::unknown, std::move(triangles)});
+                part.name = named->second;
+            else if (parts_.size() > 1)
+                part.name += fmt::format(" {} {}", key.is_entity ? "entity" : "physical", key.tag);
+            all.push_back(std::move(part));
         }
         return all;
     }
@@ -340,7 +339,7 @@ private:
     std::map<std::int64_t, std::vector<std::int64_t>> physical_of_; ///< per surface entity
     std::unordered_map<std::int64_t, std::uint32_t> node_of_;       ///< by tag
     std::vector<Point3> vertices_;
-    std::map<Key, std::vector<Triangle>> triangles_;
+    std::map<Key, FilePart> parts_;
 };
 
 } // namespace

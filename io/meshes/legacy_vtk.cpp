@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include <terrane/io/meshes/detail/legacy_vtk_scanner.hpp>
-#include <terrane/io/meshes/detail/parts.hpp>
 #include <terrane/io/meshes/detail/vtk_cells.hpp>
+#include <terrane/io/surfaces/detail/parts.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
 
@@ -285,7 +285,7 @@ private:
                 if (s < roles.size() && roles[s] == role_names[r]) part.role = Role(r);
         }
         if (parts_.empty()) {
-            parts_.push_back({std::string(name_), Role::unknown, {}});
+            parts_.push_back({std::string(name_)});
             return std::nullopt;
         }
         has_lists_ = fields_.contains("surfaces") || fields_.contains("surfaces_offset");
@@ -352,15 +352,15 @@ private:
     /// Adds a cell to its surfaces; `polygon` is its number, if it is a polygon, and is counted on.
     MaybeError add_cell(CellKind kind, std::size_t at, std::size_t& polygon,
                         const std::vector<std::uint32_t>& corners) {
-        auto& first = parts_[0].triangles;
-        if (kind == CellKind::strip) append_strip(corners, first);
+        FilePart& first = parts_[0];
+        if (kind == CellKind::strip) append_strip(corners, first.triangles);
         if (kind == CellKind::pixel && corners.size() == 4)
-            append_fan(std::array{corners[0], corners[1], corners[3], corners[2]}, first);
+            append_face(std::array{corners[0], corners[1], corners[3], corners[2]}, first);
         if (kind != CellKind::polygon) return std::nullopt;
         const std::size_t k = polygon++;
         if (has_lists_) return add_to_lists(at, k, corners);
         if (!has_numbers_) {
-            append_fan(corners, first);
+            append_face(corners, first);
             return std::nullopt;
         }
         if (k >= surface_of_.size())
@@ -371,7 +371,7 @@ private:
             return in_.error_at(
                 at, ErrorCode::bad_index,
                 fmt::format("polygon {} is of surface {}, but there are {}", k, s, parts_.size()));
-        append_fan(corners, parts_[static_cast<std::size_t>(s)].triangles);
+        append_face(corners, parts_[static_cast<std::size_t>(s)]);
         return std::nullopt;
     }
 
@@ -402,7 +402,7 @@ private:
                 at, ErrorCode::unsupported,
                 fmt::format("polygon {} is of several surfaces, but no triangle", k));
         for (std::size_t i = begin; i < end; ++i)
-            append_fan(corners, parts_[static_cast<std::size_t>(lists[i])].triangles);
+            append_face(corners, parts_[static_cast<std::size_t>(lists[i])]);
         return std::nullopt;
     }
 

@@ -17,7 +17,8 @@ namespace terrane {
 /// grid, become one surface, `name`; points, lines and volumes are passed over.
 /// - A file that to_vtk() wrote gives its surfaces back, with names and roles; so does a file of VTK
 ///   with the arrays of to_vtp() or to_vtu(). No other data are read.
-/// - Polygons become fans round their first corner. A surface has only the vertices that it uses.
+/// - Polygons are divided as append_face() does (algorithms/triangulation/face.hpp). A surface has
+///   only the vertices that it uses.
 /// Errors: bad_syntax, bad_number, bad_index with "source:line", or "source, byte n" where the data
 /// are binary; unsupported (another DATASET, cells with curved sides); nothing_to_do if there is no
 /// triangle. Cost: linear.

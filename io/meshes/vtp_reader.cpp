@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
-#include <terrane/io/meshes/detail/parts.hpp>
 #include <terrane/io/meshes/detail/vtk_cells.hpp>
 #include <terrane/io/meshes/detail/vtk_data.hpp>
+#include <terrane/io/surfaces/detail/parts.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
 
@@ -59,7 +59,7 @@ public:
             return error(root_, ErrorCode::bad_syntax,
                          fmt::format("there is no element {}", type_));
         if (auto trouble = read_names(data)) return *trouble;
-        if (parts_.empty()) parts_.push_back({std::string(name_), Role::unknown, {}});
+        if (parts_.empty()) parts_.push_back({std::string(name_)});
         for (const pugi::xml_node piece : data.children("Piece"))
             if (auto trouble = read_piece(data, piece)) return *trouble;
         auto surfaces = surfaces_of_parts(vertices_, std::move(parts_));
@@ -316,7 +316,7 @@ private:
                 return error(piece, ErrorCode::bad_index,
                              fmt::format("polygon {} is of surface {}, but there are {}", k, s,
                                          parts_.size()));
-            append_fan(corners, parts_[static_cast<std::size_t>(s)].triangles);
+            append_face(corners, parts_[static_cast<std::size_t>(s)]);
             return std::nullopt;
         };
         if (of.empty()) return add_to(0);
@@ -384,8 +384,7 @@ private:
             if (kinds[k] == CellKind::polygon) return add_polygon(piece, of, polygons++, corners);
             if (kinds[k] == CellKind::strip) append_strip(corners, parts_[0].triangles);
             if (kinds[k] == CellKind::pixel && corners.size() == 4)
-                append_fan(Corners{corners[0], corners[1], corners[3], corners[2]},
-                           parts_[0].triangles);
+                append_face(Corners{corners[0], corners[1], corners[3], corners[2]}, parts_[0]);
             return std::nullopt;
         };
         return for_each_cell(cells, points, use);

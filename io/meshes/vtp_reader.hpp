@@ -14,7 +14,7 @@ namespace terrane {
 /// Reads the polygons and triangle strips of all pieces; vertices and lines are passed over. Data
 /// may be text, base64 or appended (raw or base64), of either byte order, as they are or compressed
 /// by zlib.
-/// - Polygons become fans round their first corner.
+/// - Polygons are divided as append_face() does (algorithms/triangulation/face.hpp).
 /// - A file that to_vtp() wrote gives its surfaces back: the field arrays surface_name and
 /// surface_role
 ///   name them, and the cell array surface, or surfaces and surfaces_offset, tells which polygons

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/io/surfaces/detail/parts.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
 
@@ -27,10 +27,6 @@ public:
     Result<std::vector<Surface>> read();
 
 private:
-    struct Group {
-        std::string name;
-        std::vector<Triangle> triangles; ///< indices into vertices_
-    };
     /// A vertex that a face named before its definition.
     struct Ahead {
         std::uint32_t vertex;
@@ -43,7 +39,6 @@ private:
     MaybeError read_corner(std::string_view token, std::uint32_t& vertex);
     MaybeError begin_groups(Tokens tokens);
     void begin_group(std::string_view name);
-    void add_triangle(const Triangle& triangle);
     std::uint32_t group_named(std::string_view name);
     MaybeError check_ahead() const;
     std::vector<Surface> surfaces();
@@ -53,7 +48,7 @@ private:
     std::string joined_;          ///< lines that a backslash joins
     std::string_view default_name_;
     std::vector<Point3> vertices_;
-    std::vector<Group> groups_; ///< in order of their first line
+    std::vector<FilePart> groups_; ///< in order of their first line
     std::map<std::string, std::uint32_t, std::less<>> group_of_name_;
     std::vector<std::uint32_t> current_;    ///< groups of the next face; empty: the default group
     std::vector<std::uint32_t> with_faces_; ///< groups in order of their first face
@@ -80,7 +75,7 @@ std::uint32_t ObjReader::group_named(std::string_view name) {
     const auto found = group_of_name_.find(name);
     if (found != group_of_name_.end()) return found->second;
     const auto index = static_cast<std::uint32_t>(groups_.size());
-    groups_.push_back({std::string(name), {}});
+    groups_.push_back({std::string(name)});
     group_of_name_.emplace(name, index);
     return index;
 }
@@ -119,14 +114,6 @@ MaybeError ObjReader::read_corner(std::string_view token, std::uint32_t& vertex)
     return std::nullopt;
 }
 
-void ObjReader::add_triangle(const Triangle& triangle) {
-    for (const auto index : current_) {
-        auto& group = groups_[index];
-        if (group.triangles.empty()) with_faces_.push_back(index);
-        group.triangles.push_back(triangle);
-    }
-}
-
 MaybeError ObjReader::read_face(Tokens tokens) {
     corners_.clear();
     for (auto token = tokens.next(); !token.empty(); token = tokens.next()) {
@@ -136,8 +123,11 @@ MaybeError ObjReader::read_face(Tokens tokens) {
     if (corners_.size() < 3)
         return in_.error_at(line_number_, ErrorCode::bad_syntax, "a face needs 3 corners");
     if (current_.empty()) current_.push_back(group_named(default_name_));
-    for (std::size_t i = 2; i < corners_.size(); ++i)
-        add_triangle({corners_[0], corners_[i - 1], corners_[i]});
+    for (const auto index : current_) {
+        FilePart& group = groups_[index];
+        if (group.triangles.empty()) with_faces_.push_back(index);
+        append_face(corners_, group);
+    }
     return std::nullopt;
 }
 
@@ -162,16 +152,9 @@ MaybeError ObjReader::check_ahead() const {
 }
 
 std::vector<Surface> ObjReader::surfaces() {
-    std::vector<Surface> result;
-    Submesh subset(vertices_);
-    for (const auto index : with_faces_) {
-        auto& group = groups_[index];
-        auto& surface = result.emplace_back();
-        surface.name = std::move(group.name);
-        surface.triangles = std::move(group.triangles);
-        surface.vertices = subset.cut(surface.triangles);
-    }
-    return result;
+    std::vector<FilePart> parts;
+    for (const auto index : with_faces_) parts.push_back(std::move(groups_[index]));
+    return surfaces_of_parts(vertices_, std::move(parts));
 }
 
 Result<std::vector<Surface>> ObjReader::read() {

@@ -19,8 +19,8 @@ namespace terrane {
 ///   appearance only and has no effect.
 /// - A surface has only the vertices that it uses, in file order.
 /// - The corners of a face are written `v`, `v/t`, `v//n` or `v/t/n`, with indices that count from
-///   1 or are negative; polygons become fans around their first corner. Weights and colours after
-///   `v x y z` are ignored. A backslash at the end of a line joins it with the next line.
+///   1 or are negative. Faces are divided as append_face() does (algorithms/triangulation/face.hpp).
+///   Weights and colours after `v x y z` are ignored. A backslash at the end of a line joins it with the next line.
 /// Errors: bad_syntax, bad_number, bad_index with "source:line"; nothing_to_do if there is no face.
 /// Cost: linear; one pass over `contents`.
 Result<std::vector<Surface>> read_obj(std::string_view contents, std::string_view source,

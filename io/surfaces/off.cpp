@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/io/surfaces/detail/parts.hpp>
 #include <terrane/io/text/text.hpp>
 
 namespace terrane {
@@ -26,13 +27,14 @@ private:
     MaybeError read_counts(Tokens tokens);
     MaybeError read_vertices(std::vector<Point3>& vertices);
     MaybeError read_corner(std::string_view token, std::uint32_t& vertex) const;
-    MaybeError read_face(std::vector<Triangle>& triangles);
-    MaybeError read_faces(std::vector<Triangle>& triangles);
+    MaybeError read_face(FilePart& part);
+    MaybeError read_faces(FilePart& part);
     [[nodiscard]] Error ends_early(std::size_t have, std::int64_t want,
                                    std::string_view what) const;
 
     LineParser in_;
-    std::string_view line_; ///< the current line without its comment
+    std::string_view line_;              ///< the current line without its comment
+    std::vector<std::uint32_t> corners_; ///< of the current face
     std::int64_t vertex_count_ = 0;
     std::int64_t face_count_ = 0;
 };
@@ -110,28 +112,25 @@ MaybeError OffReader::read_corner(std::string_view token, std::uint32_t& vertex)
     return std::nullopt;
 }
 
-MaybeError OffReader::read_face(std::vector<Triangle>& triangles) {
+MaybeError OffReader::read_face(FilePart& part) {
     Tokens tokens(line_);
     std::int64_t count = 0;
     if (!parse_integer(tokens.next(), count) || count < 3)
         return in_.error(ErrorCode::bad_syntax,
                          "a face begins with its number of corners, at least 3: " + shown(line_));
-    Triangle triangle{};
-    for (std::int64_t i = 0; i < count; ++i) {
-        auto& corner = triangle[static_cast<std::size_t>(std::min<std::int64_t>(i, 2))];
-        if (auto trouble = read_corner(tokens.next(), corner)) return trouble;
-        if (i < 2) continue;
-        triangles.push_back(triangle);
-        triangle[1] = triangle[2];
-    }
+    corners_.clear();
+    for (std::int64_t i = 0; i < count; ++i)
+        if (auto trouble = read_corner(tokens.next(), corners_.emplace_back())) return trouble;
+    append_face(corners_, part);
     return std::nullopt;
 }
 
-MaybeError OffReader::read_faces(std::vector<Triangle>& triangles) {
-    triangles.reserve(std::min(static_cast<std::size_t>(face_count_), in_.bytes_left() / 8 + 1));
+MaybeError OffReader::read_faces(FilePart& part) {
+    part.triangles.reserve(
+        std::min(static_cast<std::size_t>(face_count_), in_.bytes_left() / 8 + 1));
     for (std::int64_t i = 0; i < face_count_; ++i) {
         if (!next_line()) return ends_early(static_cast<std::size_t>(i), face_count_, "faces");
-        if (auto trouble = read_face(triangles)) return trouble;
+        if (auto trouble = read_face(part)) return trouble;
     }
     if (next_line())
         return in_.error(ErrorCode::bad_syntax,
@@ -142,7 +141,10 @@ MaybeError OffReader::read_faces(std::vector<Triangle>& triangles) {
 MaybeError OffReader::read(Surface& surface) {
     if (auto trouble = read_header()) return trouble;
     if (auto trouble = read_vertices(surface.vertices)) return trouble;
-    if (auto trouble = read_faces(surface.triangles)) return trouble;
+    FilePart part;
+    if (auto trouble = read_faces(part)) return trouble;
+    surface.flawed_faces = divide_faces(surface.vertices, part);
+    surface.triangles = std::move(part.triangles);
     if (surface.triangles.empty())
         return in_.file_error(ErrorCode::nothing_to_do, "there is no face");
     return std::nullopt;

@@ -15,7 +15,8 @@ namespace terrane {
 /// Reads one Surface called `name`, with all vertices of the file. The variants OFF, COFF, NOFF,
 /// STOFF and their combinations are read; colours, normals and texture coordinates are ignored. The
 /// keyword may be missing, and the counts may follow it on the same line; '#' begins a comment.
-/// Each line has one vertex or face; polygons become fans around their first corner.
+/// Each line has one vertex or face. Faces are divided as append_face() does
+/// (algorithms/triangulation/face.hpp).
 /// Errors: bad_syntax, bad_number, bad_index with "source:line"; nothing_to_do if there is no face;
 /// unsupported for 4OFF, nOFF and OFF BINARY.
 Result<std::vector<Surface>> read_off(std::string_view contents, std::string_view source,

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/io/surfaces/detail/parts.hpp>
 #include <terrane/io/text/bytes.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
@@ -288,7 +289,7 @@ public:
     Result<std::vector<Surface>> read(std::string_view name) {
         if (auto trouble = HeaderReader(in_, header_).read()) return *trouble;
         vertex_count_ = header_.find("vertex")->count;
-        triangles_of_.resize(std::max<std::size_t>(header_.surfaces.size(), 1));
+        parts_.resize(std::max<std::size_t>(header_.surfaces.size(), 1));
         Values values(contents_, in_, header_);
         for (const auto& element : header_.elements)
             if (auto trouble = read_element(element, values)) return *trouble;
@@ -361,26 +362,26 @@ private:
         if (corners_.size() < 3)
             return values.error(ErrorCode::bad_syntax, "a face needs 3 corners");
         if (owners_.empty()) owners_.push_back(0);
-        for (std::size_t i = 2; i < corners_.size(); ++i)
-            for (const auto owner : owners_)
-                triangles_of_[owner].push_back({corners_[0], corners_[i - 1], corners_[i]});
+        for (const auto owner : owners_) append_face(corners_, parts_[owner]);
         return std::nullopt;
     }
 
     std::vector<Surface> surfaces(std::string_view name) {
-        std::vector<Surface> result;
-        if (header_.surfaces.empty()) {
-            result.push_back({std::string(name), Role::unknown, std::move(vertices_),
-                              std::move(triangles_of_[0])});
-            return result;
-        }
+        std::vector<Surface> result(parts_.size());
         Submesh subset(vertices_);
-        for (std::size_t s = 0; s < triangles_of_.size(); ++s) {
-            auto& triangles = triangles_of_[s];
-            auto part = subset.cut(triangles);
-            result.push_back({std::move(header_.surfaces[s].name), header_.surfaces[s].role,
-                              std::move(part), std::move(triangles)});
+        for (std::size_t s = 0; s < parts_.size(); ++s) {
+            Surface& surface = result[s];
+            surface.flawed_faces = divide_faces(vertices_, parts_[s]);
+            surface.triangles = std::move(parts_[s].triangles);
+            if (header_.surfaces.empty()) {
+                surface.name = name;
+                continue;
+            }
+            surface.name = std::move(header_.surfaces[s].name);
+            surface.role = header_.surfaces[s].role;
+            surface.vertices = subset.cut(surface.triangles);
         }
+        if (header_.surfaces.empty()) result[0].vertices = std::move(vertices_);
         return result;
     }
 
@@ -389,9 +390,9 @@ private:
     Header header_;
     std::int64_t vertex_count_ = 0;
     std::vector<Point3> vertices_;
-    std::vector<std::vector<Triangle>> triangles_of_; ///< per surface, at least one
-    std::vector<std::uint32_t> corners_;              ///< of the current face
-    std::vector<std::uint32_t> owners_;               ///< surfaces of the current face
+    std::vector<FilePart> parts_;        ///< per surface, at least one
+    std::vector<std::uint32_t> corners_; ///< of the current face
+    std::vector<std::uint32_t> owners_;  ///< surfaces of the current face
 };
 
 } // namespace

@@ -13,8 +13,8 @@
 namespace terrane {
 
 /// Reads one Surface called `name` with all vertices of the file. All scalar and list types are
-/// understood; further elements and properties are skipped. Polygons become fans around their first
-/// corner. Numbers in ASCII are read as doubles, whatever type the header declares. From a file
+/// understood; further elements and properties are skipped. Faces are divided as append_face()
+/// does (algorithms/triangulation/face.hpp). Numbers in ASCII are read as doubles, whatever type the header declares. From a file
 /// written by to_ply the original surfaces are read, each with the vertices that it uses.
 /// Errors: bad_syntax, bad_number, bad_index with "source:line" or "source, byte n"; nothing_to_do
 /// if there is no face; unsupported for triangle strips.

@@ -104,6 +104,22 @@ void check_float32(Examination& e) {
         "gaps");
 }
 
+void check_faces(Examination& e) {
+    for (const auto s : e.used) {
+        const auto& [crossing, bent, first] = e.surfaces[s].flawed_faces;
+        if (crossing + bent == 0) continue;
+        e.warn(Doubt::flawed_faces, {s},
+               fmt::format(
+                   "{} has faces with more than three corners that cross themselves ({}) or are "
+                   "not flat ({}), the first one at {}",
+                   e.labels[s], crossing, bent, place_text(first)),
+               "Triangles of a face that crosses itself are a fan round its first corner, and "
+               "overlap; "
+               "those of a bent one are one of several surfaces with this border",
+               "Let the program that wrote the file divide its faces into triangles");
+    }
+}
+
 void check_duplicates(Examination& e) {
     std::map<Fingerprint, std::uint32_t> first;
     for (const auto s : e.used) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Functions that the readers of meshes share: polygons become triangles, and triangles surfaces.
+// Functions that the readers of meshes share: faces become triangles, and triangles surfaces.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +14,24 @@
 
 namespace terrane::detail {
 
-/// A surface whose triangles name vertices of a whole file.
-struct FilePart {
-    std::string name;
-    Role role = Role::unknown;
-    std::vector<Triangle> triangles;
+/// A face with more than three corners, as a fan round the first one until all vertices are known.
+struct Fan {
+    std::size_t first, triangles; ///< the first one of the part, and how many
 };
 
-/// Appends the fan of a polygon round its first corner; fewer than three corners make none.
-inline void append_fan(std::span<const std::uint32_t> corners, std::vector<Triangle>& triangles) {
+/// A surface whose triangles name vertices of a whole file.
+struct FilePart {
+    std::string name{};
+    Role role = Role::unknown;
+    std::vector<Triangle> triangles{};
+    std::vector<Fan> fans{}; ///< ascending
+};
+
+/// Appends a face; fewer than three corners make none.
+inline void append_face(std::span<const std::uint32_t> corners, FilePart& part) {
+    if (corners.size() > 3) part.fans.push_back({part.triangles.size(), corners.size() - 2});
     for (std::size_t i = 2; i < corners.size(); ++i)
-        triangles.push_back({corners[0], corners[i - 1], corners[i]});
+        part.triangles.push_back({corners[0], corners[i - 1], corners[i]});
 }
 
 /// Appends the triangles of a strip, all turned the same way.
@@ -34,6 +41,9 @@ inline void append_strip(std::span<const std::uint32_t> corners, std::vector<Tri
                                        : Triangle{corners[i - 1], corners[i - 2], corners[i]});
 }
 
+/// Divides the faces of a part into triangles, and returns the flawed ones.
+FlawedFaces divide_faces(std::span<const Point3> vertices, FilePart& part);
+
 /// Makes a surface of each part that has triangles, with the vertices that they use.
 inline std::vector<Surface> surfaces_of_parts(std::span<const Point3> vertices,
                                               std::vector<FilePart> parts) {
@@ -42,6 +52,7 @@ inline std::vector<Surface> surfaces_of_parts(std::span<const Point3> vertices,
     for (FilePart& part : parts) {
         if (part.triangles.empty()) continue;
         Surface& surface = surfaces.emplace_back();
+        surface.flawed_faces = divide_faces(vertices, part);
         surface.name = std::move(part.name);
         surface.role = part.role;
         surface.triangles = std::move(part.triangles);
