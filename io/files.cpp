@@ -9,6 +9,7 @@
 #include <terrane/algorithms/tetrahedra/edge_nodes.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/file_set.hpp>
+#include <terrane/io/detail/recognition.hpp>
 #include <terrane/io/gocad/gocad.hpp>
 #include <terrane/io/gocad/gocad_curves.hpp>
 #include <terrane/io/grids/cps3.hpp>
@@ -42,6 +43,7 @@
 #include <terrane/io/surfaces/stl.hpp>
 #include <terrane/io/text/text.hpp>
 #include <terrane/io/text/units.hpp>
+#include <terrane/io/text/utf8.hpp>
 
 namespace terrane {
 
@@ -137,6 +139,8 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
     case Format::esri:
         return surfaces_of(read_esri(contents, source, name), source, options);
     case Format::xyz:
+        if (const auto seen = format_seen_in(contents))
+            return parse_as_stated(contents, source, *seen, options);
         return read_points(contents, source, name, options);
     case Format::sticks:
         return read_sticks(contents, source, name, options);
@@ -152,6 +156,8 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
 
 Result<std::vector<Surface>> parse(std::string_view contents, std::string_view source,
                                    Format format, const ReadOptions& options) {
+    const std::string utf8 = utf8_of_utf16(contents);
+    if (!utf8.empty()) contents = utf8;
     auto surfaces = parse_as_stated(contents, source, format, options);
     if (!surfaces || options.unit.empty()) return surfaces;
     for (Surface& s : *surfaces)

@@ -98,7 +98,7 @@ private:
                              fmt::format("MSH {} is not read, only 2.2 and 4.1", shown(word_)));
         if (tokens_.next() != "0")
             return in_.error(ErrorCode::unsupported,
-                             "binary MSH is not read; save it as ASCII (gmsh -bin 0)");
+                             "binary MSH is not read; gmsh FILE -save -o text.msh writes text");
         return end_of("$MeshFormat");
     }
 

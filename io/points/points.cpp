@@ -7,12 +7,14 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <terrane/algorithms/triangulation/point_surface.hpp>
 #include <terrane/io/gocad/gocad_objects.hpp>
 #include <terrane/io/points/detail/heading.hpp>
 #include <terrane/io/points/detail/point_lines.hpp>
 #include <terrane/io/text/text.hpp>
+#include <terrane/io/text/units.hpp>
 
 namespace terrane {
 
@@ -23,14 +25,22 @@ namespace {
 
 class PointReader {
 public:
-    PointReader(std::string_view contents, std::string_view source) : in_(contents, source) {}
+    PointReader(std::string_view contents, std::string_view source) :
+        commas_(meaning_of_commas(contents)), with_points_(with_points(contents)),
+        in_(commas_ == Commas::decimal ? std::string_view(with_points_) : contents, source) {}
 
     /// Reads one surface, or one for each text in front of the numbers, in file order.
     MaybeError read(std::vector<Surface>& surfaces) {
+        if (commas_ == Commas::unclear)
+            return in_.file_error(
+                ErrorCode::bad_syntax,
+                "the commas in numbers may be decimal points or divide thousands; "
+                "separate columns by semicolons, or write points");
         while (in_.next()) {
             const auto line = trimmed(in_.line());
             if (line.empty()) continue;
             if (ends_points(line)) break;
+            if (names_columns(line)) continue;
             if (is_comment(line)) {
                 look_for_names(line);
             } else if (auto trouble = read_line(line, surfaces)) {
@@ -42,6 +52,40 @@ public:
     }
 
 private:
+    /// Returns the contents with points in place of decimal commas; nothing if there are none.
+    [[nodiscard]] std::string with_points(std::string_view contents) const {
+        std::string text;
+        if (commas_ != Commas::decimal) return text;
+        text = contents;
+        std::ranges::replace(text, ',', '.');
+        return text;
+    }
+
+    /// Takes a line that names one column: "# Field: 3 z meters" of EarthVision, or a line between
+    /// BEGIN HEADER and END HEADER of Petrel, "INT,Inline". Tells whether it is one of these lines.
+    bool names_columns(std::string_view line) {
+        if (chosen_) return false;
+        Tokens tokens(line);
+        const auto first = tokens.next();
+        if (in_header_ || first == "BEGIN") {
+            if (line == "BEGIN HEADER" || line == "END HEADER") {
+                in_header_ = line == "BEGIN HEADER";
+                if (in_header_) fields_.clear();
+                return true;
+            }
+            if (in_header_) fields_.emplace_back(trimmed(line.substr(line.rfind(',') + 1)));
+            return in_header_;
+        }
+        std::int64_t number = 0;
+        if (first != "#" || tokens.next() != "Field:" || !parse_integer(tokens.next(), number) ||
+            number != static_cast<std::int64_t>(fields_.size()) + 1)
+            return false;
+        const auto name = tokens.next(), unit = tokens.next();
+        fields_.push_back(metres_in(unit_named(unit)) ? fmt::format("{} ({})", name, unit)
+                                                      : std::string(name));
+        return true;
+    }
+
     void look_for_names(std::string_view line) {
         if (chosen_) return;
         while (!line.empty() && std::string_view("#!@/ \t").find(line[0]) != std::string_view::npos)
@@ -53,15 +97,28 @@ private:
         if (chosen_ && by_heading_) return read_cells(line, surfaces);
         auto columns = columns_of(line);
         const bool words = !columns.empty() && !is_number(columns[0]);
+        if (!chosen_ && !fields_.empty() && std::ranges::any_of(columns, is_number)) {
+            heading_ = heading_of(fields_);
+            if (!heading_)
+                return in_.error(ErrorCode::bad_syntax,
+                                 "the header names the columns " +
+                                     fmt::format("{}", fmt::join(fields_, ", ")) + which_are_xyz);
+            fields_.clear();
+        }
         if (!chosen_ && fits_heading(line)) {
             by_heading_ = true;
             chosen_ = heading_->xyz;
             return read_cells(line, surfaces);
         }
-        if (!chosen_ && words && line[0] != '"') { // a heading
+        if (!chosen_ && words && (line[0] != '"' || std::ranges::none_of(columns, is_number))) {
             look_for_names(line);
+            last_words_ = line;
             return std::nullopt;
         }
+        if (!chosen_ && !heading_ && !last_words_.empty())
+            if (const auto named = unclear_columns(last_words_, line))
+                return in_.error(ErrorCode::bad_syntax,
+                                 "the heading names the columns " + *named + which_are_xyz);
         const auto first = std::find_if(columns.begin(), columns.end(), is_number);
         const auto name = words ? columns[0] : std::string_view();
         columns.erase(columns.begin(), first);
@@ -134,7 +191,16 @@ private:
         }
     }
 
+    static constexpr std::string_view which_are_xyz =
+        ", and not which of them are x, y and z: call them so, or easting, northing, elevation, "
+        "depth";
+
+    Commas commas_;
+    std::string with_points_; ///< the contents, where commas are decimal points
     LineParser in_;
+    bool in_header_ = false;
+    std::vector<std::string> fields_;                  ///< columns that lines of their own name
+    std::string last_words_;                           ///< the last line of words before the points
     std::optional<Heading> heading_;                   ///< the last one before the points
     bool by_heading_ = false;                          ///< lines have the columns of the heading
     std::optional<std::array<std::size_t, 3>> chosen_; ///< columns in use, set at the first point

@@ -19,12 +19,14 @@ namespace terrane {
 /// - Columns are separated by blanks, tabs, commas or semicolons. Lines that begin with # ! @ or //
 ///   are comments, and so are lines before the first point that begin with a word. A line EOD or
 ///   EOB ends the points.
-/// - A heading, the last line of words before the points, names the columns x, y, z (or easting,
-///   northing, depth, elevation, tvdss; inline and crossline if there are no x and y), in any case.
-///   A unit may follow a name: depth_ft, "z (m)", x[m]. Columns of a heading with commas,
+/// - A heading, the last line before the points that names x, y and z, tells their columns (or
+///   easting, northing, elevation, depth and others; inline and crossline if there are no x and y),
+///   in any case; so do "# Field:" lines of EarthVision and Petrel's BEGIN HEADER. A heading of
+///   other names is an error. A unit may follow a name: depth_ft, "z (m)", x[m]. Columns of a heading with commas,
 ///   semicolons or tabs are separated by these alone, so cells may be empty. Without a heading the
 ///   coordinates are the first three numbers, or the last three if the first point has five numbers
 ///   (inline, crossline, x, y, z).
+/// - Commas are decimal points where meaning_of_commas() says so (detail/heading.hpp).
 /// - A point is skipped if its z is -99999, -9999, -999.25 or at least 1e29 in size, or if its
 ///   three numbers are 999, which end a line.
 /// Errors: bad_syntax, bad_number with "source:line"; nothing_to_do if there is no triangle; those

@@ -87,7 +87,7 @@ void ObjReader::begin_group(std::string_view name) {
 
 MaybeError ObjReader::begin_groups(Tokens tokens) {
     current_.clear();
-    for (auto name = tokens.next(); !name.empty(); name = tokens.next()) {
+    for (auto name = tokens.next(); !name.empty() && name != "#"; name = tokens.next()) {
         const auto group = group_named(name);
         if (std::find(current_.begin(), current_.end(), group) != current_.end()) continue;
         if (current_.size() == max_names)
@@ -137,7 +137,7 @@ MaybeError ObjReader::read_line(std::string_view line) {
     if (keyword == "v") return in_.read_point(tokens, "v", vertices_.emplace_back());
     if (keyword == "f" || keyword == "fo") return read_face(tokens);
     if (keyword == "g") return begin_groups(tokens);
-    if (keyword == "o") begin_group(tokens.rest());
+    if (keyword == "o") begin_group(trimmed(tokens.rest().substr(0, tokens.rest().find(" # "))));
     return std::nullopt;
 }
 

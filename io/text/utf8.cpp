@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/text/utf8.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -39,6 +40,39 @@ bool is_utf8(std::string_view text) {
         if (code < start.least || surrogate || code > 0x10FFFF) return false;
     }
     return true;
+}
+
+std::string utf8_of_utf16(std::string_view text) {
+    std::string out;
+    const bool low_first = text.starts_with("\xFF\xFE");
+    if (!low_first && !text.starts_with("\xFE\xFF")) return out;
+    const auto unit = [&](std::size_t i) -> std::uint32_t {
+        if (i + 1 >= text.size()) return 0;
+        const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+        return low_first ? byte(i) | byte(i + 1) << 8U : byte(i) << 8U | byte(i + 1);
+    };
+    const auto is_half = [](std::uint32_t code, std::uint32_t first) {
+        return code >= first && code < first + 0x400;
+    };
+    for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
+        std::uint32_t code = unit(i);
+        if (is_half(code, 0xD800) && is_half(unit(i + 2), 0xDC00)) {
+            code = 0x10000 + ((code - 0xD800) << 10U) + (unit(i + 2) - 0xDC00);
+            i += 2;
+        } else if (code >= 0xD800 && code < 0xE000) {
+            code = 0xFFFD;
+        }
+        const auto add = [&](std::uint32_t byte) { out += static_cast<char>(byte); };
+        if (code < 0x80) {
+            add(code);
+            continue;
+        }
+        const unsigned more = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+        constexpr std::array<std::uint32_t, 3> starts{0xC0, 0xE0, 0xF0};
+        add(starts[more - 1] | code >> 6 * more);
+        for (unsigned k = more; k-- > 0;) add(0x80 | (code >> 6 * k & 0x3F));
+    }
+    return out;
 }
 
 } // namespace terrane::detail

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/points/detail/heading.hpp>
 
-#include <initializer_list>
+#include <algorithm>
+#include <array>
+#include <span>
 #include <string>
 #include <utility>
 
+#include <terrane/io/points/detail/point_lines.hpp>
 #include <terrane/io/text/text.hpp>
 #include <terrane/io/text/units.hpp>
 
@@ -66,12 +69,23 @@ std::vector<Column> named_columns(std::string_view line, char delimiter) {
 
 /// Returns the index of the first of the wanted names that a column has, if any.
 std::optional<std::size_t> place_of(const std::vector<Column>& columns,
-                                    std::initializer_list<std::string_view> wanted) {
+                                    std::span<const std::string_view> wanted) {
     for (const auto name : wanted)
         for (std::size_t i = 0; i < columns.size(); ++i)
             if (columns[i].name == name) return i;
     return std::nullopt;
 }
+
+/// The names of columns with coordinates, the likeliest first.
+constexpr std::array<std::string_view, 12> names_of_x{"x",         "easting", "x_coord", "xcoord",
+                                                      "x_utm",     "utm_x",   "utmx",    "east",
+                                                      "x_easting", "inline",  "iline",   "il"};
+constexpr std::array<std::string_view, 14> names_of_y{
+    "y",     "northing",   "y_coord",   "ycoord", "y_utm", "utm_y", "utmy",
+    "north", "y_northing", "crossline", "xline",  "cline", "xl",    "cl"};
+constexpr std::array<std::string_view, 14> names_of_z{
+    "z",  "elevation", "elev",  "z_coord", "zcoord",  "height", "altitude",
+    "rl", "depth",     "tvdss", "tvd",     "z_value", "zvalue", "z_depth"};
 
 Role role_named(std::string_view column) {
     if (column == "fault") return Role::fault;
@@ -115,23 +129,101 @@ std::vector<std::string_view> cells_of(std::string_view line, char delimiter) {
     return cells;
 }
 
-std::optional<Heading> read_heading(std::string_view line) {
+namespace {
+
+std::optional<Heading> heading_of(const std::vector<Column>& columns, char delimiter) {
     Heading heading;
-    heading.delimiter = delimiter_of(line);
-    const auto columns = named_columns(line, heading.delimiter);
-    const auto x = place_of(columns, {"x", "easting", "x_coord", "inline"});
-    const auto y = place_of(columns, {"y", "northing", "y_coord", "crossline", "xline"});
-    const auto z = place_of(columns, {"z", "elevation", "depth", "tvdss", "z_coord"});
+    heading.delimiter = delimiter;
+    const auto x = place_of(columns, names_of_x);
+    const auto y = place_of(columns, names_of_y);
+    const auto z = place_of(columns, names_of_z);
     if (!x || !y || !z) return std::nullopt;
     heading.xyz = {*x, *y, *z};
     heading.columns = columns.size();
-    heading.name = place_of(columns, {"surface", "formation", "horizon", "fault", "unit", "name"});
+    constexpr std::array<std::string_view, 6> surfaces{"surface", "formation", "horizon",
+                                                       "fault",   "unit",      "name"};
+    heading.name = place_of(columns, surfaces);
     if (heading.name) heading.role = role_named(columns[*heading.name].name);
     if (columns[*x].unit == columns[*y].unit) heading.frame.horizontal_unit = columns[*x].unit;
     heading.frame.vertical_unit = columns[*z].unit;
     const auto& called = columns[*z].name;
-    heading.frame.column_of_depths = called == "depth" || called == "tvdss";
+    heading.frame.column_of_depths = called == "depth" || called == "tvdss" || called == "tvd";
     return heading;
+}
+
+/// Tells whether a text is an integer with a comma inside: "-1000,25". Sets whether three digits
+/// follow the comma and at most three come before.
+bool has_decimal_comma(std::string_view token, bool& like_thousands) {
+    if (token.starts_with('-') || token.starts_with('+')) token.remove_prefix(1);
+    const auto comma = token.find(',');
+    if (comma == std::string_view::npos || comma == 0) return false;
+    auto after = token.substr(comma + 1);
+    if (const auto e = after.find_first_of("eE"); e != std::string_view::npos)
+        after = after.substr(0, e);
+    const auto is_digits = [](std::string_view text) {
+        return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+    };
+    if (!is_digits(token.substr(0, comma)) || !is_digits(after)) return false;
+    like_thousands = like_thousands && after.size() == 3 && comma <= 3;
+    return true;
+}
+
+} // namespace
+
+std::optional<Heading> read_heading(std::string_view line) {
+    const char delimiter = delimiter_of(line);
+    return heading_of(named_columns(line, delimiter), delimiter);
+}
+
+std::optional<Heading> heading_of(std::span<const std::string> names) {
+    std::vector<Column> columns;
+    for (const std::string& name : names) columns.push_back(column_called(name));
+    return heading_of(columns, ' ');
+}
+
+std::optional<std::string> unclear_columns(std::string_view line, std::string_view first_point) {
+    const char delimiter = delimiter_of(line);
+    const auto columns = named_columns(line, delimiter);
+    const auto count =
+        delimiter == ' ' ? columns_of(first_point).size() : cells_of(first_point, delimiter).size();
+    if (columns.size() < 4 || columns.size() != count) return std::nullopt;
+    if (delimiter == ' ' && !place_of(columns, names_of_x) && !place_of(columns, names_of_y) &&
+        !place_of(columns, names_of_z))
+        return std::nullopt;
+    std::string text;
+    for (const Column& column : columns) text += (text.empty() ? "" : ", ") + column.name;
+    return text;
+}
+
+Commas meaning_of_commas(std::string_view contents) {
+    constexpr std::size_t most_lines = 1000;
+    std::size_t decimal = 0;
+    bool like_thousands = true, blanks = true;
+    for (std::size_t lines = 0; !contents.empty() && lines < most_lines; ++lines) {
+        const auto end = std::min(contents.find('\n'), contents.size());
+        const auto line = trimmed(contents.substr(0, end));
+        contents.remove_prefix(std::min(end + 1, contents.size()));
+        if (is_comment(line)) continue;
+        const char delimiter = line.find(';') != std::string_view::npos    ? ';'
+                               : line.find('\t') != std::string_view::npos ? '\t'
+                                                                           : ' ';
+        std::size_t numbers = 0, with_comma = 0;
+        for (std::string_view token : cells_of(line, delimiter)) {
+            if (token.empty()) continue;
+            if (has_decimal_comma(token, like_thousands))
+                ++with_comma;
+            else if (!is_number(token))
+                continue;
+            else if (token.find('.') != std::string_view::npos)
+                return Commas::separate;
+            ++numbers;
+        }
+        if (numbers < 3 || with_comma == 0) continue;
+        ++decimal;
+        blanks = blanks && delimiter == ' ';
+    }
+    if (decimal == 0) return Commas::separate;
+    return blanks && like_thousands ? Commas::unclear : Commas::decimal;
 }
 
 } // namespace terrane::points::detail

@@ -5,6 +5,8 @@
 
 #include <array>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -31,5 +33,21 @@ struct Heading {
 
 /// Reads a heading; none if it names no columns x, y and z.
 std::optional<Heading> read_heading(std::string_view line);
+
+/// Returns the heading of columns with these names, between blanks; none as read_heading.
+std::optional<Heading> heading_of(std::span<const std::string> names);
+
+/// Returns the names in a line that names columns, but not which are x, y and z: more than three,
+/// as many as the first line of points has, between commas, semicolons or tabs, or with the name of
+/// a coordinate among them. Nothing for any other line.
+std::optional<std::string> unclear_columns(std::string_view line, std::string_view first_point);
+
+/// What commas in a text mean.
+enum class Commas { separate, decimal, unclear };
+
+/// Finds out from lines with three numbers and more. Commas are decimal points where each number
+/// has at most one, none has a point, and semicolons, tabs or blanks separate them. Between blanks
+/// groups of three digits can be thousands as well, which is unclear.
+Commas meaning_of_commas(std::string_view contents);
 
 } // namespace terrane::points::detail

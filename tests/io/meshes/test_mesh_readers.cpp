@@ -197,7 +197,8 @@ TEST_CASE("MSH: files of gmsh and meshio", "[io][msh]") {
     wanted.erase(wanted.begin(), wanted.begin() + 2);
     CHECK(places_of(triangles->front()) == wanted);
     CHECK(read_surfaces(other("gmsh_binary.msh")).error().message() ==
-          other("gmsh_binary.msh") + ":2: binary MSH is not read; save it as ASCII (gmsh -bin 0)");
+          other("gmsh_binary.msh") +
+              ":2: binary MSH is not read; gmsh FILE -save -o text.msh writes text");
 }
 
 TEST_CASE("VTP and MSH: what is written is read back", "[io][vtk][msh]") {

@@ -23,6 +23,16 @@ std::vector<Surface> faces(std::string_view text) {
 
 } // namespace
 
+TEST_CASE("OBJ: what follows a # between blanks is a comment on lines of groups, too",
+          "[io][obj]") {
+    const auto read = read_obj(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\ng top # main\nf 1 2 3\no #5 fault # old\nf 1 3 2\n", "a", "a");
+    REQUIRE(read);
+    REQUIRE(read->size() == 2);
+    CHECK(read->at(0).name == "top");
+    CHECK(read->at(1).name == "#5 fault");
+}
+
 TEST_CASE("OBJ: all ways to write a face", "[io][obj]") {
     for (const auto* face : {"f 1 2 3", "f 1/1 2/2 3/3", "f 1//1 2//2 3//3", "f 1/1/1 2/2/2 3/3/3",
                              "f -4 -3 -2", "f 1 2\\\n 3", "f\t1  2 3 # why", "f +1 2 3\r"}) {
