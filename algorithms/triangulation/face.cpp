@@ -20,12 +20,14 @@ class Face {
 public:
     Face(std::span<const Point3> points, std::span<const std::uint32_t> corners) :
         points_(points), corners_(corners) {
+        std::array<double, 3> size{};
         for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
             const Point3 n = cross(minus(at(i), at(0)), minus(at(i + 1), at(0)));
             normal_ = {normal_.x + n.x, normal_.y + n.y, normal_.z + n.z};
+            size[0] += std::fabs(n.x); // where the normals of a bow tie cancel, too
+            size[1] += std::fabs(n.y);
+            size[2] += std::fabs(n.z);
         }
-        const std::array<double, 3> size{std::fabs(normal_.x), std::fabs(normal_.y),
-                                         std::fabs(normal_.z)};
         axis_ = static_cast<Axis>(std::ranges::max_element(size) - size.begin());
     }
 

@@ -101,8 +101,8 @@ private:
             heading_ = heading_of(fields_);
             if (!heading_)
                 return in_.error(ErrorCode::bad_syntax,
-                                 "the header names the columns " +
-                                     fmt::format("{}", fmt::join(fields_, ", ")) + which_are_xyz);
+                                 fmt::format("the header names the columns {}{}",
+                                             fmt::join(fields_, ", "), which_are_xyz));
             fields_.clear();
         }
         if (!chosen_ && fits_heading(line)) {
@@ -117,8 +117,9 @@ private:
         }
         if (!chosen_ && !heading_ && !last_words_.empty())
             if (const auto named = unclear_columns(last_words_, line))
-                return in_.error(ErrorCode::bad_syntax,
-                                 "the heading names the columns " + *named + which_are_xyz);
+                return in_.error(
+                    ErrorCode::bad_syntax,
+                    fmt::format("the heading names the columns {}{}", *named, which_are_xyz));
         const auto first = std::find_if(columns.begin(), columns.end(), is_number);
         const auto name = words ? columns[0] : std::string_view();
         columns.erase(columns.begin(), first);

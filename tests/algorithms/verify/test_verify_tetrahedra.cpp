@@ -13,6 +13,7 @@
 #include <gmpxx.h>
 
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/verify/detail/blocks.hpp>
 #include <terrane/algorithms/verify/detail/tetrahedra.hpp>
 
 namespace tetrahedra_rules_test {

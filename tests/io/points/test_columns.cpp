@@ -172,7 +172,6 @@ TEST_CASE("columns: commas that may be decimal points or divide thousands are re
           std::vector<Point3>{{0, 0, 1}, {10, 0, 2}, {0, 10, 3}});
     CHECK(points_of("0, 0, 1\n10, 0, 2\n0, 10, 3\n") ==
           std::vector<Point3>{{0, 0, 1}, {10, 0, 2}, {0, 10, 3}});
-    CHECK(points_of("top,1 0.5 0 1\ntop,1 10 0 2\ntop,1 0 10 3\n").size() == 3);
 }
 
 TEST_CASE("columns: text in UTF-16 is read as it is in UTF-8") {
