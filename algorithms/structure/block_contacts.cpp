@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/structure/block_contacts.hpp>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -21,6 +23,23 @@ std::string_view compass(double east, double north) {
     if (x < tangent * y) return north > 0 ? "north" : "south";
     if (north > 0) return east > 0 ? "northeast" : "northwest";
     return east > 0 ? "southeast" : "southwest";
+}
+
+/// Mixes the bits of a number, each of which then depends on all. Source: the finaliser of SplitMix64
+/// (Steele, Lea and Flood, 2014).
+std::uint64_t mixed(std::uint64_t x) {
+    x = (x ^ x >> 30U) * 0xBF58476D1CE4E5B9U;
+    x = (x ^ x >> 27U) * 0x94D049BB133111EBU;
+    return x ^ x >> 31U;
+}
+
+/// Returns a number for the place of a vertex, which is the same in each tile.
+BlockSides::EdgeSum number_of(const Point3& p) {
+    BlockSides::EdgeSum number{0x9E3779B97F4A7C15U, 0xD1B54A32D192ED03U};
+    for (std::uint64_t& half : number)
+        for (const double c : {p.x, p.y, p.z})
+            half = mixed(half ^ std::bit_cast<std::uint64_t>(c + 0.0)); // -0 is 0
+    return number;
 }
 
 } // namespace
@@ -82,19 +101,98 @@ void add_contacts(const Mesh& mesh, std::span<const std::array<std::uint32_t, 2>
     }
 }
 
+void BlockSides::add(const Mesh& mesh, std::span<const std::array<std::uint32_t, 2>> of_sides) {
+    std::vector<EdgeSum> numbers; // of the vertices
+    for (const Point3& p : mesh.vertices) numbers.push_back(number_of(p));
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto [front, back] = of_sides[t];
+        if (front == back) continue; // it dangles
+        const auto surfaces = mesh.surfaces_of[t];
+        crossings_.try_emplace({std::min(front, back), std::max(front, back)}, surfaces.begin(),
+                               surfaces.end());
+        EdgeSum sum{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const EdgeSum &a = numbers[mesh.triangles[t][i]],
+                          &b = numbers[mesh.triangles[t][(i + 1) % 3]];
+            for (std::size_t k = 0; k < 2; ++k) sum[k] ^= mixed(a[k] + b[k]);
+        }
+        for (const std::uint32_t s : surfaces) add_edges(s, sum);
+    }
+}
+
+void BlockSides::add_crossing(const std::array<std::uint32_t, 2>& blocks,
+                              std::span<const std::uint32_t> surfaces) {
+    crossings_.try_emplace(blocks, surfaces.begin(), surfaces.end());
+}
+
+void BlockSides::add_edges(std::uint32_t surface, const EdgeSum& sum) {
+    EdgeSum& all = edges_[surface];
+    for (std::size_t k = 0; k < 2; ++k) all[k] ^= sum[k];
+}
+
+void BlockSides::place(std::vector<std::vector<BlockContact>>& contacts) const {
+    using Crossing = Crossings::value_type;
+    std::vector<std::vector<const Crossing*>> at(contacts.size());
+    for (const Crossing& crossing : crossings_)
+        for (const std::uint32_t block : crossing.first) at[block].push_back(&crossing);
+    std::map<std::uint32_t, bool> is_inside; // of closed surfaces: of the block at hand
+    for (const auto& [surface, sum] : edges_)
+        if (sum == EdgeSum{}) is_inside[surface] = false;
+    if (is_inside.empty()) return;
+    const auto cross = [&](const Crossing* crossing) {
+        if (crossing == nullptr) return;
+        for (const std::uint32_t s : crossing->second)
+            if (const auto found = is_inside.find(s); found != is_inside.end())
+                found->second = !found->second;
+    };
+    struct Step {
+        std::uint32_t block;
+        const Crossing* way;  ///< to the block
+        std::size_t next = 0; ///< of its crossings
+    };
+    std::vector<bool> seen(contacts.size());
+    std::vector<Step> path{{0, nullptr}};
+    seen[0] = true;
+    while (!path.empty()) {
+        Step& step = path.back();
+        if (step.next == 0)
+            for (BlockContact& c : contacts[step.block])
+                if (const auto found = is_inside.find(c.surface); found != is_inside.end()) {
+                    if (found->second) c.position = BlockPosition::inside;
+                    if (!found->second && c.position == BlockPosition::inside)
+                        c.position = BlockPosition::around;
+                }
+        if (step.next == at[step.block].size()) {
+            cross(step.way);
+            path.pop_back();
+            continue;
+        }
+        const Crossing* way = at[step.block][step.next++];
+        const std::uint32_t to = way->first[way->first[0] == step.block ? 1 : 0];
+        if (seen[to]) continue;
+        seen[to] = true;
+        cross(way);
+        path.push_back({to, way});
+    }
+}
+
 std::vector<std::vector<BlockContact>>
-contacts_of(std::span<const std::map<std::uint32_t, ContactSums>> sums) {
+contacts_of(std::span<const std::map<std::uint32_t, ContactSums>> sums, const BlockSides& sides) {
     std::vector<std::vector<BlockContact>> contacts(sums.size());
     for (std::size_t b = 1; b < sums.size(); ++b)
         for (const auto& [surface, own] : sums[b]) contacts[b].push_back(own.contact(surface));
+    sides.place(contacts);
     return contacts;
 }
 
 std::vector<std::vector<BlockContact>> find_contacts(const Mesh& mesh, const Volumes& volumes) {
     std::vector<std::map<std::uint32_t, ContactSums>> sums(volumes.measures.size());
-    if (mesh.triangles.empty()) return contacts_of(sums);
-    add_contacts(mesh, volumes.of_sides, mesh.vertices[0], sums);
-    return contacts_of(sums);
+    BlockSides sides;
+    if (!mesh.triangles.empty()) {
+        add_contacts(mesh, volumes.of_sides, mesh.vertices[0], sums);
+        sides.add(mesh, volumes.of_sides);
+    }
+    return contacts_of(sums, sides);
 }
 
 } // namespace terrane::structure

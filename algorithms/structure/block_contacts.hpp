@@ -66,14 +66,43 @@ private:
     std::array<OrderlessSum, count> sums_;
 };
 
+/// The blocks on both sides of triangles, and the edges of surfaces. By them a block is inside of a
+/// closed surface or not, whatever cuts that surface.
+class BlockSides {
+public:
+    /// The surfaces of one triangle between two blocks, the lower one first. All ways from one block
+    /// to the other cross closed surfaces equally often, but for an even number of times.
+    using Crossings = std::map<std::array<std::uint32_t, 2>, std::vector<std::uint32_t>>;
+    /// A number of 128 bits: the exclusive or of those of all edges of the triangles of a surface, so
+    /// that it is zero where each edge has an even number of them.
+    using EdgeSum = std::array<std::uint64_t, 2>;
+
+    /// Adds the triangles of a mesh that have different blocks on their sides.
+    void add(const Mesh& mesh, std::span<const std::array<std::uint32_t, 2>> of_sides);
+    void add_crossing(const std::array<std::uint32_t, 2>& blocks,
+                      std::span<const std::uint32_t> surfaces);
+    void add_edges(std::uint32_t surface, const EdgeSum& sum);
+
+    [[nodiscard]] const Crossings& crossings() const { return crossings_; }
+    [[nodiscard]] const std::map<std::uint32_t, EdgeSum>& edge_sums() const { return edges_; }
+
+    /// Sets the position of blocks to closed surfaces: inside where a way from the outside (block 0)
+    /// crosses them an odd number of times. Cost: linear in the crossings.
+    void place(std::vector<std::vector<BlockContact>>& contacts) const;
+
+private:
+    Crossings crossings_;
+    std::map<std::uint32_t, EdgeSum> edges_; ///< per surface
+};
+
 /// Adds the triangles of a mesh to the sums of their surfaces, per volume. of_sides: see Volumes. The
 /// centres of triangles are relative to `origin`, so that large coordinates cost no digits.
 void add_contacts(const Mesh& mesh, std::span<const std::array<std::uint32_t, 2>> of_sides,
                   const Point3& origin, std::vector<std::map<std::uint32_t, ContactSums>>& sums);
 
-/// Lists the surfaces around each block, by their sums.
+/// Lists the surfaces around each block, by their sums and sides.
 std::vector<std::vector<BlockContact>>
-contacts_of(std::span<const std::map<std::uint32_t, ContactSums>> sums);
+contacts_of(std::span<const std::map<std::uint32_t, ContactSums>> sums, const BlockSides& sides);
 
 /// Lists the surfaces around each block, by their indices. The outside has none.
 std::vector<std::vector<BlockContact>> find_contacts(const Mesh& mesh, const Volumes& volumes);

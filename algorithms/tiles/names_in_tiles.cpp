@@ -2,6 +2,7 @@
 #include <terrane/algorithms/tiles/names_in_tiles.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -24,6 +25,18 @@ struct SumsOfTile {
     ContactSums sums;
 };
 
+/// A surface of a triangle between two blocks. Those of one triangle follow each other.
+struct CrossingOfTile {
+    std::array<std::uint32_t, 2> blocks{};
+    std::uint32_t surface = 0;
+};
+
+/// The sum over the edges of a surface in one tile.
+struct EdgesOfTile {
+    std::uint32_t surface = 0;
+    BlockSides::EdgeSum sum{};
+};
+
 /// Channel 0: the first vertex of all, to all.
 Status send_origin(Tile& b, Inbox&, Outbox& out) {
     const TilePiece piece = piece_of(b);
@@ -32,7 +45,7 @@ Status send_origin(Tile& b, Inbox&, Outbox& out) {
     return Done{};
 }
 
-/// Channel 0: SumsOfTile, to the first tile.
+/// Channels 0 to 2: SumsOfTile, CrossingOfTile and EdgesOfTile, to the first tile.
 Status send_sums(Tile& b, Inbox& in, Outbox& out) {
     const StandardArithmetic guard;
     Point3 origin{};
@@ -45,17 +58,33 @@ Status send_sums(Tile& b, Inbox& in, Outbox& out) {
     add_contacts(piece.mesh, piece.volumes_of_sides, origin, sums);
     for (std::uint32_t v = 1; v < count; ++v)
         for (const auto& [surface, own] : sums[v]) out.put(0, 0, SumsOfTile{v, surface, own});
+    BlockSides sides;
+    sides.add(piece.mesh, piece.volumes_of_sides);
+    for (const auto& [blocks, surfaces] : sides.crossings())
+        for (const std::uint32_t s : surfaces) out.put(0, 1, CrossingOfTile{blocks, s});
+    for (const auto& [surface, sum] : sides.edge_sums()) out.put(0, 2, EdgesOfTile{surface, sum});
     return Done{};
 }
 
 /// Names the volumes in the first tile. Each name ends with a byte of 0.
-Bytes names_in(const Tile& b, std::span<const SumsOfTile> all) {
+Bytes names_in(const Tile& b, Inbox& in) {
     const StandardArithmetic guard;
     std::vector<std::map<std::uint32_t, ContactSums>> sums(b.measures.size());
-    for (const SumsOfTile& s : all) sums[s.volume][s.surface].add(s.sums);
+    for (const SumsOfTile& s : in.all<SumsOfTile>(0)) sums[s.volume][s.surface].add(s.sums);
+    BlockSides sides;
+    const auto crossings = in.all<CrossingOfTile>(1);
+    for (std::size_t i = 0, end = 0; i < crossings.size(); i = end) {
+        std::vector<std::uint32_t> surfaces;
+        for (; end < crossings.size() && crossings[end].blocks == crossings[i].blocks &&
+               (surfaces.empty() || surfaces.back() < crossings[end].surface);
+             ++end)
+            surfaces.push_back(crossings[end].surface);
+        sides.add_crossing(crossings[i].blocks, surfaces);
+    }
+    for (const EdgesOfTile& e : in.all<EdgesOfTile>(2)) sides.add_edges(e.surface, e.sum);
     Bytes text;
     for (const std::string& name :
-         names_by_contacts(piece_of(b).mesh.surfaces, contacts_of(sums))) {
+         names_by_contacts(piece_of(b).mesh.surfaces, contacts_of(sums, sides))) {
         for (const char c : name) append_record(text, c);
         append_record(text, '\0');
     }
@@ -69,7 +98,7 @@ Result<std::vector<std::string>> name_volumes_in_tiles(Supersteps& tiles) {
     if (auto sent = tiles.step("names", send_sums); !sent) return sent.error();
     Bytes text; // in the process of the first tile
     const auto name = [&](Tile& b, Inbox& in, Outbox&) -> Status {
-        if (b.index == 0) text = names_in(b, in.all<SumsOfTile>(0));
+        if (b.index == 0) text = names_in(b, in);
         return Done{};
     };
     if (auto named = tiles.step("names", name); !named) return named.error();

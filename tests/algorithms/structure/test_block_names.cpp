@@ -2,6 +2,7 @@
 #include <terrane/algorithms/structure/block_names.hpp>
 
 #include <algorithm>
+#include <random>
 #include <set>
 #include <string>
 #include <utility>
@@ -9,11 +10,13 @@
 
 #include <catch2/catch.hpp>
 
+#include "support/effort.hpp"
 #include "support/rounded.hpp"
 #include "support/solids.hpp"
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/kernel/predicates.hpp>
 
 using namespace terrane;
 using namespace test_support;
@@ -111,6 +114,64 @@ TEST_CASE("block names: closed bodies are inside or around", "[structure][names]
     const auto twice = named_model({having_role(cube(0, 1, "a"), Role::boundary),
                                     having_role(cube(3, 5, "b"), Role::boundary)});
     CHECK(names_by_volume(twice) == NameList{"inside the boundary", "inside the boundary, 2"});
+}
+
+TEST_CASE("block names: what is inside of two bodies that cross, and of one that others cut",
+          "[structure][names]") {
+    const auto crossing =
+        named_model({box({0, 0, 0}, {4, 4, 4}, "a"), box({3, 3, 3}, {7, 7, 7}, "b")});
+    CHECK(names_by_volume(crossing) == NameList{"inside a, inside b", "inside a", "inside b"});
+    const auto cut = named_model(
+        {boundary_box(), horizon_at(3, "top"), having_role(cube(2, 5, "salt"), Role::unknown)});
+    CHECK(names_by_volume(cut) ==
+          NameList{"below top, inside salt", "above top, inside salt", "below top", "above top"});
+}
+
+TEST_CASE("block names: a random point is inside of the bodies that its block's name says, and of "
+          "no others at the block",
+          "[structure][names]") {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> place(-4, 4), size(1, 4);
+    const auto point = [&] { return Point3{place(random), place(random), place(random)}; };
+    for (int model_number = 0; model_number < cases(40); ++model_number) {
+        INFO("model " << model_number);
+        std::vector<Surface> bodies;
+        for (const char* name : {"a", "b", "c", "d"}) {
+            const Point3 centre = point();
+            bodies.push_back(random() % 2 == 0
+                                 ? octahedron(centre, size(random), name)
+                                 : tetrahedron(point(), point(), point(), point(), name));
+        }
+        // An open surface cuts them.
+        bodies.push_back(level(0.3, -9, -9, 9, 9, "top"));
+        const auto model = named_model(bodies);
+        std::vector<Point3> points;
+        for (int i = 0; i < 500; ++i) points.push_back(point());
+        const auto volumes = locate_points(points, model.mesh, model.volumes);
+        REQUIRE(volumes);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const std::uint32_t block = (*volumes)[i];
+            if (block == 0) continue;
+            std::set<std::uint32_t> around;
+            for (const std::uint32_t f : model.structure.blocks[block].interfaces)
+                for (const std::uint32_t s : model.structure.interfaces[f].surfaces)
+                    around.insert(s);
+            const std::string& name = model.structure.blocks[block].name;
+            INFO("point " << points[i].x << ' ' << points[i].y << ' ' << points[i].z << " in "
+                          << name);
+            for (std::uint32_t s = 0; s < 4; ++s) {
+                // The bodies are convex: a point is inside if it is on one side of all triangles.
+                std::set<Sign> sides;
+                for (const auto& [a, b, c] : bodies[s].triangles) {
+                    const auto& v = bodies[s].vertices;
+                    sides.insert(orient3d(v[a], v[b], v[c], points[i]));
+                }
+                const bool is_inside = sides.size() == 1;
+                const bool is_said = name.find("inside " + bodies[s].name) != std::string::npos;
+                CHECK((is_said ? is_inside : !is_inside || !around.contains(s)));
+            }
+        }
+    }
 }
 
 TEST_CASE("block names: units of a column, told apart by faults", "[structure][names]") {
