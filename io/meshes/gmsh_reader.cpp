@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/io/surfaces/detail/parts.hpp>
+#include <terrane/io/surfaces/parts.hpp>
 #include <terrane/io/text/text.hpp>
 
 namespace terrane {

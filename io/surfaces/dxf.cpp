@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
-#include <terrane/io/surfaces/detail/parts.hpp>
 #include <terrane/io/surfaces/detail/point_numbering.hpp>
+#include <terrane/io/surfaces/parts.hpp>
 #include <terrane/io/text/text.hpp>
 
 namespace terrane {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/io/surfaces/detail/parts.hpp>
+#include <terrane/io/surfaces/parts.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/io/surfaces/detail/parts.hpp>
+#include <terrane/io/surfaces/parts.hpp>
 #include <terrane/io/text/text.hpp>
 
 namespace terrane {

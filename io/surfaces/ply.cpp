@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/mesh/submesh.hpp>
-#include <terrane/io/surfaces/detail/parts.hpp>
+#include <terrane/io/surfaces/parts.hpp>
 #include <terrane/io/text/bytes.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>

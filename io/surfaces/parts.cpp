@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/io/surfaces/detail/parts.hpp>
+#include <terrane/io/surfaces/parts.hpp>
 
 #include <terrane/algorithms/triangulation/face.hpp>
 
