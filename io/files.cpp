@@ -17,6 +17,7 @@
 #include <terrane/io/grids/grdecl.hpp>
 #include <terrane/io/grids/grid_text.hpp>
 #include <terrane/io/grids/irap.hpp>
+#include <terrane/io/grids/surfer.hpp>
 #include <terrane/io/grids/zmap.hpp>
 #include <terrane/io/meshes/abaqus.hpp>
 #include <terrane/io/meshes/cell_array.hpp>
@@ -55,22 +56,22 @@ namespace {
 /// The largest file that is read. It has at least 3 bytes per vertex, so 32-bit indices suffice.
 constexpr std::uint64_t max_bytes = 3 * (std::uint64_t(1) << 32) - 3;
 
-constexpr std::array<std::pair<std::string_view, Format>, 44> names{{
-    {"ts", Format::gocad},      {"ml", Format::gocad},      {"gp", Format::gocad},
-    {"mx", Format::gocad},      {"gm", Format::gocad},      {"obj", Format::obj},
-    {"off", Format::off},       {"stl", Format::stl},       {"ply", Format::ply},
-    {"vtp", Format::vtp},       {"vtu", Format::vtu},       {"msh", Format::msh},
-    {"msh22", Format::msh22},   {"inp", Format::inp},       {"mesh", Format::medit},
-    {"poly", Format::poly},     {"smesh", Format::smesh},   {"irap", Format::irap},
-    {"gri", Format::irap},      {"fgr", Format::irap},      {"zmap", Format::zmap},
-    {"zycor", Format::zmap},    {"cps3", Format::cps3},     {"cps", Format::cps3},
-    {"asc", Format::esri},      {"agr", Format::esri},      {"xyz", Format::xyz},
-    {"csv", Format::xyz},       {"txt", Format::xyz},       {"dat", Format::xyz},
-    {"poi", Format::xyz},       {"pol", Format::xyz},       {"vs", Format::vset},
-    {"pl", Format::pline},      {"vtk", Format::vtk},       {"dxf", Format::dxf},
-    {"grdecl", Format::grdecl}, {"sticks", Format::sticks}, {"exo", Format::exodus},
-    {"e", Format::exodus},      {"ugi", Format::ugi},       {"ogs", Format::ogs},
-    {"geos", Format::geos},     {"pylith", Format::pylith},
+constexpr std::array<std::pair<std::string_view, Format>, 45> names{{
+    {"ts", Format::gocad},    {"ml", Format::gocad},      {"gp", Format::gocad},
+    {"mx", Format::gocad},    {"gm", Format::gocad},      {"obj", Format::obj},
+    {"off", Format::off},     {"stl", Format::stl},       {"ply", Format::ply},
+    {"vtp", Format::vtp},     {"vtu", Format::vtu},       {"msh", Format::msh},
+    {"msh22", Format::msh22}, {"inp", Format::inp},       {"mesh", Format::medit},
+    {"poly", Format::poly},   {"smesh", Format::smesh},   {"irap", Format::irap},
+    {"gri", Format::irap},    {"fgr", Format::irap},      {"zmap", Format::zmap},
+    {"zycor", Format::zmap},  {"cps3", Format::cps3},     {"cps", Format::cps3},
+    {"asc", Format::esri},    {"agr", Format::esri},      {"grd", Format::surfer},
+    {"xyz", Format::xyz},     {"csv", Format::xyz},       {"txt", Format::xyz},
+    {"dat", Format::xyz},     {"poi", Format::xyz},       {"pol", Format::xyz},
+    {"vs", Format::vset},     {"pl", Format::pline},      {"vtk", Format::vtk},
+    {"dxf", Format::dxf},     {"grdecl", Format::grdecl}, {"sticks", Format::sticks},
+    {"exo", Format::exodus},  {"e", Format::exodus},      {"ugi", Format::ugi},
+    {"ogs", Format::ogs},     {"geos", Format::geos},     {"pylith", Format::pylith},
 }};
 
 std::string place_of(const fs::path& path, bool reading) {
@@ -138,6 +139,8 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
         return surfaces_of(read_cps3(contents, source, name), source, options);
     case Format::esri:
         return surfaces_of(read_esri(contents, source, name), source, options);
+    case Format::surfer:
+        return surfaces_of(read_surfer(contents, source, name), source, options);
     case Format::xyz:
         if (const auto seen = format_seen_in(contents))
             return parse_as_stated(contents, source, *seen, options);

@@ -44,6 +44,7 @@ enum class Format {
     zmap,   ///< .zmap .zycor, read only: a grid
     cps3,   ///< .cps3 .cps, read only: a grid
     esri,   ///< .asc .agr, read only: a grid
+    surfer, ///< .grd, read only: a grid, text or binary
     xyz,    ///< .xyz .csv .txt .dat .poi .pol, read only: points
     vset,   ///< .vs: points of GOCAD's VSet and PLine; written: the vertices of surfaces
     pline,  ///< .pl: the same points; written: borders of surfaces and intersection curves

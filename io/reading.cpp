@@ -13,7 +13,8 @@ bool has_points(std::optional<Format> format) {
 
 bool has_depths(std::optional<Format> format) {
     return has_points(format) || format == Format::irap || format == Format::zmap ||
-           format == Format::cps3 || format == Format::esri || format == Format::sticks;
+           format == Format::cps3 || format == Format::esri || format == Format::surfer ||
+           format == Format::sticks;
 }
 
 } // namespace

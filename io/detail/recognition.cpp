@@ -38,6 +38,8 @@ std::optional<Format> format_seen_in(std::string_view contents) {
         if (begins_zmap(line)) return Format::zmap;
         if (begins_irap(line)) return Format::irap;
         if (same_ignoring_case(first, "ncols")) return Format::esri;
+        if (first == "DSAA" || contents.starts_with("DSBB") || contents.starts_with("DSRB"))
+            return Format::surfer;
         if (first != "GOCAD") return std::nullopt;
         const auto object = tokens.next();
         return same_ignoring_case(object, "VSet")    ? Format::vset

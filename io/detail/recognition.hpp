@@ -10,7 +10,7 @@
 
 namespace terrane::detail {
 
-/// Returns the format of a grid (ZMAP+, CPS-3, Irap, ESRI) or GOCAD file by its first lines; nothing for
+/// Returns the format of a grid (ZMAP+, CPS-3, Irap, ESRI, Surfer) or GOCAD file by its first lines; nothing for
 /// any other text. Columns of numbers never begin so, and to read one of these as columns of
 /// numbers would make points of its header.
 std::optional<Format> format_seen_in(std::string_view contents);

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/io/surfaces/detail/point_numbering.hpp>
 #include <terrane/io/surfaces/parts.hpp>
 #include <terrane/io/text/text.hpp>
@@ -334,8 +335,14 @@ private:
             if (auto trouble = count_placed()) return trouble;
             Layer& to = layer_named(layer.empty() ? std::string(name_) : layer);
             corners_.clear();
-            for (const Point3& p : item.corners)
-                corners_.push_back(to.points.number(depth == 0 ? p : placement(p)));
+            for (const Point3& p : item.corners) {
+                const Point3 at = depth == 0 ? p : placement(p);
+                if (!is_finite(at))
+                    return in_.file_error(ErrorCode::bad_number,
+                                          "an INSERT puts a corner at no place, or beyond the "
+                                          "largest double");
+                corners_.push_back(to.points.number(at));
+            }
             append_face(corners_, to.part);
         }
         return std::nullopt;

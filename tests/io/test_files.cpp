@@ -152,7 +152,7 @@ TEST_CASE("files: reading what can't be read", "[io][files]") {
           (folder / "folder.obj").string() + ": cannot be read: Is a directory");
     const std::string list_of_readable =
         "; read are ts, ml, gp, mx, gm, obj, off, stl, ply, vtp, vtu, msh, irap, gri, fgr, "
-        "zmap, zycor, cps3, cps, asc, agr, xyz, csv, txt, dat, poi, pol, "
+        "zmap, zycor, cps3, cps, asc, agr, grd, xyz, csv, txt, dat, poi, pol, "
         "vs, pl, vtk, dxf, grdecl, sticks";
     check(read_surfaces("a.abc"), unknown_format,
           "a.abc: unknown format \".abc\"" + list_of_readable);

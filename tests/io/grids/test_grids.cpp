@@ -15,7 +15,9 @@
 #include <terrane/io/grids/cps3.hpp>
 #include <terrane/io/grids/esri.hpp>
 #include <terrane/io/grids/irap.hpp>
+#include <terrane/io/grids/surfer.hpp>
 #include <terrane/io/grids/zmap.hpp>
+#include <terrane/io/text/bytes.hpp>
 
 #include "support/samples.hpp"
 
@@ -120,6 +122,44 @@ std::string esri_text(const Grid& g, bool corner) {
     return text;
 }
 
+/// A grid of Surfer, in text or in a binary version; the heights are floats.
+std::string surfer_file(const Grid& g, int version) {
+    const double last_x = g.x + (g.nx - 1) * g.dx, last_y = g.y + (g.ny - 1) * g.dy;
+    if (version == 0) {
+        std::string text =
+            fmt::format("DSAA\n{} {}\n{} {}\n{} {}\n0 1\n", g.nx, g.ny, g.x, last_x, g.y, last_y);
+        for (std::size_t k = 0; k < g.values.size(); ++k)
+            text += number(g.values[k], "1.70141e+038") + ((k + 1) % g.nx == 0 ? "\n" : " ");
+        return text;
+    }
+    std::string bytes = version == 6 ? "DSBB" : "DSRB";
+    const auto all = [&](std::initializer_list<double> numbers) {
+        for (const double n : numbers) terrane::detail::store(bytes, n);
+    };
+    if (version == 6) {
+        terrane::detail::store(bytes, static_cast<std::uint16_t>(g.nx));
+        terrane::detail::store(bytes, static_cast<std::uint16_t>(g.ny));
+        all({g.x, last_x, g.y, last_y, 0, 1});
+        for (const double v : g.values)
+            terrane::detail::store(bytes, std::isnan(v) ? 1.70141e38F : static_cast<float>(v));
+        return bytes;
+    }
+    const auto whole = [&](std::uint32_t n) { terrane::detail::store(bytes, n); };
+    whole(4);
+    whole(1); // the version
+    bytes += "NOTE";
+    whole(3);
+    bytes += "abcGRID";
+    whole(72);
+    whole(g.ny);
+    whole(g.nx);
+    all({g.x, g.y, g.dx, g.dy, 0, 1, 0, -1e10});
+    bytes += "DATA";
+    whole(static_cast<std::uint32_t>(8 * g.values.size()));
+    for (const double v : g.values) all({std::isnan(v) ? -1e10 : v});
+    return bytes;
+}
+
 void check_same(const Result<Grid>& read, const Grid& g, double rounding = 0) {
     REQUIRE(message_of(read) == "no error");
     const Grid& r = read.value();
@@ -145,6 +185,8 @@ TEST_CASE("grids: each format gives back what was written in it", "[io][grid]") 
         check_same(read_cps3(cps3_text(g), "a", "a"), g);
         check_same(read_esri(esri_text(g, false), "a", "top"), g);
         check_same(read_esri(esri_text(g, true), "a", "top"), g);
+        for (const int version : {0, 6, 7})
+            check_same(read_surfer(surfer_file(g, version), "a", "top"), g);
         g.rotation = 30;
         check_same(read_irap(irap_text(g), "a", "top"), g);
         check_same(read_irap(irap_binary(g), "a", "top"), g, 0.25);
