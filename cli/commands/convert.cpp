@@ -24,7 +24,7 @@ constexpr auto convert_footer =
 Binary STL holds float32 only, which is said. Reads .ts .ml .obj .off .stl .ply .vtp .vtu .vtk .msh .dxf .grdecl
 .sticks, writes .vtp .vtk .obj .ts .ply .off .stl .msh .inp .mesh .poly .smesh, and the vertices of
 surfaces as .vs, their borders as .pl. The pieces that a .pvtp file names become the mesh that they were made of.
-Grids (Irap .irap .gri, ZMAP+ .zmap, CPS-3 .cps3, ESRI .asc) become surfaces with holes where heights
+Grids (Irap .irap .gri, ZMAP+ .zmap, CPS-3 .cps3, ESRI .asc, Surfer .grd) become surfaces with holes where heights
 are missing, points (.xyz .csv .dat .txt .poi .pol, GOCAD .vs .pl) by Delaunay triangles without
 edges longer than --max-edge. Corner-point grids (.grdecl) become top, base, layers, faults and sides.
 

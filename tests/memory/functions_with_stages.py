@@ -77,7 +77,7 @@ PARTS = {"add", "check_steps", "count", "deliver", "filled", "finish", "integer"
 FORMATS = {
     "cps3": "cps3", "dxf": "dxf", "esri": "asc", "gocad": "ts", "gocad_points": "vs", "grdecl": "grdecl", "irap": "irap",
     "msh": "msh", "obj": "obj", "off": "off", "ply": "ply", "points": "xyz", "sticks": "sticks", "stl": "stl",
-    "vtk": "vtk", "vtp": "vtp", "vtu": "vtu", "zmap": "zmap",
+    "surfer": "grd", "vtk": "vtk", "vtp": "vtp", "vtu": "vtu", "zmap": "zmap",
 }
 
 

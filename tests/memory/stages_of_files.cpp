@@ -36,6 +36,7 @@ std::vector<std::pair<std::string, std::string>> only_read() {
              "+ data\n1 2\n-99999.0 3\n4 5\n"},
             {"cps3", "FSASCI 0 1 COMPUTED 0 0.1E+31\nFSATTR 0 0\nFSLIMI 0 2 0 1 0 1\nFSNROW 2 3\n"
                      "FSXINC 1 1\n->top\n1 2\n0.1E+31 3\n4 5\n"},
+            {"grd", "DSAA\n3 2\n0 2\n0 1\n0 5\n0 1 2\n3 4 5\n"},
             {"asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n"
                     "NODATA_value -9999\n1 2 3\n4 5 6\n"},
             {"xyz", "0 0 1\n1 0 2\n0 1 3\n1 1 4\n2 0 1.5\n"},
