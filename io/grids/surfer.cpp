@@ -28,7 +28,7 @@ void span_grid(Grid& grid, double last_x, double last_y) {
     grid.dy = grid.ny > 1 ? (last_y - grid.y) / (grid.ny - 1) : 1;
 }
 
-MaybeError read_text(LineParser& in, Grid& grid) {
+MaybeError read_surfer_text(LineParser& in, Grid& grid) {
     in.next(); // DSAA
     TokenStream text(in);
     double nx = 0, ny = 0, last_x = 0, last_y = 0, least = 0, largest = 0;
@@ -52,9 +52,9 @@ MaybeError read_text(LineParser& in, Grid& grid) {
 }
 
 /// Reads numbers of a binary grid one after the other.
-class BinaryGrid {
+class SurferBinary {
 public:
-    BinaryGrid(std::string_view contents, std::string_view source) :
+    SurferBinary(std::string_view contents, std::string_view source) :
         contents_(contents), source_(source) {}
 
     template <class T>
@@ -140,11 +140,11 @@ Result<Grid> read_surfer(std::string_view contents, std::string_view source,
     LineParser in(contents, source);
     MaybeError trouble;
     if (contents.starts_with("DSAA"))
-        trouble = read_text(in, grid);
+        trouble = read_surfer_text(in, grid);
     else if (contents.starts_with("DSBB"))
-        trouble = BinaryGrid(contents, source).read_version_6(grid);
+        trouble = SurferBinary(contents, source).read_version_6(grid);
     else if (contents.starts_with("DSRB"))
-        trouble = BinaryGrid(contents, source).read_version_7(grid);
+        trouble = SurferBinary(contents, source).read_version_7(grid);
     else
         trouble =
             in.file_error(ErrorCode::unsupported,
