@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -122,8 +124,19 @@ Error contact_at(const Point3& p, std::string_view what) {
     return {ErrorCode::improper_contact, std::string(what), fmt::format("({}, {})", p.x, p.y)};
 }
 
-/// Checks by a sweep along x that no two edges meet improperly.
-Status check_contacts(std::span<const Point3> points, EdgeList edges) {
+/// Returns how many edges a line across `axis` meets on average, up to a factor.
+double edges_across(std::span<const Point3> points, const EdgeList& edges, double Point3::*axis) {
+    double low = points[edges[0][0]].*axis, high = low, sum = 0;
+    for (const auto& [a, b] : edges) {
+        low = std::min({low, points[a].*axis, points[b].*axis});
+        high = std::max({high, points[a].*axis, points[b].*axis});
+        sum += std::abs(points[a].*axis - points[b].*axis);
+    }
+    return high > low ? sum / (high - low) : static_cast<double>(edges.size());
+}
+
+/// Returns a point at which edges meet improperly, found by a sweep along x.
+std::optional<std::uint32_t> contact_of(std::span<const Point3> points, EdgeList edges) {
     for (auto& e : edges)
         if (before(points[e[1]], points[e[0]])) std::swap(e[0], e[1]);
     std::sort(edges.begin(), edges.end(), [&](const auto& e, const auto& f) {
@@ -132,11 +145,20 @@ Status check_contacts(std::span<const Point3> points, EdgeList edges) {
     for (std::size_t i = 0; i < edges.size(); ++i)
         for (std::size_t j = i + 1; j < edges.size(); ++j) {
             if (points[edges[j][0]].x > points[edges[i][1]].x) break;
-            if (meet_improperly(points, edges[i], edges[j]))
-                return contact_at(points[edges[j][0]],
-                                  "seen from above, the border crosses or touches itself");
+            if (meet_improperly(points, edges[i], edges[j])) return edges[j][0];
         }
-    return Done{};
+    return std::nullopt;
+}
+
+/// Checks that no two edges meet improperly, by a sweep along the axis along which fewer of them are
+/// side by side: y only where these are far fewer.
+Status check_contacts(std::span<const Point3> points, const EdgeList& edges) {
+    std::vector<Point3> turned;
+    if (4 * edges_across(points, edges, &Point3::y) < edges_across(points, edges, &Point3::x))
+        for (const Point3& p : points) turned.push_back({p.y, -p.x, 0});
+    const auto contact = contact_of(turned.empty() ? points : turned, edges);
+    if (!contact) return Done{};
+    return contact_at(points[*contact], "seen from above, the border crosses or touches itself");
 }
 
 /// Selects the cells that an odd number of polygons surround, by a flood fill from a far corner.
