@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <cctype>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -27,6 +29,27 @@ bool would_fit_turned(const Side& above, const Side& below) {
     const double gap = std::max({0.0, -above.high - below.high, below.low + above.low});
     const double from_zero = std::min(above.low + above.high, -below.low - below.high) / 2;
     return gap < thresholds.turned_gap * from_zero;
+}
+
+/// Warns where each surface that is called a top is below each that is called a base.
+void warn_of_tops_below_bases(Examination& e, const char* why) {
+    std::vector<std::uint32_t> tops, bases;
+    for (const auto s : e.used) {
+        std::string name = e.surfaces[s].name.substr(0, 4);
+        for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        if (name.starts_with("top")) tops.push_back(s);
+        if (name == "base" || name == "bott") bases.push_back(s);
+    }
+    const auto is_below = [&](std::uint32_t top) {
+        return std::ranges::all_of(bases, [&](std::uint32_t base) {
+            return e.extents[top].middle(2) < e.extents[base].middle(2);
+        });
+    };
+    if (tops.empty() || bases.empty() || !std::ranges::all_of(tops, is_below)) return;
+    e.warn(Doubt::depths_unstated, e.used,
+           fmt::format("{} is below {}, no file states the direction of z, and all z are positive",
+                       e.names(tops), e.names(bases)),
+           why, "If these are depths, read them with --depth");
 }
 
 } // namespace
@@ -82,6 +105,8 @@ void check_unstated_depths(Examination& e) {
                    "is positive, and is read as heights",
                    e.names(down), e.names(unstated)),
                why, "If these are depths, read them with --depth");
+    else if (unstated.size() == e.used.size())
+        warn_of_tops_below_bases(e, why);
 }
 
 } // namespace terrane::plausibility::detail

@@ -93,6 +93,20 @@ TEST_CASE("plausibility: heights and depths", "[plausibility]") {
     CHECK(doubts({down, unstated}).empty());
 }
 
+TEST_CASE("plausibility: tops below bases are depths that no file states", "[plausibility]") {
+    const std::vector<Surface> depths{flat("TopUpperReek", 1547), flat("topmidreek", 1700),
+                                      flat("Base_Reek", 1933)};
+    CHECK(doubts(depths) == Doubts{Doubt::depths_unstated});
+    CHECK(doubts({flat("TopUpperReek", 1933), flat("topmidreek", 1700), flat("Base_Reek", 1547)})
+              .empty());
+    CHECK(doubts({flat("TopUpperReek", 1547), flat("topmidreek", 1933), flat("Base_Reek", 1700)})
+              .empty());
+    CHECK(doubts({flat("top", -1933), flat("base", -1547)}).empty());
+    auto stated = depths;
+    for (Surface& s : stated) s.frame.vertical_axis = VerticalAxis::up;
+    CHECK(doubts(stated).empty());
+}
+
 TEST_CASE("plausibility: top and base", "[plausibility]") {
     const auto faults = std::vector{wall("F1", 300, -2000, 0), wall("F2", 700, -2000, 0)};
     const auto with = [&](std::vector<Surface> layers) {
