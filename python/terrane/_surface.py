@@ -224,6 +224,12 @@ def _faces_of_polydata(faces: Any) -> Any:
 
 
 def _parts_of_meshio(mesh: Any) -> Tuple[Any, Any]:
+    """Return points and triangles; points, lines and volumes are passed over, other faces refused."""
+    passed_over = ("vertex", "line", "tetra", "hexahedron", "wedge", "pyramid")
+    others = sorted({b.type for b in mesh.cells if b.type != "triangle" and not b.type.startswith(passed_over)})
+    if others:
+        raise bad_option(f"the meshio.Mesh has faces that are no triangles: {', '.join(others)}; write it as VTU, "
+                         "which terrane.read() divides", "cells")
     blocks = [np.asarray(b.data) for b in mesh.cells if b.type == "triangle"]
     if not blocks:
         raise Error("nothing_to_do", "the meshio.Mesh has no triangles", "cells")

@@ -244,6 +244,14 @@ def test_stages_take_surfaces_of_other_packages(package):
     assert len(terrane.arrange([FOREIGN[package]()]).triangles) == 2
 
 
+@pytest.mark.parametrize("kind", ["quad", "polygon", "triangle6"])
+def test_faces_of_meshio_that_are_no_triangles_are_refused(kind):
+    mixed = Plain(points=np.array(V), cell_data={}, cells=[Cells("tetra", [[0, 1, 2, 3]]), Cells("triangle", np.array(T)),
+                                                          Cells(kind, [[0, 1, 2, 3]])])
+    with pytest.raises(terrane.Error, match=f"no triangles: {kind}"):
+        terrane.as_surface(mixed)
+
+
 def test_names_of_other_packages_are_kept():
     assert terrane.as_surface(FOREIGN["GemPy"]()).name == "top"
     assert terrane.as_surface(FOREIGN["GemPy"](), name="other", role="fault").role == "fault"
