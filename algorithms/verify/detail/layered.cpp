@@ -162,7 +162,8 @@ private:
             for (const std::uint32_t b :
                  s_.borders_near(box_around(layered_.vertices, {edge[0], edge[1], edge[1]})))
                 near.push_back(s_.border_edges[b]);
-            if (from == to || segment_is_near({&from, &to}, s_.border_points, near, s_.deviation))
+            if (from == to ||
+                NearTriangles(s_.border_points, near, s_.deviation).reach(from, to))
                 continue;
             report(Rule::R64_layer_places, {edge[0], edge[1]},
                    s_.name(i) + ", ends at the edge of vertices " + text(edge) +
