@@ -129,7 +129,7 @@ private:
             std::map<std::uint32_t, std::uint32_t> first_in; // by surface
             all.insert(all.begin(), first);
             for (const std::uint32_t p : all)
-                is_void[p] = !first_in.try_emplace(inputs_.surface_of[p], p).second;
+                if (!first_in.try_emplace(inputs_.surface_of[p], p).second) is_void[p] = true;
             const auto given = std::ranges::find_if_not(all, [&](auto p) { return is_new(p); });
             for (const std::uint32_t p : all)
                 if (is_new(p) && given != all.end() &&
@@ -160,20 +160,20 @@ private:
             for (std::size_t i = 0; i < 3 && !is_void[p]; ++i)
                 (p < added ? before : beside)[{corner_of(p, i), corner_of(p, (i + 1) % 3)}]
                     .push_back(p);
-        JoinedSets sets(end);
+        JoinedSets sets(end - first);
         Numbers joined;
         for (const auto& [side, list] : beside) {
             const auto& [a, b] = side;
             if (const auto other = beside.find({b, a}); other != beside.end())
-                for (const std::uint32_t p : list) sets.join(p, other->second.front());
+                for (const std::uint32_t p : list) sets.join(p - first, other->second.front() - first);
             if (const auto border = before.find({b, a});
                 border != before.end() && border->second.size() == 1 && !before.contains(side))
                 joined.insert(joined.end(), list.begin(), list.end());
         }
         std::set<std::uint32_t> roots;
-        for (const std::uint32_t p : joined) roots.insert(sets.find(p));
+        for (const std::uint32_t p : joined) roots.insert(sets.find(p - first));
         for (std::uint32_t p = added; p < end; ++p)
-            if (!is_void[p] && !roots.contains(sets.find(p)))
+            if (!is_void[p] && !roots.contains(sets.find(p - first)))
                 report_input(p, " was added, but does not go on from the border of its surface");
     }
     [[nodiscard]] const Point3& corner_of(std::uint32_t p, std::size_t i) const {
