@@ -232,6 +232,8 @@ private:
         return std::ranges::any_of(inputs_, [&](const Input& added) {
             return added.origin != Input::Origin::given &&
                    added.origin != Input::Origin::boundary &&
+                   std::ranges::count_if(
+                       added.at, [&](const Point3& p) { return was_there(p, added); }) != 1 &&
                    std::ranges::none_of(inputs_, [&](const Input& other) {
                        if (other.surface != added.surface) return false;
                        for (std::size_t i = 0; i < 9; ++i)

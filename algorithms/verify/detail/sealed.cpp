@@ -163,18 +163,32 @@ private:
         JoinedSets sets(end - first);
         Numbers joined;
         for (const auto& [side, list] : beside) {
-            const auto& [a, b] = side;
-            if (const auto other = beside.find({b, a}); other != beside.end())
-                for (const std::uint32_t p : list) sets.join(p - first, other->second.front() - first);
-            if (const auto border = before.find({b, a});
-                border != before.end() && border->second.size() == 1 && !before.contains(side))
+            const Side back{side[1], side[0]};
+            const auto other = beside.find(back), along = before.find(side),
+                       against = before.find(back);
+            for (const std::uint32_t p : list) sets.join(p - first, list.front() - first);
+            if (other != beside.end())
+                sets.join(list.front() - first, other->second.front() - first);
+            const bool is_border = (along == before.end()) != (against == before.end());
+            if (is_border ? against == before.end() : other == beside.end() && list.size() > 1)
+                report_input(list.front(), " was added, but faces another side than what it joins");
+            else if (is_border && against->second.size() == 1)
                 joined.insert(joined.end(), list.begin(), list.end());
         }
         std::set<std::uint32_t> roots;
+        std::map<std::uint32_t, std::size_t> sizes;
         for (const std::uint32_t p : joined) roots.insert(sets.find(p - first));
-        for (std::uint32_t p = added; p < end; ++p)
-            if (!is_void[p] && !roots.contains(sets.find(p - first)))
+        for (std::uint32_t p = added; p < end; ++p) ++sizes[sets.find(p - first)];
+        for (std::uint32_t p = added; p < end; ++p) {
+            const std::uint32_t root = sets.find(p - first);
+            // The end of a strip is left alone where the strip beside it closed nothing.
+            const bool is_end =
+                sizes[root] == 1 && std::ranges::count_if(inputs_.triangles[p], [&](auto v) {
+                                        return had_before(p, v);
+                                    }) == 1;
+            if (!is_void[p] && !is_end && !roots.contains(root))
                 report_input(p, " was added, but does not go on from the border of its surface");
+        }
     }
     [[nodiscard]] const Point3& corner_of(std::uint32_t p, std::size_t i) const {
         return inputs_.vertices[inputs_.triangles[p][i]];
@@ -355,9 +369,9 @@ private:
     std::vector<Numbers> surfaces_of_; ///< per exact triangle, as the next two
     std::vector<bool> is_given_, is_dropped_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::set<Point3>>
-        vertices_before_; ///< by the first input triangle, and the end of them
-    std::vector<Vector4> input_points_;                         ///< in the scale of the mesh
-    mpz_class scale_;                                           ///< of the next two
+        vertices_before_;               ///< by the first input triangle, and the end of them
+    std::vector<Vector4> input_points_; ///< in the scale of the mesh
+    mpz_class scale_;                   ///< of the next two
     std::vector<Point3> doubles_;
     std::vector<Vector4> exact_;
 };

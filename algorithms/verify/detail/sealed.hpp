@@ -42,8 +42,8 @@ struct SealedParts {
 /// (2) R54: each added triangle goes on from the border of its surface, which has the extended ones
 ///     where triangles seal: it has a side, from vertex to vertex, in common with the only triangle
 ///     there, or with an added one of the same list for which this holds; and the two pass it in
-///     opposite directions, so that they face the same side. It is no given triangle of another
-///     surface. What was kept of added triangles is connected, over edges and within their surface,
+///     opposite directions, so that they face the same side. Or it is the end of a strip that was
+///     left alone, with one vertex of its surface. It is no given triangle of another surface. What was kept of added triangles is connected, over edges and within their surface,
 ///     with given triangles of it that are not trimmed. A way may lead through the outside of the
 ///     volume.
 /// (3) R55: an edge at which only an added triangle was kept lies on a side of an added triangle
