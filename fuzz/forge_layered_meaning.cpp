@@ -72,15 +72,13 @@ struct Horizons {
     }
 };
 
-/// The surfaces over a place: a layer keeps the thickness from the harder ones, and lies on the
-/// upper one where they leave less room.
+/// The surfaces over a place: a layer lies on the harder ones that leave no room for it.
 struct LayerColumn {
     std::vector<std::optional<Over>> own, right; ///< per layer: its surface; where it must be
     bool near_side = false;                      ///< rounding may decide which
 };
 
-LayerColumn column_at(const Horizons& horizons, const Point3& place, double width,
-                      double thickness) {
+LayerColumn column_at(const Horizons& horizons, const Point3& place, double width) {
     LayerColumn column;
     for (const auto& list : horizons.triangles) {
         std::optional<Over> found;
@@ -101,7 +99,7 @@ LayerColumn column_at(const Horizons& horizons, const Point3& place, double widt
             if (column.right[j]) floor = std::max(floor, column.right[j]->height);
         Over place_of_layer = *column.own[i];
         double& z = place_of_layer.height;
-        z = std::min(ceiling, std::max(floor + thickness, std::min(z, ceiling - thickness)));
+        z = std::min(ceiling, std::max(floor, z));
         column.right[i] = place_of_layer;
     }
     return column;
@@ -169,7 +167,7 @@ private:
     }
 
     std::string flaw_at(const Point3& place) const {
-        const LayerColumn column = column_at(horizons_, place, width_, thickness_);
+        const LayerColumn column = column_at(horizons_, place, width_);
         if (column.near_side) return "";
         std::vector<std::size_t> times(column.own.size());
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
@@ -181,7 +179,8 @@ private:
             for (const std::uint32_t i : claim_.surfaces_of[t]) {
                 ++times[i];
                 if (!column.right[i]) return "where a layer exists";
-                if (std::abs(column.right[i]->height - o->height) > slack_)
+                // With a thickness, which height a layer has is not judged.
+                if (!(thickness_ > 0) && std::abs(column.right[i]->height - o->height) > slack_)
                     return "the height of a layer";
                 right_side = right_side || faces_as(*column.own[i], *o, 0);
             }

@@ -113,9 +113,9 @@ public:
             if (dot(normal, first) < -1e-12 * length(first)) return "a side";
         }
         if (is_any_far()) return "a limit";
+        if (is_any_apart()) return "an added triangle that does not go on from its surface";
         if (is_any_detached()) return "a triangle added elsewhere than at the border";
         if (ends_free()) return "an added triangle that ends free";
-        if (is_any_loose()) return "added triangles that close nothing";
         return trimmed_flaw();
     }
 
@@ -189,14 +189,6 @@ private:
         return false;
     }
 
-    /// Tells whether a surface as it was given ends at an edge, and is not trimmed there.
-    [[nodiscard]] bool ends_at(const Ids& at, std::uint32_t surface) const {
-        Ids given;
-        for (const std::uint32_t t : at)
-            if (parts_[t].given_for.contains(surface)) given.push_back(t);
-        return given.size() == 1 && !parts_[given.front()].is_trimmed();
-    }
-
     /// Returns all triangles that can be reached from some, from neighbour to neighbour within a
     /// surface, over those that `leads` allows.
     std::set<std::uint32_t> reached(Ids from, const std::function<bool(const Part&)>& leads) const {
@@ -219,42 +211,56 @@ private:
         const auto leads = [](const Part& part) {
             return part.is_added() && (!part.is_dropped || part.is_outside);
         };
-        Ids at_border;
+        Ids at_surface;
         for (const auto& [edge, at] : at_edge_)
             for (const std::uint32_t t : at)
-                if (leads(parts_[t]) &&
-                    std::ranges::any_of(parts_[t].surfaces,
-                                        [&, &list = at](auto s) { return ends_at(list, s); }))
-                    at_border.push_back(t);
-        return is_strip_beyond(reached(std::move(at_border), leads));
-    }
-
-    [[nodiscard]] bool is_strip_beyond(const std::set<std::uint32_t>& seen) const {
+                for (const std::uint32_t u : at)
+                    if (leads(parts_[t]) && !parts_[u].is_trimmed() &&
+                        std::ranges::any_of(parts_[u].given_for, [&](std::uint32_t s) {
+                            return parts_[t].surfaces.contains(s);
+                        }))
+                        at_surface.push_back(t);
+        const auto seen = reached(std::move(at_surface), leads);
         for (std::uint32_t t = 0; t < parts_.size(); ++t)
             if (parts_[t].is_strip() && !seen.contains(t)) return true;
         return false;
     }
 
-    /// Tells whether a triangle of the surface as it was before has all of these corners.
-    [[nodiscard]] bool was_there(const std::vector<Point3>& corners, const Input& added) const {
-        return std::ranges::any_of(inputs_, [&](const Input& other) {
-            return other.surface == added.surface && other.origin < added.origin &&
-                   std::ranges::all_of(corners, [&](const Point3& p) {
-                       return std::ranges::count(other.at, p) > 0;
+    /// Tells whether an added triangle has no side that another one of its surface passes in the
+    /// opposite direction.
+    bool is_any_apart() const {
+        return std::ranges::any_of(inputs_, [&](const Input& added) {
+            return added.origin != Input::Origin::given &&
+                   added.origin != Input::Origin::boundary &&
+                   std::ranges::count_if(
+                       added.at, [&](const Point3& p) { return was_there(p, added); }) != 1 &&
+                   std::ranges::none_of(inputs_, [&](const Input& other) {
+                       if (other.surface != added.surface) return false;
+                       for (std::size_t i = 0; i < 9; ++i)
+                           if (added.at[i % 3] == other.at[(i / 3 + 1) % 3] &&
+                               added.at[(i + 1) % 3] == other.at[i / 3])
+                               return true;
+                       return false;
                    });
         });
     }
 
-    /// Tells whether an edge lies on a side of an added triangle that contains it; of the lateral
-    /// ones alone, which begin at a vertex of the surface as it was before and are no edges of it.
-    [[nodiscard]] bool is_on_side(std::uint32_t t, const Edge& edge, bool lateral) const {
+    /// Tells whether the surface had a vertex before a triangle was added.
+    [[nodiscard]] bool was_there(const Point3& p, const Input& added) const {
+        return std::ranges::any_of(inputs_, [&](const Input& other) {
+            return other.surface == added.surface && other.origin < added.origin &&
+                   std::ranges::count(other.at, p) > 0;
+        });
+    }
+
+    /// Tells whether an edge lies on a side, of an added triangle that contains it, from a vertex
+    /// that the surface had before.
+    [[nodiscard]] bool is_on_side(std::uint32_t t, const Edge& edge) const {
         return std::ranges::any_of(c_.exact.parents_of[t], [&](std::uint32_t p) {
             const Input& input = inputs_[p];
             for (std::size_t i = 0; i < 3; ++i) {
                 const Point3 &a = input.at[i], &b = input.at[(i + 1) % 3];
-                if (lateral && ((!was_there({a}, input) && !was_there({b}, input)) ||
-                                was_there({a, b}, input)))
-                    continue;
+                if (!was_there(a, input) && !was_there(b, input)) continue;
                 const double near = 1e-9 * (1e-3 + length(b - a));
                 if (distance(points_[edge[0]], a, b) <= near &&
                     distance(points_[edge[1]], a, b) <= near)
@@ -270,62 +276,7 @@ private:
             for (const std::uint32_t t : entry.second)
                 if (!parts_[t].is_dropped) kept.push_back(t);
             return kept.size() == 1 && parts_[kept[0]].is_strip() &&
-                   !is_on_side(kept[0], entry.first, true);
-        });
-    }
-
-    /// Tells whether added triangles are connected with none that ends on another surface, on its
-    /// own where that goes on, or on other added triangles across them.
-    bool is_any_loose() {
-        Ids closing;
-        for (const auto& [edge, at] : at_edge_)
-            for (const std::uint32_t t : at)
-                for (const std::uint32_t u : at)
-                    if (t != u && parts_[t].is_strip() && !parts_[u].is_dropped &&
-                        ends_on(t, u, edge, at))
-                        closing.push_back(t);
-        add_bridges(closing);
-        return is_strip_beyond(
-            reached(std::move(closing), [](const Part& part) { return part.is_strip(); }));
-    }
-
-    /// Adds triangles that lie at the border of their surface with a side, and reach another place
-    /// where added triangles connected with them do with the corner opposite to that.
-    void add_bridges(Ids& closing) const {
-        struct Contact {
-            std::uint32_t triangle;
-            Edge edge;
-        };
-        std::vector<Contact> contacts;
-        for (const auto& [edge, at] : at_edge_)
-            for (const std::uint32_t t : at)
-                if (parts_[t].is_strip() &&
-                    std::ranges::any_of(parts_[t].surfaces,
-                                        [&, &list = at](auto s) { return ends_at(list, s); }))
-                    contacts.push_back({t, edge});
-        const auto is_strip = [](const Part& part) { return part.is_strip(); };
-        for (const Contact& contact : contacts) {
-            const auto connected = reached({contact.triangle}, is_strip);
-            for (const std::uint32_t p : c_.exact.parents_of[contact.triangle])
-                for (const Point3& corner : inputs_[p].at)
-                    for (const Contact& other : contacts)
-                        if (connected.contains(other.triangle) &&
-                            !is_near_line(corner, contact.edge) &&
-                            (points_[other.edge[0]] == corner || points_[other.edge[1]] == corner))
-                            closing.push_back(contact.triangle);
-        }
-    }
-    [[nodiscard]] bool is_near_line(const Point3& p, const Edge& edge) const {
-        const Point3 a = points_[edge[0]], b = points_[edge[1]];
-        return length(cross(b - a, p - a)) <= 1e-9 * length(b - a) * (1e-3 + length(p - a));
-    }
-
-    [[nodiscard]] bool ends_on(std::uint32_t t, std::uint32_t u, const Edge& edge,
-                               const Ids& at) const {
-        if (parts_[u].is_strip() && parts_[t].shares(parts_[u]))
-            return !is_on_side(t, edge, false) && !is_on_side(u, edge, false);
-        return std::ranges::any_of(parts_[t].surfaces, [&](std::uint32_t s) {
-            return !parts_[u].given_for.contains(s) || !ends_at(at, s);
+                   !is_on_side(kept[0], entry.first);
         });
     }
 

@@ -182,7 +182,7 @@ def forged(name, data, share):
     return changed_digit(data, found.start(next(g for g in range(1, found.re.groups + 1) if found.group(g))))
 
 
-def accepted_forgeries(terrane, folder, share):
+def accepted_forgeries(terrane, folder, inputs, share):
     """Changes each output file and returns those that the verifier accepts, and the number of all."""
     text = (folder / "certificate.json").read_text()
     certificate = json.loads(text)
@@ -195,7 +195,7 @@ def accepted_forgeries(terrane, folder, share):
         path.write_bytes(wrong)
         text = text.replace(output["sha256"], hashlib.sha256(wrong).hexdigest())
     (folder / "forged.json").write_text(text)
-    verdict = run([terrane, "verify", "--json", "forged.json"], folder)
+    verdict = run([terrane, "verify", "--json", "forged.json", *inputs], folder)
     for path, data in right.items():
         path.write_bytes(data)
     outputs = json.loads(verdict.out)["outputs"]
@@ -232,8 +232,9 @@ def judge(options, name, kind, model):
         folder = pathlib.Path(scratch)
         own = kind.models[model] if isinstance(kind.models, dict) else []
         sources = [unpacked(source, folder) for source in files_of(options, model)]
-        base = [options.terrane, *kind.command, *sources, *kind.options,
-                *(word.replace("{data}", str(options.data.resolve())) for word in own)]
+        own = [word.replace("{data}", str(options.data.resolve())) for word in own]
+        base = [options.terrane, *kind.command, *sources, *kind.options, *own]
+        inputs = sources + [word for word in own if word.startswith("/")]
         outputs = [word for output in kind.outputs for word in ("-o", output)]
         plain_folder = folder / "plain"
         plain_folder.mkdir()
@@ -241,12 +242,12 @@ def judge(options, name, kind, model):
         made = run(base + outputs + ["--certificate", "certificate.json"], folder)
         if made.status not in (0, 1) or not (folder / "certificate.json").exists():
             return None, f"{name}, {model}: no certificate: {made.err.strip().splitlines()[-1:]}"
-        verified = run([options.terrane, "verify", "--json", "certificate.json"], folder)
+        verified = run([options.terrane, "verify", "--json", "certificate.json", *inputs], folder)
         triangles = triangles_of(json.loads((folder / "certificate.json").read_text()))
         refused = tried = 0
         wrong = "" if verified.status == 0 else f"{name}, {model}: refused: {verified.out[-400:]}{verified.err}"
         for place in range(options.places if verified.status == 0 else 0):
-            accepted, count = accepted_forgeries(options.terrane, folder, (place + 0.5) / options.places)
+            accepted, count = accepted_forgeries(options.terrane, folder, inputs, (place + 0.5) / options.places)
             refused += count - len(accepted)
             tried += count
             for file in accepted:

@@ -57,12 +57,12 @@ enum class Rule : std::uint8_t {
     R32_nesting,          ///< another shell bounds a block from the outside
     R33_block_numbers,    ///< a shell bounds another block, or there are more or fewer blocks
     R34_volumes,          ///< a block has another volume
-    R35_fillings,         ///< new triangles do not close whole borders of a surface
-    R36_embedded,         ///< a new triangle has no area, or meets another one of its surface
-                          ///< improperly
-    R37_images,           ///< the parts of input triangles are torn, or enclose a space
-    R38_places,           ///< triangles bound other blocks than in the exact part
-    R39_beside,           ///< sheets lie around a curve, or between blocks, otherwise than before
+    R35_fillings, ///< new triangles do not close whole borders of a surface, or an outer one
+    R36_embedded, ///< a new triangle has no area, or meets another one of its surface
+                  ///< improperly
+    R37_images,   ///< the parts of input triangles are torn, or enclose a space
+    R38_places,   ///< triangles bound other blocks than in the exact part
+    R39_beside,   ///< sheets lie around a curve, or between blocks, otherwise than before
     // Tetrahedra: see docs/explanation/tetrahedra.md.
     R40_tetrahedra_lists = 39, ///< as R1, in the lists about tetrahedra
     R41_positive,              ///< a tetrahedron is flat or inverted
@@ -81,10 +81,10 @@ enum class Rule : std::uint8_t {
     // Sealed and extended surfaces: see detail/sealed.hpp.
     R53_sealed_lists, ///< a list about sealed surfaces has another length than it must have, or a
                       ///< number is not finite
-    R54_attached,     ///< an added part is not attached along the border of its surface
-    R55_ends,      ///< an added part ends free elsewhere than at a lateral side, or meets nothing
-    R56_trimmed,   ///< the missing part of a surface is not a whole part beyond another surface
-    R57_only_kept, ///< doubles lie where nothing was kept
+    R54_attached,     ///< an added part does not go on from the border of its surface
+    R55_ends,         ///< an added part ends free elsewhere than at a lateral side
+    R56_trimmed,      ///< a missing part leaves an edge free, or its surface does not go on
+    R57_only_kept,    ///< doubles lie where nothing was kept
     // Layers: see detail/layered.hpp.
     R60_layer_lists = 59, ///< as R1, in layers, or a number is not finite
     R61_layer_mesh,       ///< the mesh of the layers is not conforming
@@ -93,8 +93,6 @@ enum class Rule : std::uint8_t {
                           ///< replace it there
     R64_layer_places,     ///< a layer does not exist where its surface does, or the reverse
     R65_layer_sides,      ///< a triangle faces another side than the surface that it is on
-    R66_layer_thickness,  ///< a layer is nearer to a harder one than the thickness, and there is
-                          ///< room for it
 };
 
 /// Returns "R5" for rule R5, and so on.
@@ -123,7 +121,7 @@ struct Violation {
                                          ///< R26: {triangle} or {surface}; R27: {triangle}
                                          ///< R28, R29, R35, R36: a triangle, a vertex or none
                                          ///< R50: none; R51, R52: a triangle
-                                         ///< R60, R63, R65, R66: a triangle or none; R61: as R3 to
+                                         ///< R60, R63, R65: a triangle or none; R61: as R3 to
                                          ///< R5; R62: two triangles; R64: a triangle or an edge
     std::string sentence;                ///< names the flaw
 };

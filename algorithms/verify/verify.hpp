@@ -66,13 +66,15 @@ std::vector<Violation> verify_conforming(std::span<const Point3> vertices,
 // (6) An improved mesh is conforming, has the regions, curves and corners of the mesh before, in the
 //     same order and between the same blocks, and is within the stated limits of it, both ways (R22
 //     to R27, R39).
-// (7) Filled surfaces have all that was given, and new triangles are discs that close whole borders
-//     without meeting others (R28, R29, R35, R36).
-// (8) Layers are the pointwise stack of the surfaces that they were made of (R60 to R66).
+// (7) Filled surfaces have all that was given, and new triangles are discs that close whole inner
+//     borders without meeting others (R28, R29, R35, R36).
+// (8) Layers are the pointwise stack of the surfaces that they were made of (R60 to R65). With a
+//     minimum thickness their order is shown, and that they lie on surfaces moved along z.
 // (9) The mesh of a volume of interest is the part inside of it, all of that and nothing else (R50
 //     to R52); (3) and (4) hold for the parts inside.
-// (10) Sealed and extended surfaces differ from those of the files by added triangles and by whole
-//      parts beyond other surfaces only, and by no more than their limits (R26, R53 to R57).
+// (10) Sealed and extended surfaces differ from those of the files by added triangles, which go on
+//      from them, and by missing parts that leave no edge free, and by no more than their limits
+//      (R26, R53 to R57).
 // (11) Each output file that was given is, byte for byte, what the verifier's own writers make of
 //      the certificate (R21); where the format has none, it has the stated SHA-256.
 

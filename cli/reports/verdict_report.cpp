@@ -130,9 +130,9 @@ std::string layers_text(const Judgement& judged) {
         return text + fmt::format("at most {} from their surfaces or from the harder ones that "
                                   "replace these",
                                   figure(layered.deviation, 3));
-    return text + fmt::format("with a thickness of at least {} where harder ones leave room; at "
-                              "most {} from where they must be",
-                              figure(*layered.thickness), figure(layered.deviation, 3));
+    return text + fmt::format("at most {} from their surfaces or from harder ones moved by "
+                              "multiples of the thickness {}; that they keep it is not judged",
+                              figure(layered.deviation, 3), figure(*layered.thickness));
 }
 
 /// Says what was added to surfaces, with a line end before it; nothing if they were not changed.

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -303,6 +304,29 @@ inline void drop_unused(Json& part) {
         if (low >= 0 && high >= 0) edges.push_back({low, high});
     }
     part["intersection_edges"] = edges;
+}
+
+/// Numbers the regions of doubles by surface, then by their lowest triangles, as a producer does.
+inline void number_regions(Json& mesh, const std::vector<Surface>& surfaces) {
+    std::vector<std::size_t> surface_of;
+    for (std::size_t s = 0; s < surfaces.size(); ++s)
+        surface_of.insert(surface_of.end(), surfaces[s].triangles.size(), s);
+    const auto surfaces_at = [&](std::size_t t) {
+        std::set<std::size_t> found;
+        for (const Json& p : mesh["parents"][t]) found.insert(surface_of[p.get<std::size_t>()]);
+        return found;
+    };
+    std::map<std::pair<std::size_t, Json>, std::size_t> lowest; // by surface and number
+    for (std::size_t t = 0; t < mesh["triangles"].size(); ++t)
+        for (std::size_t i = 0; const std::size_t s : surfaces_at(t))
+            lowest.try_emplace({s, mesh["regions"][t][i++]}, t);
+    std::set<std::pair<std::size_t, std::size_t>> order; // surface and lowest triangle
+    for (const auto& [region, t] : lowest) order.insert({region.first, t});
+    for (std::size_t t = 0; t < mesh["triangles"].size(); ++t)
+        for (std::size_t i = 0; const std::size_t s : surfaces_at(t)) {
+            Json& number = mesh["regions"][t][i++];
+            number = std::distance(order.begin(), order.find({s, lowest.at({s, number})}));
+        }
 }
 
 /// Drops the triangles whose only parent is one of these.

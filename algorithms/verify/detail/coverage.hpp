@@ -41,16 +41,39 @@ public:
     Coverage(const std::array<const Vector4*, 3>& parent, std::span<const Vector4> points,
              const mpz_class& collar, const CoveredRegion& region);
 
-    /// Tells whether the children cover the parent. Cost: some ten products of integers per edge;
-    /// if children overlap, the same for each pair of an edge with children on one side and a
-    /// child.
-    [[nodiscard]] bool holds(std::span<const Triangle> children) const;
+    /// Children that have area when projected along the normal, made counterclockwise, and a tree of
+    /// their boxes in the projection.
+    class Facing {
+    public:
+        Facing(const Coverage& coverage, std::span<const Triangle> children);
+        Facing(const Facing&) = delete; // `near` refers to `triangles`
+        Facing& operator=(const Facing&) = delete;
+        /// Returns the children whose boxes touch that of two points. None: too many were asked for,
+        /// as nothing but a forgery needs; then no more is proven.
+        [[nodiscard]] std::optional<std::vector<Triangle>> around(const Vector4& p,
+                                                                  const Vector4& q) const;
+        /// Returns all as triangles to be near, by the collar.
+        [[nodiscard]] const NearTriangles& near() const;
+
+        std::vector<Triangle> triangles;
+
+    private:
+        const Coverage& coverage_;
+        BoxTree tree_{{}, {}};
+        mutable std::optional<NearTriangles> near_; ///< made for the first one that asks
+        mutable std::size_t left_ = 0;              ///< that around() may still return
+    };
+
+    /// Tells whether the children cover the parent. Cost: n log n for n children, and some ten
+    /// products of integers for each child over an edge with children on one side, 64 n of which are
+    /// looked at. Where that does not suffice, it is not shown.
+    [[nodiscard]] bool holds(const Facing& children) const;
 
     /// Tells whether each point of a segment lies in a child, or at most `collar` away from one. The
     /// segment lies in the parent. Precondition: its ends have w = 1 and differ when projected along
     /// the normal.
     [[nodiscard]] bool reaches(const Vector4& from, const Vector4& to,
-                               std::span<const Triangle> children) const;
+                               const Facing& children) const;
 
 private:
     struct Side {
@@ -59,25 +82,23 @@ private:
     };
 
     [[nodiscard]] int side_of(const Vector4& from, const Vector4& to, const Vector4& point) const;
+    [[nodiscard]] Box box_of(const Vector4& point) const;
     [[nodiscard]] bool covers_centroid(const std::array<const Vector4*, 3>& part,
-                                       std::span<const Triangle> children) const;
-    [[nodiscard]] bool covers_centroids(std::span<const Triangle> children) const;
+                                       const Facing& children) const;
+    [[nodiscard]] bool covers_centroids(const Facing& children) const;
     [[nodiscard]] bool near_border(const Edge& edge) const;
     [[nodiscard]] bool has_in(const Triangle& child, const Vector4& point) const;
     [[nodiscard]] bool near_border(const Vector4& a, const Vector4& b) const;
-    [[nodiscard]] bool covered_elsewhere(const Side& side,
-                                         std::span<const Triangle> children) const;
-    [[nodiscard]] std::vector<Vector4> crossings(const Vector4& from, const Vector4& to,
-                                                 std::span<const Triangle> children) const;
-    [[nodiscard]] bool covers_beside(const Triangle& child, const Side& side,
-                                     const Vector4& point) const;
-    [[nodiscard]] std::vector<Triangle> facing(std::span<const Triangle> children) const;
+    template <class IsExempt>
+    [[nodiscard]] bool is_covered(const Vector4& from, const Vector4& to, int side,
+                                  const Facing& children, const IsExempt& is_exempt) const;
 
     std::array<const Vector4*, 3> parent_;
     std::span<const Vector4> points_;
     mpz_class collar_;
-    Vector3 normal_;
-    std::optional<CoveredRegion> region_; ///< none: all of the parent
+    Vector3 normal_, along_, across_;      ///< of the parent; the last two span its plane
+    std::optional<CoveredRegion> region_;  ///< none: all of the parent
+    std::optional<NearTriangles> borders_; ///< of the region
 };
 
 } // namespace terrane::verifier

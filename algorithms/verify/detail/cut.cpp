@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -46,27 +47,18 @@ Shell joined_shell(const std::vector<Surface>& boundary) {
     return shell;
 }
 
-/// Tells whether each edge has triangles in both directions, one of each.
-bool is_closed(const Shell& shell) {
+/// Tells whether each edge has an even number of triangles; `once`: one in each direction.
+bool is_closed(const Shell& shell, bool once) {
     std::map<Edge, std::array<int, 2>> uses;
     for (const Triangle& t : shell.triangles)
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t a = t[i], b = t[(i + 1) % 3];
             ++uses[{std::min(a, b), std::max(a, b)}][a < b ? 0 : 1];
         }
-    return std::ranges::all_of(uses, [](const auto& use) {
-        return use.second == std::array<int, 2>{1, 1};
+    return std::ranges::all_of(uses, [&](const auto& use) {
+        const auto& [along, against] = use.second;
+        return once ? along == 1 && against == 1 : (along + against) % 2 == 0;
     });
-}
-
-bool has_even_edges(const Shell& shell) {
-    std::map<Edge, bool> is_odd;
-    for (const Triangle& t : shell.triangles)
-        for (std::size_t i = 0; i < 3; ++i) {
-            bool& odd = is_odd[{std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])}];
-            odd = !odd;
-        }
-    return std::ranges::none_of(is_odd, [](const auto& edge) { return edge.second; });
 }
 
 /// Tells whether a closed shell faces outwards: its volume is positive.
@@ -114,6 +106,69 @@ std::string prism_flaw(const VolumeClaim& volume, const Shell& shell) {
     return "";
 }
 
+/// Numbers the vertices of a box: bit k tells on which end of the edges along direction k they are.
+/// The corners were rounded, and so were the sums that they are: each coordinate is off by at most
+/// 9 u M, where u = 2^-53 and M is the largest coordinate. So sums of up to three edges at a corner
+/// miss the others by at most 54 u M, and the scalar products of edges a and b are at most
+/// 128 u M (|a| + |b|), with the errors of the directions.
+std::vector<unsigned> corners_of_box(const std::vector<Point3>& corners) {
+    double largest = 0;
+    for (const Point3& p : corners)
+        largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    auto vertices = corners;
+    vertices.push_back({0x1p-47 * largest, 0, 0});
+    const auto points = scale_to_integers(vertices).points;
+    const mpz_class& slack = points.back()[0];
+    const auto is_right = [&](const Vector3& a, const Vector3& b) {
+        mpz_class sum = 0;
+        for (std::size_t i = 0; i < 3; ++i) sum += abs(a[i]) + abs(b[i]);
+        return abs(dot(a, b)) <= 2 * slack * sum;
+    };
+    const auto numbers_from = [&](const std::array<Vector3, 3>& edges) {
+        std::vector<unsigned> number_of(8, 8);
+        for (std::size_t v = 0; v < 8; ++v)
+            for (unsigned number = 0; number < 8; ++number) {
+                bool is_here = true;
+                for (std::size_t i = 0; i < 3; ++i) {
+                    mpz_class at = points[0][i] - points[v][i];
+                    for (std::size_t k = 0; k < 3; ++k)
+                        if ((number >> k & 1U) != 0) at += edges[k][i];
+                    is_here = is_here && abs(at) <= slack;
+                }
+                if (is_here) number_of[v] = number;
+            }
+        return number_of;
+    };
+    for (std::size_t i = 1; i < 8; ++i)
+        for (std::size_t j = i + 1; j < 8; ++j)
+            for (std::size_t k = j + 1; k < 8; ++k) {
+                const std::array<Vector3, 3> edges{difference(points[i], points[0]),
+                                                   difference(points[j], points[0]),
+                                                   difference(points[k], points[0])};
+                if (!is_right(edges[0], edges[1]) || !is_right(edges[1], edges[2]) ||
+                    !is_right(edges[2], edges[0]))
+                    continue;
+                auto numbers = numbers_from(edges);
+                if (std::set(numbers.begin(), numbers.end()).size() == 8 &&
+                    std::ranges::max(numbers) < 8)
+                    return numbers;
+            }
+    return {};
+}
+
+/// Returns what is wrong with a rotated box, or nothing.
+std::string box_flaw(const Shell& shell) {
+    if (shell.vertices.size() != 8 || shell.triangles.size() != 12)
+        return "a hexahedron needs eight corners and twelve triangles";
+    const auto number_of = corners_of_box(shell.vertices);
+    if (number_of.empty()) return "the hexahedron has faces that are not at right angles";
+    for (const auto& [a, b, c] : shell.triangles)
+        if ((number_of[a] & number_of[b] & number_of[c]) == 0 &&
+            (number_of[a] | number_of[b] | number_of[c]) == 7)
+            return "a triangle of the boundary is in no face of the hexahedron";
+    return "";
+}
+
 bool is_same(const Surface& a, const Surface& b) {
     return a.triangles == b.triangles && a.vertices.size() == b.vertices.size() &&
            std::ranges::equal(a.vertices, b.vertices,
@@ -138,15 +193,16 @@ std::string volume_flaw(const VolumeClaim& volume, std::span<const Surface> file
     if (volume.shape == "surface") {
         if (!std::ranges::equal(volume.boundary, files, is_same))
             return "the boundary is not the surface of the last input files";
-        return has_even_edges(shell) ? "" : "the boundary is not closed";
+        return is_closed(shell, false) ? "" : "the boundary is not closed";
     }
     if (volume.shape == "prism") {
         if (auto flaw = prism_flaw(volume, shell); !flaw.empty()) return flaw;
-    } else if (volume.shape != "hexahedron" || shell.vertices.size() != 8 ||
-               shell.triangles.size() != 12) {
+    } else if (volume.shape != "hexahedron") {
         return "the boundary is no prism, no hexahedron and no surface";
+    } else if (auto flaw = box_flaw(shell); !flaw.empty()) {
+        return flaw;
     }
-    if (!is_closed(shell)) return "the boundary is not closed";
+    if (!is_closed(shell, true)) return "the boundary is not closed";
     if (!faces_outwards(shell)) return "the boundary faces inwards";
     return verify_conforming(shell.vertices, shell.triangles).empty()
                ? ""

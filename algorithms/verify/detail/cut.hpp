@@ -22,9 +22,9 @@ namespace terrane::verifier {
 ///     and triangles meet in shared vertices and edges only. So the horizontal sections of what it
 ///     bounds are bounded by edges of the polygon; they are all of it, and the volume is the prism.
 ///     Its triangles face outwards.
-/// (2) hexahedron: it has eight vertices and twelve triangles, and is closed, meets itself and
-/// faces
-///     outwards in the same sense.
+/// (2) hexahedron: its eight vertices are corners of a box, up to the rounding of their
+///     coordinates, and its twelve triangles are in faces of that; it is closed, meets itself and
+///     faces outwards in the same sense.
 /// (3) surface: it has the vertices and triangles of the files, to the bit, and an even number of
 ///     triangles at each edge.
 void check_volume(const VolumeClaim& volume, std::span<const Surface> files, Violations& found);

@@ -137,6 +137,12 @@ void judge_lists(std::span<const Surface> files, const Certificate& certificate,
         for (const SealedPart& part : certificate.sealed->surfaces)
             limit = std::max(limit, part.limit);
         verdict.change = SurfaceChange{limit, accepted};
+        for (std::uint32_t s = 0; s < certificate.sealed->surfaces.size(); ++s)
+            if (is_empty(cut.volume) && !certificate.sealed->surfaces[s].extended.empty())
+                verdict.violations.push_back(
+                    {Rule::R53_sealed_lists,
+                     {s},
+                     "surface " + text(s) + " is extended, but there is no volume"});
     }
     if (!is_empty(cut.volume) || !certificate.sealed)
         check_volume(cut.volume, files.subspan(own), verdict.violations);

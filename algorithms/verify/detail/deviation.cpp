@@ -125,11 +125,9 @@ private:
 
 bool sides_are_near(const RoundedParts& parts, std::uint32_t input, const Triangles& triangles) {
     const auto corners = parts.input_corners(input);
-    for (std::size_t i = 0; i < 3; ++i)
-        if (!segment_is_near({corners[i], corners[(i + 1) % 3]}, parts.points, triangles,
-                             parts.quarter))
-            return false;
-    return true;
+    const NearTriangles near(parts.points, triangles, parts.quarter);
+    return near.reach(*corners[0], *corners[1]) && near.reach(*corners[1], *corners[2]) &&
+           near.reach(*corners[2], *corners[0]);
 }
 
 /// Tells whether the sides of an input triangle are near the mesh. Where the deviation is large, one
@@ -164,7 +162,7 @@ bool check_covered(const RoundedParts& parts, std::uint32_t input, const Remains
     for (const std::uint32_t child : parts.children[input])
         triangles.push_back(parts.rounded.triangles[child]);
     const Coverage coverage(parts.input_corners(input), parts.points, parts.quarter);
-    if (!coverage.holds(triangles)) {
+    if (!coverage.holds(Coverage::Facing(coverage, triangles))) {
         found.push_back({Rule::R18_coverage,
                          {input},
                          "the parts of input triangle " + text(input) + " leave a hole"});
@@ -226,11 +224,11 @@ KeptRegion kept_region(const RoundedParts& parts, std::uint32_t input) {
 
 /// Tells whether all edges of a region are near triangles, or covered by the children.
 bool edges_are_near(const RoundedParts& parts, const KeptRegion& region, const Coverage& coverage,
-                    const Triangles& children, const Triangles& triangles) {
+                    const Coverage::Facing& children, const Triangles& triangles) {
+    const NearTriangles near(parts.points, triangles, parts.quarter);
     return std::ranges::all_of(region.edges, [&](const Edge& e) {
         const Vector4 &a = region.points[e[0]], &b = region.points[e[1]];
-        return segment_is_near({&a, &b}, parts.points, triangles, parts.quarter) ||
-               coverage.reaches(a, b, children);
+        return near.reach(a, b) || coverage.reaches(a, b, children);
     });
 }
 
@@ -252,10 +250,11 @@ bool check_cut(const RoundedParts& parts, std::uint32_t input, const Remains& re
         triangles.push_back(parts.rounded.triangles[child]);
     const Coverage coverage(parts.input_corners(input), parts.points, parts.quarter,
                             {region.points, region.triangles, region.borders});
-    const bool is_covered = triangles.empty() ? is_thin(region, mpz_class(2 * parts.quarter))
-                                              : coverage.holds(triangles);
-    if (is_covered && edges_are_near(parts, region, coverage, triangles, triangles)) return false;
-    if (is_covered && edges_are_near(parts, region, coverage, triangles, remains.near(input)))
+    const Coverage::Facing facing(coverage, triangles);
+    const bool is_covered =
+        triangles.empty() ? is_thin(region, mpz_class(2 * parts.quarter)) : coverage.holds(facing);
+    if (is_covered && edges_are_near(parts, region, coverage, facing, triangles)) return false;
+    if (is_covered && edges_are_near(parts, region, coverage, facing, remains.near(input)))
         return true;
     found.push_back({triangles.empty() ? Rule::R12_rounded_parents : Rule::R18_coverage,
                      {input},

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -13,6 +14,12 @@
 #include <terrane/algorithms/verify/stoppable.hpp>
 
 namespace terrane::verifier {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+} // namespace
 
 Vector3 difference(const Vector4& a, const Vector4& b) {
     look_for_stop();
@@ -101,7 +108,6 @@ double root_above(const Squared& distance, const mpz_class& scale) {
     mpz_cdiv_q(quotient.get_mpz_t(), above.get_mpz_t(), divisor.get_mpz_t());
     mpz_sqrtrem(root.get_mpz_t(), rest.get_mpz_t(), quotient.get_mpz_t());
     if (sgn(rest) != 0) root += 1;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     const double truncated = std::ldexp(root.get_d(), static_cast<int>(-shift));
     return std::nextafter(truncated, infinity);
 }
@@ -120,11 +126,11 @@ bool within(const Vector4& point, const std::array<const Vector4*, 3>& triangle,
     return within(squared_distance(point, triangle), bound);
 }
 
-// --- A segment near triangles -----------------------------------------------------------------
+// --- Segments near triangles --------------------------------------------------------------------
 
 namespace {
 
-/// A point of the segment: the fraction above / length of the way along it.
+/// A point of a segment: the fraction above / length of the way along it.
 struct Stop {
     mpz_class above;
     std::uint32_t corner; ///< the point that projects there; none for the ends
@@ -132,107 +138,120 @@ struct Stop {
 
 constexpr std::uint32_t no_corner = UINT32_MAX;
 
-class NearSegment {
-    using Triangles = std::vector<Triangle>;
+} // namespace
 
-public:
-    NearSegment(const std::array<const Vector4*, 2>& segment, std::span<const Vector4> points,
-                std::span<const Triangle> triangles, const mpz_class& bound) :
-        start_(*segment[0]),
-        end_(*segment[1]), along_(difference(end_, start_)), length_(dot(along_, along_)),
-        points_(points), triangles_(triangles), bound_(bound) {}
-
-    [[nodiscard]] bool holds() const {
-        const std::vector<Stop> stops = find_stops();
-        for (std::size_t i = 1; i < stops.size(); ++i)
-            if (!piece_is_near(stops[i - 1], stops[i])) return false;
-        return true;
-    }
-
-private:
-    /// Returns the ends of the segment and the places of corners near it, in order.
-    [[nodiscard]] std::vector<Stop> find_stops() const {
-        std::vector<std::uint32_t> corners;
-        for (const Triangle& t : triangles_) corners.insert(corners.end(), t.begin(), t.end());
-        std::sort(corners.begin(), corners.end());
-        corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-        std::vector<Stop> stops{{0, no_corner}, {length_, no_corner}};
-        for (const std::uint32_t corner : corners) {
-            mpz_class place = dot(difference(points_[corner], start_), along_);
-            if (sgn(place) <= 0 || place >= length_) continue;
-            if (!within_of_segment(points_[corner], start_, end_, bound_)) continue;
-            stops.push_back({std::move(place), corner});
-        }
-        std::ranges::sort(stops, [](const Stop& a, const Stop& b) {
-            if (const int order = cmp(a.above, b.above); order != 0) return order < 0;
-            return a.corner < b.corner;
-        });
-        return stops;
-    }
+/// A segment that is judged.
+struct NearTriangles::Segment {
+    const Vector4 &start, &end;
+    Vector3 along = difference(end, start);
+    mpz_class length = dot(along, along);
 
     /// Returns the point that divides the segment at the fraction above / (length * 2^halvings).
     [[nodiscard]] Vector4 point_at(const mpz_class& above, unsigned halvings) const {
-        const mpz_class whole = length_ << halvings;
+        const mpz_class whole = length << halvings;
         Vector4 point;
-        for (std::size_t i = 0; i < 3; ++i) point[i] = start_[i] * whole + along_[i] * above;
+        for (std::size_t i = 0; i < 3; ++i) point[i] = start[i] * whole + along[i] * above;
         point[3] = whole;
         return point;
     }
-
-    [[nodiscard]] bool is_near(const Vector4& point, const Triangle& t) const {
-        return within(point, {&points_[t[0]], &points_[t[1]], &points_[t[2]]}, bound_);
-    }
-
-    [[nodiscard]] bool piece_is_near(const Stop& from, const Stop& to) const {
-        if (from.above == to.above) return true;
-        const Vector4 first = point_at(from.above, 0), last = point_at(to.above, 0);
-        const auto at_stop = [&](const Triangle& t) {
-            return std::ranges::any_of(
-                t, [&](std::uint32_t v) { return v == from.corner || v == to.corner; });
-        };
-        for (const bool beside : {true, false}) // mostly a triangle at one of the stops will do
-            for (const Triangle& t : triangles_)
-                if (at_stop(t) == beside && is_near(first, t) && is_near(last, t)) return true;
-        return is_near_by_halves(from.above, to.above, 0);
-    }
-
-    /// Tells whether a piece can be divided into parts each of which is near one triangle. Halving
-    /// finds the places where one triangle takes over from another: a half without such a place is
-    /// near a triangle that its middle is near, so that few halves are divided further.
-    [[nodiscard]] bool is_near_by_halves(const mpz_class& from, const mpz_class& to,
-                                         unsigned halvings) const {
-        constexpr unsigned most_halvings = 64; // bounds are doubles, with a slack of some spacings
-        if (halvings == most_halvings) return false;
-        const mpz_class first = 2 * from, middle = from + to, last = 2 * to;
-        const Vector4 point = point_at(middle, halvings + 1);
-        Triangles near;
-        for (const Triangle& t : triangles_)
-            if (is_near(point, t)) near.push_back(t);
-        if (near.empty()) return false;
-        const auto half_is_near = [&](const mpz_class& a, const mpz_class& b,
-                                      const mpz_class& end) {
-            const Vector4 other = point_at(end, halvings + 1);
-            return std::ranges::any_of(near,
-                                       [&](const Triangle& t) { return is_near(other, t); }) ||
-                   is_near_by_halves(a, b, halvings + 1);
-        };
-        return half_is_near(first, middle, first) && half_is_near(middle, last, last);
-    }
-
-    const Vector4& start_;
-    const Vector4& end_;
-    Vector3 along_;
-    mpz_class length_;
-    std::span<const Vector4> points_;
-    std::span<const Triangle> triangles_;
-    const mpz_class& bound_;
 };
 
-} // namespace
+NearTriangles::NearTriangles(std::span<const Vector4> points, std::span<const Triangle> triangles,
+                             const mpz_class& bound) :
+    points_(points),
+    triangles_(triangles), bound_(bound) {
+    std::vector<std::uint32_t> items(triangles.size());
+    std::iota(items.begin(), items.end(), 0U);
+    all_ = items;
+    for (const std::uint32_t t : items)
+        for (const std::uint32_t corner : triangles[t]) at_corner_.push_back({corner, t});
+    std::ranges::sort(at_corner_);
+    if (triangles.size() <= few) return;
+    std::vector<Box> boxes;
+    for (const Triangle& t : triangles) {
+        Box box = enclose(points[t[0]], 1);
+        for (const std::size_t i : {1U, 2U}) extend(box, enclose(points[t[i]], 1));
+        const Box by = enclose({bound, bound, bound, 1}, 1);
+        for (std::size_t i = 0; i < 3; ++i) {
+            box.low[i] = std::nextafter(box.low[i] - by.high[i], -infinity);
+            box.high[i] = std::nextafter(box.high[i] + by.high[i], infinity);
+        }
+        boxes.push_back(box);
+    }
+    tree_ = BoxTree(std::move(boxes), std::move(items));
+}
 
-bool segment_is_near(const std::array<const Vector4*, 2>& segment, std::span<const Vector4> points,
-                     std::span<const Triangle> triangles, const mpz_class& bound) {
-    return NearSegment(segment, points, triangles, bound).holds();
+bool NearTriangles::is_near(const Vector4& point, std::uint32_t t) const {
+    const auto& [a, b, c] = triangles_[t];
+    return within(point, {&points_[a], &points_[b], &points_[c]}, bound_);
+}
+
+std::vector<std::uint32_t> NearTriangles::around(const Vector4& p, const Vector4& q) const {
+    if (triangles_.size() <= few) return all_;
+    Box box = enclose(p, 1);
+    extend(box, enclose(q, 1));
+    return tree_.touching(box);
+}
+
+bool NearTriangles::has_one(const Vector4& p, const Vector4& q) const {
+    return std::ranges::any_of(around(p, p),
+                               [&](std::uint32_t t) { return is_near(p, t) && is_near(q, t); });
+}
+
+bool NearTriangles::reach(const Vector4& start, const Vector4& end) const {
+    const Segment segment{start, end};
+    std::vector<std::uint32_t> corners;
+    for (const std::uint32_t t : around(start, end))
+        corners.insert(corners.end(), triangles_[t].begin(), triangles_[t].end());
+    std::ranges::sort(corners);
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    std::vector<Stop> stops{{0, no_corner}, {segment.length, no_corner}};
+    for (const std::uint32_t corner : corners) {
+        mpz_class place = dot(difference(points_[corner], start), segment.along);
+        if (sgn(place) <= 0 || place >= segment.length) continue;
+        if (!within_of_segment(points_[corner], start, end, bound_)) continue;
+        stops.push_back({std::move(place), corner});
+    }
+    std::ranges::sort(stops, [](const Stop& a, const Stop& b) {
+        if (const int order = cmp(a.above, b.above); order != 0) return order < 0;
+        return a.corner < b.corner;
+    });
+    for (std::size_t i = 1; i < stops.size(); ++i)
+        if (stops[i - 1].above != stops[i].above &&
+            !piece_is_near(segment, stops[i - 1].above, stops[i].above,
+                           {stops[i - 1].corner, stops[i].corner}))
+            return false;
+    return true;
+}
+
+bool NearTriangles::piece_is_near(const Segment& segment, const mpz_class& from,
+                                  const mpz_class& to, const Edge& corners) const {
+    const Vector4 first = segment.point_at(from, 0), last = segment.point_at(to, 0);
+    for (const std::uint32_t corner : corners) // mostly a triangle at one of the stops will do
+        for (auto at = std::ranges::lower_bound(at_corner_, Edge{corner, 0});
+             at != at_corner_.end() && (*at)[0] == corner; ++at)
+            if (is_near(first, (*at)[1]) && is_near(last, (*at)[1])) return true;
+    return has_one(first, last) || is_near_by_halves(segment, from, to, 0);
+}
+
+/// Tells whether a piece can be divided into parts each of which is near one triangle. Halving finds
+/// the places where one triangle takes over from another: a half without such a place is near a
+/// triangle that its middle is near, so that few halves are divided further.
+bool NearTriangles::is_near_by_halves(const Segment& segment, const mpz_class& from,
+                                      const mpz_class& to, unsigned halvings) const {
+    constexpr unsigned most_halvings = 64; // bounds are doubles, with a slack of some spacings
+    if (halvings == most_halvings) return false;
+    const mpz_class first = 2 * from, middle = from + to, last = 2 * to;
+    const Vector4 point = segment.point_at(middle, halvings + 1);
+    auto near = around(point, point);
+    std::erase_if(near, [&](std::uint32_t t) { return !is_near(point, t); });
+    if (near.empty()) return false;
+    const auto half_is_near = [&](const mpz_class& a, const mpz_class& b, const mpz_class& end) {
+        const Vector4 other = segment.point_at(end, halvings + 1);
+        return std::ranges::any_of(near, [&](std::uint32_t t) { return is_near(other, t); }) ||
+               is_near_by_halves(segment, a, b, halvings + 1);
+    };
+    return half_is_near(first, middle, first) && half_is_near(middle, last, last);
 }
 
 } // namespace terrane::verifier

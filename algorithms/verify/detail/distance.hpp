@@ -4,9 +4,13 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
+#include <vector>
 
+#include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/verify/detail/box_tree.hpp>
 #include <terrane/algorithms/verify/detail/rational.hpp>
 
 namespace terrane::verifier {
@@ -56,12 +60,41 @@ bool within_of_segment(const Vector4& point, const Vector4& start, const Vector4
 bool within(const Vector4& point, const std::array<const Vector4*, 3>& triangle,
             const mpz_class& bound);
 
-/// Tells whether each point of a segment is shown to be at most `bound` away from some triangle.
-/// The distance to one triangle is convex, so a piece of the segment is near it if both its ends
-/// are. The segment is divided at the corners of triangles that are near it, and pieces are halved
-/// where one triangle takes over from another.
-/// Precondition: all points have w = 1, and the ends of the segment differ.
-bool segment_is_near(const std::array<const Vector4*, 2>& segment, std::span<const Vector4> points,
-                     std::span<const Triangle> triangles, const mpz_class& bound);
+/// Triangles that segments are to be near: at most `bound` away. A triangle with two equal corners
+/// is a segment. It holds references to points and triangles. Precondition: all points have w = 1.
+/// Cost: n log n for n triangles, then log n for each triangle whose box is near what is asked for.
+class NearTriangles {
+public:
+    NearTriangles(std::span<const Vector4> points, std::span<const Triangle> triangles,
+                  const mpz_class& bound);
+
+    /// Tells whether one triangle is near two points, and so near all between them: the distance to
+    /// a triangle is convex.
+    [[nodiscard]] bool has_one(const Vector4& p, const Vector4& q) const;
+
+    /// Tells whether each point of a segment is shown to be near some triangle. The segment is
+    /// divided at the corners of triangles that are near it, and pieces are halved where one
+    /// triangle takes over from another. Precondition: its ends have w = 1 and differ.
+    [[nodiscard]] bool reach(const Vector4& start, const Vector4& end) const;
+
+private:
+    struct Segment;
+    static constexpr std::size_t few = 16; ///< so many need no tree
+
+    [[nodiscard]] bool is_near(const Vector4& point, std::uint32_t t) const;
+    /// Returns the triangles that may be near a segment.
+    [[nodiscard]] std::vector<std::uint32_t> around(const Vector4& p, const Vector4& q) const;
+    [[nodiscard]] bool piece_is_near(const Segment& segment, const mpz_class& from,
+                                     const mpz_class& to, const Edge& corners) const;
+    [[nodiscard]] bool is_near_by_halves(const Segment& segment, const mpz_class& from,
+                                         const mpz_class& to, unsigned halvings) const;
+
+    std::span<const Vector4> points_;
+    std::span<const Triangle> triangles_;
+    mpz_class bound_;
+    std::vector<std::uint32_t> all_;
+    std::vector<Edge> at_corner_; ///< {corner, triangle}, sorted
+    BoxTree tree_{{}, {}};
+};
 
 } // namespace terrane::verifier

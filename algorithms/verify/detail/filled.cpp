@@ -22,14 +22,48 @@ namespace {
 /// An edge with the triangles that use it from the lower to the higher vertex, and the reverse.
 using Uses = std::array<Numbers, 2>;
 
-/// A filled surface; its vertices and triangles are counted from 0.
+/// The box around points.
+struct Extent {
+    bool any = false;
+    std::array<mpz_class, 3> low, high;
+
+    void add(const Vector4& point) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!any || point[i] < low[i]) low[i] = point[i];
+            if (!any || point[i] > high[i]) high[i] = point[i];
+        }
+        any = true;
+    }
+    [[nodiscard]] bool has(const Vector4& point, const mpz_class& limit) const {
+        for (std::size_t i = 0; i < 3; ++i)
+            if (point[i] > high[i] + limit || point[i] < low[i] - limit) return false;
+        return any;
+    }
+    /// Returns the square of the diagonal.
+    [[nodiscard]] mpz_class size() const {
+        mpz_class sum = 0;
+        for (std::size_t i = 0; i < 3; ++i) sum += (high[i] - low[i]) * (high[i] - low[i]);
+        return sum;
+    }
+};
+
+/// Tells whether a square of a diagonal is larger than another one, by more than those that were
+/// compared in doubles can be off.
+bool is_clearly_larger(const mpz_class& a, const mpz_class& b) {
+    return a > b + (b >> 40);
+}
+
+/// A filled surface; its vertices and triangles are counted from 0. `holes` are the numbers of
+/// holes in the surfaces before.
 class FilledSurface {
 public:
     FilledSurface(const Surface& given, const FilledClaim& filled, std::size_t number,
-                  std::array<std::size_t, 2> first, Violations& found) :
+                  std::array<std::size_t, 2> first, std::set<std::uint32_t>& holes,
+                  Violations& found) :
         given_(given),
-        part_(filled.surfaces[number]), found_(found),
+        part_(filled.surfaces[number]), holes_(holes), found_(found),
         vertices_(std::span(filled.vertices).subspan(first[0], part_.vertices)),
+        hole_of_(std::span(filled.interpolated).subspan(first[1], part_.triangles)),
         first_triangle_(static_cast<std::uint32_t>(first[1])) {
         const auto offset = static_cast<std::uint32_t>(first[0]);
         for (const Triangle& t : std::span(filled.triangles).subspan(first[1], part_.triangles))
@@ -48,7 +82,6 @@ public:
         find_uses();
         check_edges();
         check_fillings();
-        check_rings();
         check_contacts();
         check_extent();
     }
@@ -89,7 +122,7 @@ private:
         return true;
     }
 
-    // --- R30 -------------------------------------------------------------------------------------
+    // --- R35 -------------------------------------------------------------------------------------
 
     /// Names given vertices at one place by the first of them; new ones need places of their own.
     void merge_vertices() {
@@ -136,8 +169,10 @@ private:
         }
     }
 
-    /// A connected filling. Without the corners and edges of its border, the Euler characteristic of
-    /// a disc is 1.
+    /// A connected filling, in which a hole has one number. The characteristic counts its triangles,
+    /// the edges between them, and the new vertices that no filling had before: 1 for a disc, and
+    /// 2 - 2 g - b for a surface with g handles and b borders, less 1 for each vertex of its inside
+    /// that is given, or at which it touches itself or another one. Only a disc has a border and 1.
     struct Filling {
         std::int64_t characteristic = 0;
         std::size_t along = 0, against = 0; ///< edges of the border, by the given triangles there
@@ -155,13 +190,14 @@ private:
         for (std::uint32_t t = new_from(); t < triangles_.size(); ++t) {
             Filling& filling = fillings[joined_.find(t)];
             ++filling.characteristic;
+            if (hole_of_[t] != hole_of_[joined_.find(t)])
+                report(Rule::R28_filled_indices, t,
+                       "has another hole than the rest of its filling");
             for (const std::uint32_t v : triangles_[t])
                 if (v >= given_.vertices.size() && seen.insert(v).second) ++filling.characteristic;
         }
         for (const auto& [edge, uses] : uses_) {
-            Numbers all = uses[0];
-            all.insert(all.end(), uses[1].begin(), uses[1].end());
-            const auto [given, added] = std::ranges::minmax(all);
+            const auto [given, added] = ends_of(uses);
             if (added < new_from()) continue;
             Filling& filling = fillings[joined_.find(added)];
             if (given >= new_from())
@@ -169,7 +205,11 @@ private:
             else
                 ++(uses[0].size() == 1 ? filling.along : filling.against);
         }
+        if (seen.size() + given_.vertices.size() != vertices_.size())
+            found_.push_back({Rule::R35_fillings, {}, "a new vertex belongs to no triangle"});
         for (const auto& [t, filling] : fillings) {
+            if (!holes_.insert(hole_of_[t]).second)
+                report(Rule::R28_filled_indices, t, "is of a filling with the hole of another");
             if (filling.characteristic != 1)
                 report(Rule::R35_fillings, t, "is of a filling that is no disc in one hole");
             if (filling.along == 0)
@@ -178,49 +218,7 @@ private:
         }
     }
 
-    /// Checks that the triangles round a new vertex form one ring, and that no ring is closed round
-    /// a given one.
-    void check_rings() {
-        std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>> next;
-        for (std::uint32_t t = new_from(); t < triangles_.size(); ++t)
-            for (std::size_t i = 0; i < 3; ++i)
-                next[triangles_[t][i]].try_emplace(triangles_[t][(i + 1) % 3],
-                                                   triangles_[t][(i + 2) % 3]);
-        for (const auto& [v, fan] : next)
-            if (v >= given_.vertices.size() ? !is_ring(fan) : has_ring(fan))
-                report_vertex(Rule::R35_fillings, v,
-                              "has no single ring of triangles round it, or one too many");
-        for (auto v = static_cast<std::uint32_t>(given_.vertices.size()); v < vertices_.size(); ++v)
-            if (!next.contains(v)) report_vertex(Rule::R35_fillings, v, "belongs to no triangle");
-    }
-
-    /// Returns the number of steps from a place in a fan until it ends or comes back.
-    static std::size_t steps_from(const std::map<std::uint32_t, std::uint32_t>& fan,
-                                  std::uint32_t start, bool& back) {
-        std::size_t steps = 0;
-        std::uint32_t at = start;
-        for (auto next = fan.find(at); next != fan.end() && steps <= fan.size();
-             next = fan.find(at)) {
-            at = next->second;
-            ++steps;
-            if (at == start) break;
-        }
-        back = at == start;
-        return steps;
-    }
-    static bool is_ring(const std::map<std::uint32_t, std::uint32_t>& fan) {
-        bool back = false;
-        return steps_from(fan, fan.begin()->first, back) == fan.size() && back;
-    }
-    static bool has_ring(const std::map<std::uint32_t, std::uint32_t>& fan) {
-        return std::ranges::any_of(fan, [&](const auto& step) {
-            bool back = false;
-            steps_from(fan, step.first, back);
-            return back;
-        });
-    }
-
-    // --- R31 -------------------------------------------------------------------------------------
+    // --- R36 -------------------------------------------------------------------------------------
 
     void check_contacts() {
         auto [points, scale] = scale_to_integers(vertices_);
@@ -240,29 +238,63 @@ private:
         std::vector<Point3> points(vertices_.begin(), vertices_.end());
         points.push_back({part_.limit, 0, 0});
         const auto exact = scale_to_integers(points).points;
-        struct Extent {
-            bool any = false;
-            std::array<mpz_class, 3> low, high;
-        };
         std::map<std::uint32_t, Extent> borders;
         for_each_new_corner([&](std::uint32_t t, std::uint32_t v) {
-            if (v >= given_.vertices.size()) return;
-            Extent& box = borders[joined_.find(t)];
-            for (std::size_t i = 0; i < 3; ++i) {
-                const mpz_class& at = exact[v][i];
-                if (!box.any || at < box.low[i]) box.low[i] = at;
-                if (!box.any || at > box.high[i]) box.high[i] = at;
-            }
-            box.any = true;
+            if (v < given_.vertices.size()) borders[joined_.find(t)].add(exact[v]);
         });
         for_each_new_corner([&](std::uint32_t t, std::uint32_t v) {
-            const Extent& box = borders[joined_.find(t)];
-            for (std::size_t i = 0; i < 3; ++i)
-                if (!box.any || exact[v][i] > box.high[i] + exact.back()[0] ||
-                    exact[v][i] < box.low[i] - exact.back()[0])
-                    report(Rule::R26_limits, t,
-                           "is farther from the box around the border of its hole than the limit");
+            if (!borders[joined_.find(t)].has(exact[v], exact.back()[0]))
+                report(Rule::R26_limits, t,
+                       "is farther from the box around the border of its hole than the limit");
         });
+        check_outer_borders(borders, exact);
+    }
+
+    /// Checks that in each connected part of the given surface a border stays open that is as large
+    /// as those that were closed, unless these are smaller than half of the part.
+    void check_outer_borders(const std::map<std::uint32_t, Extent>& closed,
+                             std::span<const Vector4> exact) {
+        JoinedSets parts(given_.triangles.size()), open(vertices_.size());
+        for (const auto& [edge, uses] : uses_) {
+            Numbers all = uses[0];
+            all.insert(all.end(), uses[1].begin(), uses[1].end());
+            if (all.size() == 1) open.join(edge[0], edge[1]);
+            std::erase_if(all, [&](std::uint32_t t) { return t >= new_from(); });
+            for (const std::uint32_t t : all) parts.join(all.front(), t);
+        }
+        std::map<std::uint32_t, Extent> whole, largest;      // by part
+        std::map<std::array<std::uint32_t, 2>, Extent> left; // by part and border
+        std::map<std::uint32_t, std::uint32_t> part_of;      // by filling
+        for (const auto& [edge, uses] : uses_)
+            for (const std::uint32_t v : edge) {
+                const auto [t, u] = ends_of(uses);
+                if (t >= new_from()) continue;
+                whole[parts.find(t)].add(exact[v]);
+                if (u >= new_from()) part_of[joined_.find(u)] = parts.find(t);
+                if (t == u) left[{parts.find(t), open.find(v)}].add(exact[v]);
+            }
+        for (const auto& [key, border] : left)
+            if (Extent& most = largest[key[0]]; !most.any || border.size() > most.size())
+                most = border;
+        for (const auto& [filling, border] : closed) {
+            const auto part = part_of.find(filling);
+            if (part == part_of.end() ||
+                !is_clearly_larger(4 * border.size(), whole[part->second].size()))
+                continue;
+            const Extent& most = largest[part->second];
+            if (!most.any || is_clearly_larger(border.size(), most.size()))
+                report(Rule::R35_fillings, filling, "closes the outer border of its surface");
+        }
+    }
+    /// Returns the least and the largest of the triangles at an edge.
+    static std::pair<std::uint32_t, std::uint32_t> ends_of(const Uses& uses) {
+        std::uint32_t least = UINT32_MAX, largest = 0;
+        for (const Numbers& way : uses)
+            for (const std::uint32_t t : way) {
+                least = std::min(least, t);
+                largest = std::max(largest, t);
+            }
+        return {least, largest};
     }
 
     template <class Visit>
@@ -273,8 +305,10 @@ private:
 
     const Surface& given_;
     const FilledPart& part_;
+    std::set<std::uint32_t>& holes_;
     Violations& found_;
     std::span<const Point3> vertices_;
+    std::span<const std::uint32_t> hole_of_; ///< per triangle
     std::uint32_t first_triangle_;
     std::vector<Triangle> triangles_; ///< indices into vertices_
     bool oriented_ = true;            ///< no two given triangles face different sides at an edge
@@ -334,8 +368,9 @@ void check_filled(std::span<const Surface> surfaces, const FilledClaim& filled, 
     check_numbers(filled, surfaces.size(), accepted, found);
     if (!found.empty()) return;
     std::array<std::size_t, 2> first{0, 0};
+    std::set<std::uint32_t> holes;
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
-        FilledSurface(surfaces[s], filled, s, first, found).check();
+        FilledSurface(surfaces[s], filled, s, first, holes, found).check();
         check_expected_errors(surfaces[s], filled, s, first, found);
         first[0] += filled.surfaces[s].vertices;
         first[1] += filled.surfaces[s].triangles;

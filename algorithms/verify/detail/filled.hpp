@@ -14,15 +14,17 @@ namespace terrane::verifier {
 
 /// Checks the fillings of all surfaces.
 /// (1) R28: indices are in range, numbers are finite, limits are accepted. Triangles have the
-/// number of
-///     a hole iff they are new; expected errors are 0 where vertices are given, and not negative.
+///     number of a hole iff they are new, those of a filling the same, and no two fillings;
+///     expected errors are 0 where vertices are given, and not negative.
 /// (2) R29: the vertices and triangles of each input surface are the first ones of the filled
 ///     surface, to the bit.
 /// (3) R35: each edge of a new triangle has two triangles, in opposite directions; one is given at
 ///     most, and then the edge was on the border. So the border of a filling consists of whole
-///     closed borders of the surface. A new vertex has one ring of triangles round it, and no ring
-///     of new triangles is closed round a given one. (Where given triangles face different sides,
-///     the direction along an edge of a given triangle is free.)
+///     closed borders of the surface. A filling is a disc that touches neither itself nor given
+///     vertices inside. (Where given triangles face different sides, the direction along an edge of
+///     a given triangle is free.) In each connected part of the
+///     surface, a border as large as those that were closed stays open, by the diagonals of the
+///     boxes around them; smaller ones than half of the part do not count.
 /// (4) R36: new triangles have area and meet the triangles of their surface in shared vertices and
 ///     edges only.
 /// (5) R26: a filling is connected across its edges. Its vertices lie in the box around its border,

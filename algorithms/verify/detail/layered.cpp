@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,7 +13,6 @@
 #include <terrane/algorithms/verify/detail/distance.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/layered_sheets.hpp>
-#include <terrane/algorithms/verify/detail/layered_thickness.hpp>
 #include <terrane/algorithms/verify/detail/plan_view.hpp>
 #include <terrane/algorithms/verify/verify.hpp>
 
@@ -29,10 +29,7 @@ public:
 
     void check() {
         check_order();
-        if (layered_.thickness)
-            check_thickness(s_, found_);
-        else
-            check_heights();
+        check_heights();
         for (std::uint32_t i = 0; i < s_.layers.size(); ++i) check_places(i);
     }
 
@@ -94,10 +91,15 @@ private:
                     on_some = true;
                     same_side = same_side || !s_.seen[t] ||
                                 s_.surfaces[i].triangles[*own].flipped == s_.seen[t]->flipped;
-                } else if (!is_replaced(i, t, near)) {
+                } else if (const auto moved = faces_moved(i, t)) {
+                    on_some = true;
+                    same_side = same_side || *moved;
+                } else if (layered_.thickness || !is_replaced(i, t, near)) {
                     report(Rule::R63_layer_heights, {t},
                            "triangle " + text(t) + " is neither on the surface of " + s_.name(i) +
-                               " nor on a harder one on whose wrong side that is");
+                               " nor on a harder one " +
+                               (layered_.thickness ? "moved by a multiple of the thickness"
+                                                   : "on whose wrong side that is"));
                     on_some = same_side = true;
                 }
             }
@@ -107,6 +109,35 @@ private:
                 report(Rule::R65_layer_sides, {t},
                        "triangle " + text(t) + " faces another side than its surface");
         }
+    }
+
+    /// Finds the surfaces of harder layers on which a triangle is once they are moved along z by a
+    /// multiple of the minimum thickness, at most one for each layer. Tells whether it faces the
+    /// side of one of them; none: there is no such surface, or no thickness.
+    [[nodiscard]] std::optional<bool> faces_moved(std::uint32_t i, std::uint32_t t) const {
+        std::optional<bool> same_side;
+        if (!layered_.thickness) return same_side;
+        const int most = static_cast<int>(layered_.order.size());
+        const Box around = without_height(widened_by(s_.boxes[t], s_.reach));
+        for (std::uint32_t j = 0; j < layered_.order.size(); ++j) {
+            if (!s_.is_harder(j, i)) continue;
+            for (const std::uint32_t o : s_.surfaces[j].tree.touching(around))
+                for (int steps = -most; steps <= most; ++steps)
+                    if (is_on_moved(t, j, o, steps))
+                        same_side = same_side.value_or(false) || !s_.seen[t] ||
+                                    s_.surfaces[j].triangles[o].flipped == s_.seen[t]->flipped;
+        }
+        return same_side;
+    }
+    [[nodiscard]] bool is_on_moved(std::uint32_t t, std::uint32_t j, std::uint32_t o,
+                                   int steps) const {
+        Box box = s_.boxes[t];
+        for (auto* corner : {&box.low, &box.high}) (*corner)[2] -= steps * *layered_.thickness;
+        if (!touch(s_.surfaces[j].boxes[o], widened_by(box, s_.reach))) return false;
+        const Triangle& c = layered_.triangles[t];
+        std::array<Vector4, 3> corners{s_.points[c[0]], s_.points[c[1]], s_.points[c[2]]};
+        for (Vector4& corner : corners) corner[2] -= steps * s_.thickness;
+        return s_.near_one(j, corners, {o}).has_value();
     }
 
     /// Tells whether a triangle replaces all of a layer that it covers, rightly.
@@ -162,7 +193,7 @@ private:
             for (const std::uint32_t b :
                  s_.borders_near(box_around(layered_.vertices, {edge[0], edge[1], edge[1]})))
                 near.push_back(s_.border_edges[b]);
-            if (from == to || segment_is_near({&from, &to}, s_.border_points, near, s_.deviation))
+            if (from == to || NearTriangles(s_.border_points, near, s_.deviation).reach(from, to))
                 continue;
             report(Rule::R64_layer_places, {edge[0], edge[1]},
                    s_.name(i) + ", ends at the edge of vertices " + text(edge) +

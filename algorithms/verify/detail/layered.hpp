@@ -5,8 +5,8 @@
 // The promise: at each place a layer has the height of its surface, except where this is above
 // (below) the nearest harder layer that exists there and is higher (lower) in the order; then it
 // has the height of that layer. The layers of the mesh are judged by it, seen along z. Let d be the
-// stated deviation. Layers with a minimum thickness promise something else, and (4) and (6) are
-// replaced by the rules of layered_thickness.hpp, R66 among them.
+// stated deviation. Layers with a minimum thickness are moved apart: (4) then says less, and which
+// height a layer has is not judged.
 #pragma once
 
 #include <span>
@@ -28,7 +28,8 @@ namespace terrane::verifier {
 ///     (above) it, unless the triangle is within d of the surface there, or the place within 2 d of
 ///     a border of a surface. For a triangle T of the layer and S of the surface, the distance of a
 ///     point of T from S is convex, and the places where S is below T are a half-plane; so the
-///     corners of the common part decide.
+///     corners of the common part decide. With a minimum thickness, each triangle is within d of its
+///     surface, or of that of a harder layer moved along z by a multiple of the thickness.
 /// (5) R64: a layer exists where its surface does, and nowhere else, except in strips as wide as
 ///     4 d along borders of surfaces. Each edge of the layer without a triangle on both sides is
 ///     within d of such borders. A triangle that faces aside, as in (6), covers no place or nearly

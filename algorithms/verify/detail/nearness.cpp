@@ -111,7 +111,8 @@ double rounding_of(std::span<const Point3> points) {
 }
 
 Nearness::Nearness(const PointPairs& points, std::vector<Triangle> targets) :
-    points_(points), targets_(std::move(targets)), tree_({}, {}) {
+    points_(points), targets_(std::move(targets)), tree_({}, {}),
+    pieces_(first_pieces + pieces_per_triangle * targets_.size()) {
     std::vector<std::uint32_t> items(targets_.size());
     std::iota(items.begin(), items.end(), 0U);
     for (const std::uint32_t t : items) boxes_.push_back(box_of(corners(t)));
@@ -175,14 +176,13 @@ bool Nearness::covers(const Triangle& triangle, const Bound& bound) const {
     const auto all = tree_.touching(
         widened(box_of({whole[0].near, whole[1].near, whole[2].near}), reach(bound)));
     std::vector<std::pair<Piece, std::vector<std::uint32_t>>> open{{whole, all}};
-    for (std::size_t pieces = 0; !open.empty(); ++pieces) {
+    for (pieces_ += pieces_per_triangle; !open.empty(); --pieces_) {
         const auto [piece, around] = std::move(open.back());
         open.pop_back();
         const auto targets = within_reach(piece, around, reach(bound));
         if (is_near_one(piece, targets, bound)) continue;
         if (is_refuted(piece, targets, bound)) return false;
-        if (targets.empty() || pieces + 2 * open.size() > most_pieces || open.size() > 60)
-            return false;
+        if (targets.empty() || pieces_ < 2 * open.size() + 1 || open.size() > 60) return false;
         const std::size_t i = longest_side({piece[0].near, piece[1].near, piece[2].near});
         const Corner &from = piece[i], &to = piece[(i + 1) % 3];
         const Corner half{middle(from.near, to.near), middle(from.exact, to.exact)};

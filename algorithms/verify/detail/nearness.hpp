@@ -40,8 +40,9 @@ public:
     /// The distance to one target is convex, so a piece of the triangle is near it if its corners
     /// are. The triangle is halved until each piece is near one target, or a corner is near none.
     /// Numbers in double precision choose the target, rational numbers decide. Also false
-    /// where more than most_pieces pieces would be needed. Cost: some microseconds per piece; few
-    /// pieces unless the bound is small relative to the triangle.
+    /// where more pieces would be needed than are left, of some for each target and each triangle
+    /// that was asked for. Cost: some microseconds per piece; few pieces unless the bound is small
+    /// relative to the triangle.
     [[nodiscard]] bool covers(const Triangle& triangle, const Bound& bound) const;
 
 private:
@@ -56,7 +57,7 @@ private:
         return bound.distance * (1 + 0x1p-20) + points_.rounding;
     }
 
-    static constexpr std::size_t most_pieces = 200'000;
+    static constexpr std::size_t first_pieces = 200'000, pieces_per_triangle = 256;
 
     [[nodiscard]] bool is_near_one(const Piece& piece, std::span<const std::uint32_t> targets,
                                    const Bound& bound) const;
@@ -72,6 +73,7 @@ private:
     std::vector<Triangle> targets_;
     std::vector<Box> boxes_;
     BoxTree tree_;
+    mutable std::size_t pieces_; ///< that are left
 };
 
 } // namespace terrane::verifier

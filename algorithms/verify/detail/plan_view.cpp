@@ -57,41 +57,21 @@ int sign_of_turn(const Place& a, const Place& b, const Place& c) {
     return sign ? *sign : sgn(turn(a, b, c));
 }
 
-/// Returns the sign of a function at a place. Each of its terms is off by at most 3 u of itself,
-/// where u = 2^-52, and each sum by u of the sizes of the terms.
-int sign_at(const PlanFunction& f, const Place& p) {
-    const auto fx = near(f.x), fy = near(f.y), one = near(f.one), x = near(p.x), y = near(p.y);
-    if (fx && fy && one && x && y) {
-        const double u = *fx * *x, v = *fy * *y;
-        const double size = std::fabs(u) + std::fabs(v) + std::fabs(*one);
-        if (const auto sign = clear_sign(u + v + *one, 0x1p-48 * size)) return *sign;
-    }
-    return sgn(f.at(p));
-}
-
-/// Returns the part of a polygon where a linear function is not negative.
-template <class SignAt, class ValueAt>
-PlacePolygon part_of(const PlacePolygon& polygon, const SignAt& sign_at, const ValueAt& value_at) {
+/// Returns the part of a polygon on the left of a line.
+PlacePolygon left_part(const PlacePolygon& polygon, const Place& a, const Place& b) {
     std::vector<int> signs;
-    for (const Place& p : polygon) signs.push_back(sign_at(p));
+    for (const Place& p : polygon) signs.push_back(sign_of_turn(a, b, p));
     PlacePolygon kept;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
         const std::size_t next = (k + 1) % polygon.size();
         const Place &p = polygon[k], &q = polygon[next];
         if (signs[k] >= 0) kept.push_back(p);
         if (signs[k] * signs[next] >= 0) continue;
-        const mpq_class u = value_at(p), v = value_at(q), share = u / (u - v);
+        const mpq_class u = turn(a, b, p), v = turn(a, b, q), share = u / (u - v);
         kept.push_back({p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)});
     }
     if (kept.size() < 3) kept.clear();
     return kept;
-}
-
-/// Returns the part of a polygon on the left of a line.
-PlacePolygon left_part(const PlacePolygon& polygon, const Place& a, const Place& b) {
-    return part_of(
-        polygon, [&](const Place& p) { return sign_of_turn(a, b, p); },
-        [&](const Place& p) { return turn(a, b, p); });
 }
 
 /// Tells whether a segment passes through the interior of a polygon.
@@ -157,57 +137,10 @@ bool are_beside(const UpwardCorners& s, const UpwardCorners& t) {
 }
 
 PlacePolygon common_part(const UpwardCorners& s, const UpwardCorners& t) {
-    return common_part({place_of(*s[0]), place_of(*s[1]), place_of(*s[2])}, t);
-}
-
-PlacePolygon common_part(PlacePolygon polygon, const UpwardCorners& t) {
+    PlacePolygon polygon{place_of(*s[0]), place_of(*s[1]), place_of(*s[2])};
     for (std::size_t i = 0; i < 3; ++i)
         polygon = left_part(polygon, place_of(*t[i]), place_of(*t[(i + 1) % 3]));
     return polygon;
-}
-
-PlacePolygon common_part(PlacePolygon polygon, const PlacePolygon& other) {
-    if (other.empty()) return {};
-    for (std::size_t k = 0; k < other.size(); ++k)
-        polygon = left_part(polygon, other[k], other[(k + 1) % other.size()]);
-    return polygon;
-}
-
-PlacePolygon part_where(const PlacePolygon& polygon, const PlanFunction& function) {
-    return part_of(
-        polygon, [&](const Place& p) { return sign_at(function, p); },
-        [&](const Place& p) { return function.at(p); });
-}
-
-bool has_area(const PlacePolygon& polygon) {
-    for (std::size_t k = 2; k < polygon.size(); ++k)
-        if (sign_of_turn(polygon[0], polygon[k - 1], polygon[k]) > 0) return true;
-    return false;
-}
-
-std::vector<PlacePolygon> without(PlacePolygon polygon, const PlacePolygon& removed) {
-    std::vector<PlacePolygon> parts;
-    PlacePolygon rest = polygon;
-    for (std::size_t k = 0; k < removed.size(); ++k) {
-        const Place &a = removed[k], &b = removed[(k + 1) % removed.size()];
-        if (auto outside = left_part(rest, b, a); has_area(outside))
-            parts.push_back(std::move(outside));
-        rest = left_part(rest, a, b);
-        if (!has_area(rest)) return {std::move(polygon)}; // the two have no area in common
-    }
-    return parts;
-}
-
-PlanFunction height_function(const UpwardCorners& t) {
-    const Vector4 &a = *t[0], &b = *t[1], &c = *t[2];
-    const mpz_class ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2], vx = c[0] - a[0],
-                    vy = c[1] - a[1], vz = c[2] - a[2];
-    const mpz_class area = ux * vy - uy * vx;
-    PlanFunction f{mpq_class(uz * vy - uy * vz, area), mpq_class(ux * vz - uz * vx, area), 0};
-    f.x.canonicalize();
-    f.y.canonicalize();
-    f.one = a[2] - f.x * a[0] - f.y * a[1];
-    return f;
 }
 
 mpq_class height_over(const UpwardCorners& t, const Place& p) {

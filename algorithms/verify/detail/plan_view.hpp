@@ -22,13 +22,6 @@ struct Place {
 using PlacePolygon = std::vector<Place>; ///< convex, counterclockwise; empty: nothing
 using SegmentInPlan = std::array<Place, 2>;
 
-/// A linear function of a place.
-struct PlanFunction {
-    mpq_class x, y, one; ///< coefficients of its coordinates, and the constant
-
-    [[nodiscard]] mpq_class at(const Place& p) const { return x * p.x + y * p.y + one; }
-};
-
 /// Three points with w = 1, counterclockwise seen from above.
 using UpwardCorners = std::array<const Vector4*, 3>;
 
@@ -45,25 +38,6 @@ bool are_beside(const UpwardCorners& s, const UpwardCorners& t);
 
 /// Returns the common part of two projections.
 PlacePolygon common_part(const UpwardCorners& s, const UpwardCorners& t);
-
-/// Returns the common part of a polygon and a projection.
-PlacePolygon common_part(PlacePolygon polygon, const UpwardCorners& t);
-
-/// Returns the common part of two polygons.
-PlacePolygon common_part(PlacePolygon polygon, const PlacePolygon& other);
-
-/// Returns the part of a polygon where a function is not negative.
-PlacePolygon part_where(const PlacePolygon& polygon, const PlanFunction& function);
-
-/// Tells whether a polygon has area; those that are clipped may be segments or points.
-bool has_area(const PlacePolygon& polygon);
-
-/// Returns convex polygons, all with area, that together are the rest of the area of a polygon
-/// without another one.
-std::vector<PlacePolygon> without(PlacePolygon polygon, const PlacePolygon& removed);
-
-/// Returns the height of the plane of a triangle as a function.
-PlanFunction height_function(const UpwardCorners& t);
 
 /// Returns the height of the plane of a triangle over a place.
 mpq_class height_over(const UpwardCorners& t, const Place& p);

@@ -3,6 +3,7 @@
 // check_regions of rounded_parts.hpp.
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
 
 #include <terrane/algorithms/verify/detail/indices.hpp>
@@ -67,23 +68,20 @@ void check_regions(const RoundedParts& parts, Violations& found) {
     const Numbers& stated = rounded.regions_of.values;
     JoinedSets sets(stated.size());
     for (const auto& [s, t] : joined_triangles(rounded)) join_common(surfaces, s, t, sets);
-    std::vector<std::array<std::uint32_t, 3>> regions; // {stated, true, triangle}
+    // The lowest entry of a region is that of its lowest triangle.
+    std::map<std::array<std::uint32_t, 2>, std::uint32_t> number_of; // by surface and lowest entry
+    for (std::uint32_t i = 0; i < stated.size(); ++i)
+        number_of[{surfaces.values[i], sets.find(i)}] = 0;
+    std::uint32_t count = 0;
+    for (auto& [region, number] : number_of) number = count++;
     for (std::uint32_t t = 0; t < surfaces.size(); ++t)
         for (std::uint32_t i = surfaces.offsets[t]; i < surfaces.offsets[t + 1]; ++i)
-            regions.push_back({stated[i], sets.find(i), t});
-    for (const std::size_t key :
-         {0U, 1U}) { // equal stated regions have equal true ones, and vice versa
-        std::ranges::sort(regions, {}, [key](const auto& r) {
-            return std::array{r[key], r[1 - key], r[2]};
-        });
-        for (std::size_t i = 1; i < regions.size(); ++i)
-            if (regions[i][key] == regions[i - 1][key] &&
-                regions[i][1 - key] != regions[i - 1][1 - key])
+            if (const auto number = number_of[{surfaces.values[i], sets.find(i)}];
+                stated[i] != number)
                 found.push_back({Rule::R16_regions,
-                                 {regions[i - 1][2], regions[i][2]},
-                                 "triangles " + text(Edge{regions[i - 1][2], regions[i][2]}) +
-                                     (key == 0 ? " are not in one region" : " are in one region")});
-    }
+                                 {t},
+                                 "triangle " + text(t) + " is in region " + text(number) +
+                                     " of surface " + text(surfaces.values[i])});
 }
 
 } // namespace terrane::verifier

@@ -80,8 +80,9 @@ public:
     }
 
     void check() {
+        check_joined();
         check_attached();
-        check_ends();
+        check_edges();
         check_trimmed();
         if (found_.empty()) check_limits();
     }
@@ -117,15 +118,80 @@ private:
 
     // --- R54 -------------------------------------------------------------------------------------
 
-    /// Tells whether exactly one given triangle of the surface is at an edge, and is not trimmed.
-    [[nodiscard]] bool is_border(const Numbers& at, std::uint32_t surface) const {
-        std::size_t given = 0, trimmed = 0;
-        for (const std::uint32_t t : at) {
-            if (!is_given_for(t, surface)) continue;
-            ++given;
-            trimmed += is_trimmed(t) ? 1 : 0;
+    /// Finds input triangles without area, and those that their surface has already. An added one
+    /// must not be a given one of another surface.
+    [[nodiscard]] std::vector<bool> find_void() {
+        std::vector<bool> is_void(inputs_.triangles.size());
+        for (const std::uint32_t p : parts_.exact.degenerate) is_void[p] = true;
+        std::map<std::uint32_t, Numbers> same; // as the first one of them
+        for (const auto& [p, first] : parts_.exact.duplicates) same[first].push_back(p);
+        for (auto& [first, all] : same) {
+            std::map<std::uint32_t, std::uint32_t> first_in; // by surface
+            all.insert(all.begin(), first);
+            for (const std::uint32_t p : all)
+                if (!first_in.try_emplace(inputs_.surface_of[p], p).second) is_void[p] = true;
+            const auto given = std::ranges::find_if_not(all, [&](auto p) { return is_new(p); });
+            for (const std::uint32_t p : all)
+                if (is_new(p) && given != all.end() &&
+                    inputs_.surface_of[p] != inputs_.surface_of[*given])
+                    report_input(p, " was added, but is one of another surface");
         }
-        return given == 1 && trimmed == 0;
+        return is_void;
+    }
+    void report_input(std::uint32_t p, const std::string& what) {
+        found_.push_back({Rule::R54_attached, {p}, "input triangle " + text(p) + what});
+    }
+
+    void check_joined() {
+        const auto is_void = find_void();
+        for (const OwnTriangles& own : own_) {
+            check_joined(own.first, own.extended, own.sealed, is_void);
+            check_joined(own.first, own.sealed, own.end, is_void);
+        }
+    }
+
+    /// Checks that the triangles from `added` on are joined to those of their surface before them.
+    void check_joined(std::uint32_t first, std::uint32_t added, std::uint32_t end,
+                      const std::vector<bool>& is_void) {
+        if (added == end) return;
+        using Side = std::array<Point3, 2>; // in the direction in which a triangle passes it
+        std::map<Side, Numbers> before, beside;
+        for (std::uint32_t p = first; p < end; ++p)
+            for (std::size_t i = 0; i < 3 && !is_void[p]; ++i)
+                (p < added ? before : beside)[{corner_of(p, i), corner_of(p, (i + 1) % 3)}]
+                    .push_back(p);
+        JoinedSets sets(end - first);
+        Numbers joined;
+        for (const auto& [side, list] : beside) {
+            const Side back{side[1], side[0]};
+            const auto other = beside.find(back), along = before.find(side),
+                       against = before.find(back);
+            for (const std::uint32_t p : list) sets.join(p - first, list.front() - first);
+            if (other != beside.end())
+                sets.join(list.front() - first, other->second.front() - first);
+            const bool is_border = (along == before.end()) != (against == before.end());
+            if (is_border ? against == before.end() : other == beside.end() && list.size() > 1)
+                report_input(list.front(), " was added, but faces another side than what it joins");
+            else if (is_border && against->second.size() == 1)
+                joined.insert(joined.end(), list.begin(), list.end());
+        }
+        std::set<std::uint32_t> roots;
+        std::map<std::uint32_t, std::size_t> sizes;
+        for (const std::uint32_t p : joined) roots.insert(sets.find(p - first));
+        for (std::uint32_t p = added; p < end; ++p) ++sizes[sets.find(p - first)];
+        for (std::uint32_t p = added; p < end; ++p) {
+            const std::uint32_t root = sets.find(p - first);
+            // The end of a strip is left alone where the strip beside it closed nothing.
+            const bool is_end =
+                sizes[root] == 1 && std::ranges::count_if(inputs_.triangles[p], [&](auto v) {
+                                        return had_before(p, v);
+                                    }) == 1;
+            if (!is_void[p] && !is_end && !roots.contains(root))
+                report_input(p, " was added, but does not go on from the border of its surface");
+        }
+    }
+    [[nodiscard]] const Point3& corner_of(std::uint32_t p, std::size_t i) const {
+        return inputs_.vertices[inputs_.triangles[p][i]];
     }
 
     void check_attached() {
@@ -135,166 +201,80 @@ private:
         JoinedSets sets(is_given_.size());
         std::vector<bool> is_anchor(is_given_.size());
         for (const auto& [edge, at] : at_edge_)
-            for (const std::uint32_t t : at) {
-                if (!leads_on(t)) continue;
-                for (const std::uint32_t u : at)
-                    if (u != t && leads_on(u) && share_surface(t, u)) sets.join(t, u);
-                for (const std::uint32_t surface : surfaces_of_[t])
-                    if (is_border(at, surface)) is_anchor[t] = true;
-            }
+            for (const std::uint32_t t : at)
+                for (const std::uint32_t u : at) {
+                    if (t == u || !leads_on(t)) continue;
+                    if (leads_on(u) && share_surface(t, u)) sets.join(t, u);
+                    is_anchor[t] =
+                        is_anchor[t] ||
+                        (!is_trimmed(u) && std::ranges::any_of(surfaces_of_[t], [&](auto surface) {
+                            return is_given_for(u, surface);
+                        }));
+                }
         std::vector<bool> is_attached(is_given_.size());
         for (std::uint32_t t = 0; t < is_anchor.size(); ++t)
             if (is_anchor[t]) is_attached[sets.find(t)] = true;
         for (std::uint32_t t = 0; t < is_given_.size(); ++t)
             if (is_strip(t) && !is_attached[sets.find(t)])
-                report(Rule::R54_attached, t,
-                       " was added, but is not attached along the border of its surface");
+                report(Rule::R54_attached, t, " was added, but is not connected with its surface");
     }
 
-    // --- R55 -------------------------------------------------------------------------------------
+    // --- R55, R56 --------------------------------------------------------------------------------
 
-    /// Returns the vertices on which added triangles of a surface were built.
-    [[nodiscard]] const std::set<Point3>& base_of(std::uint32_t surface, bool sealed) const {
-        auto& bases = bases_[{surface, sealed}];
-        if (!bases.empty()) return bases;
-        const OwnTriangles& own = own_[surface];
-        for (std::uint32_t p = own.first; p < (sealed ? own.sealed : own.extended); ++p)
-            for (const std::uint32_t v : inputs_.triangles[p]) bases.insert(inputs_.vertices[v]);
-        return bases;
-    }
-
-    /// Tells whether two points are ends of an edge of what added triangles were built on.
-    [[nodiscard]] bool is_edge_of_base(std::uint32_t surface, bool sealed, const Point3& a,
-                                       const Point3& b) const {
-        const OwnTriangles& own = own_[surface];
-        for (std::uint32_t p = own.first; p < (sealed ? own.sealed : own.extended); ++p) {
-            std::size_t ends = 0;
-            for (const std::uint32_t v : inputs_.triangles[p])
-                ends += inputs_.vertices[v] == a || inputs_.vertices[v] == b ? 1 : 0;
-            if (ends > 1) return true;
+    /// Checks the edges at which a single triangle is left.
+    void check_edges() {
+        for (const auto& [edge, at] : at_edge_) {
+            if (std::ranges::count_if(at, [&](auto t) { return !is_dropped_[t]; }) != 1) continue;
+            const auto left = *std::ranges::find_if(at, [&](auto t) { return !is_dropped_[t]; });
+            const auto gone = std::ranges::find_if(at, [&](auto t) { return is_trimmed(t); });
+            if (gone != at.end())
+                report(Rule::R56_trimmed, *gone, " is missing, so that another one ends free");
+            else if (is_strip(left) && !is_on_lateral_side(left, edge))
+                report(Rule::R55_ends, left, " was added, and ends free");
         }
-        return false;
     }
 
-    /// Tells whether a side of an added triangle is lateral: it leads from a vertex of the border
-    /// away from it, or to another one without being an edge.
-    [[nodiscard]] bool is_lateral(std::uint32_t surface, bool sealed, const Point3& a,
-                                  const Point3& b) const {
-        const auto& base = base_of(surface, sealed);
-        const bool from = base.contains(a), to = base.contains(b);
-        return from != to || (from && to && !is_edge_of_base(surface, sealed, a, b));
-    }
-
-    /// Tells whether an edge of a triangle lies on a side of an added triangle that contains it, or
-    /// on a lateral one of these sides.
-    [[nodiscard]] bool is_on_side(std::uint32_t t, const Edge& edge, bool lateral) {
+    /// Tells whether an edge of an added triangle lies on a side, of an input triangle that contains
+    /// it, from a vertex that its surface had before.
+    [[nodiscard]] bool is_on_lateral_side(std::uint32_t t, const Edge& edge) {
         const auto axis = projection_axis(mesh_.planes[t]).value();
-        for (const std::uint32_t p : parts_.exact.parents_of[t]) {
-            const std::uint32_t surface = inputs_.surface_of[p];
-            const Triangle& corners = inputs_.triangles[p];
+        for (const std::uint32_t p : parts_.exact.parents_of[t])
             for (std::size_t i = 0; i < 3; ++i) {
-                const std::uint32_t a = corners[i], b = corners[(i + 1) % 3];
-                if (is_on_line(a, b, edge, axis) &&
-                    (!lateral || is_lateral(surface, p >= own_[surface].sealed, inputs_.vertices[a],
-                                            inputs_.vertices[b])))
+                const std::uint32_t a = inputs_.triangles[p][i],
+                                    b = inputs_.triangles[p][(i + 1) % 3];
+                const auto is_on_line = [&](std::uint32_t v) {
+                    return sgn(turn(input_points_[a], input_points_[b], mesh_.points[v], axis)) ==
+                           0;
+                };
+                if (std::ranges::all_of(edge, is_on_line) && (had_before(p, a) || had_before(p, b)))
                     return true;
             }
-        }
         return false;
     }
-
-    /// Tells whether an edge of a triangle lies on the line through two vertices of inputs.
-    [[nodiscard]] bool is_on_line(std::uint32_t a, std::uint32_t b, const Edge& edge,
-                                  std::size_t axis) const {
-        return std::ranges::all_of(edge, [&](std::uint32_t v) {
-            return sgn(turn(input_points_[a], input_points_[b], mesh_.points[v], axis)) == 0;
-        });
+    /// Tells whether a surface had a vertex before an input triangle was added to it.
+    [[nodiscard]] bool had_before(std::uint32_t p, std::uint32_t v) {
+        const OwnTriangles& own = own_[inputs_.surface_of[p]];
+        const std::uint32_t end = p < own.sealed ? own.extended : own.sealed;
+        auto& vertices = vertices_before_[{own.first, end}];
+        if (vertices.empty())
+            for (std::uint32_t t = own.first; t < end; ++t)
+                for (std::size_t i = 0; i < 3; ++i) vertices.insert(corner_of(t, i));
+        return vertices.contains(inputs_.vertices[v]);
     }
 
-    /// Tells whether an added triangle meets a kept one at an edge that it does not continue: one
-    /// of another surface, a given one of its own that does not end there, or an added one by which
-    /// it was cut.
-    [[nodiscard]] bool meets(std::uint32_t strip, std::uint32_t t, const Edge& edge,
-                             const Numbers& at) {
-        if (t == strip || is_dropped_[t]) return false;
-        if (is_strip(t) && share_surface(strip, t))
-            return !is_on_side(strip, edge, false) && !is_on_side(t, edge, false) &&
-                   parts_.exact.parents_of[strip].front() != parts_.exact.parents_of[t].front();
-        return std::ranges::any_of(surfaces_of_[strip], [&](std::uint32_t surface) {
-            return !is_given_for(t, surface) || !is_border(at, surface);
-        });
-    }
-
-    /// Marks added triangles that join two parts of the border of their surface: one has a side
-    /// along the border, and its opposite corner is an end of another edge along which the added
-    /// triangles that are connected with it, as `sets` says, lie at the border.
-    void mark_joining(JoinedSets& sets, std::vector<bool>& is_closing) {
-        struct Attached {
-            std::uint32_t triangle, opposite; ///< an exact triangle, a vertex of the inputs
-        };
-        std::vector<Attached> all;
-        std::map<std::uint32_t, std::vector<std::uint32_t>> ends; // of edges at the border, by set
-        for (const auto& [edge, at] : at_edge_)
-            for (const std::uint32_t t : at) {
-                if (!is_strip(t)) continue;
-                const auto axis = projection_axis(mesh_.planes[t]).value();
-                for (const std::uint32_t p : parts_.exact.parents_of[t]) {
-                    if (!is_border(at, inputs_.surface_of[p])) continue;
-                    const Triangle& corners = inputs_.triangles[p];
-                    for (std::size_t i = 0; i < 3; ++i) {
-                        if (!is_on_line(corners[i], corners[(i + 1) % 3], edge, axis)) continue;
-                        all.push_back({t, corners[(i + 2) % 3]});
-                        auto& list = ends[sets.find(t)];
-                        list.insert(list.end(), edge.begin(), edge.end());
-                    }
-                }
-            }
-        for (const Attached& a : all)
-            if (std::ranges::any_of(ends[sets.find(a.triangle)], [&](std::uint32_t v) {
-                    return are_equal(mesh_.points[v], input_points_[a.opposite]);
-                }))
-                is_closing[a.triangle] = true;
-    }
-    /// Tells whether two points are the same.
-    static bool are_equal(const Vector4& p, const Vector4& q) {
-        for (std::size_t i = 0; i < 3; ++i)
-            if (p[i] * q[3] != q[i] * p[3]) return false;
-        return true;
-    }
-
-    void check_ends() {
-        JoinedSets sets(is_given_.size());
-        std::vector<bool> is_closing(is_given_.size());
-        for (const auto& [edge, at] : at_edge_) {
-            const auto kept = std::ranges::count_if(at, [&](auto t) { return !is_dropped_[t]; });
-            for (const std::uint32_t t : at) {
-                if (!is_strip(t)) continue;
-                if (kept == 1 && !is_on_side(t, edge, true))
-                    report(Rule::R55_ends, t, " was added, and ends free");
-                for (const std::uint32_t u : at) {
-                    if (u != t && is_strip(u) && share_surface(t, u)) sets.join(t, u);
-                    if (meets(t, u, edge, at)) is_closing[t] = true;
-                }
-            }
-        }
-        mark_joining(sets, is_closing);
-        std::set<std::uint32_t> closing;
-        for (std::uint32_t t = 0; t < is_closing.size(); ++t)
-            if (is_closing[t]) closing.insert(sets.find(t));
-        for (std::uint32_t t = 0; t < is_given_.size(); ++t)
-            if (is_strip(t) && !closing.contains(sets.find(t)))
-                report(Rule::R55_ends, t, " was added, and meets nothing");
-    }
-
-    // --- R56 -------------------------------------------------------------------------------------
-
+    /// Checks that each trimmed part is connected with what was kept of its surface.
     void check_trimmed() {
         JoinedSets sets(is_given_.size());
         std::vector<bool> is_beside(is_given_.size());
-        for (const auto& [edge, at] : at_edge_) {
-            if (std::ranges::none_of(at, [&](auto t) { return is_trimmed(t); })) continue;
-            check_trimmed_at(at, sets, is_beside);
-        }
+        for (const auto& [edge, at] : at_edge_)
+            for (const std::uint32_t t : at)
+                for (const std::uint32_t u : at) {
+                    if (!is_trimmed(t) || !go_on(t, u)) continue;
+                    if (is_trimmed(u))
+                        sets.join(t, u);
+                    else
+                        is_beside[t] = true;
+                }
         std::set<std::uint32_t> beside;
         for (std::uint32_t t = 0; t < is_beside.size(); ++t)
             if (is_beside[t]) beside.insert(sets.find(t));
@@ -312,28 +292,6 @@ private:
         return std::ranges::any_of(surfaces_of_[t], [&](std::uint32_t surface) {
             return is_given_for(t, surface) && is_given_for(u, surface);
         });
-    }
-
-    void check_trimmed_at(const Numbers& all, JoinedSets& sets, std::vector<bool>& is_beside) {
-        Numbers at;
-        for (const std::uint32_t t : all)
-            if (is_given_[t] || is_strip(t)) at.push_back(t);
-        const auto left = static_cast<std::size_t>(
-            std::ranges::count_if(at, [&](auto t) { return !is_trimmed(t); }));
-        for (const std::uint32_t t : at)
-            for (const std::uint32_t u : at)
-                if (is_trimmed(t) && !is_trimmed(u) && go_on(t, u)) is_beside[t] = true;
-        const std::uint32_t gone =
-            *std::ranges::find_if(at, [&](std::uint32_t t) { return is_trimmed(t); });
-        if (at.size() == 2 && surfaces_of_[at[0]] == surfaces_of_[at[1]]) {
-            if (left == 0)
-                sets.join(at[0], at[1]);
-            else
-                report(Rule::R56_trimmed, gone,
-                       " is missing, but not the rest of its part of the surface");
-        } else if (at.size() > 1 && left == 1) {
-            report(Rule::R56_trimmed, gone, " is missing, so that another one ends free");
-        }
     }
 
     // --- R26 -------------------------------------------------------------------------------------
@@ -410,7 +368,8 @@ private:
     std::vector<OwnTriangles> own_;    ///< per surface of the files
     std::vector<Numbers> surfaces_of_; ///< per exact triangle, as the next two
     std::vector<bool> is_given_, is_dropped_;
-    mutable std::map<std::pair<std::uint32_t, bool>, std::set<Point3>> bases_;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::set<Point3>>
+        vertices_before_;               ///< by the first input triangle, and the end of them
     std::vector<Vector4> input_points_; ///< in the scale of the mesh
     mpz_class scale_;                   ///< of the next two
     std::vector<Point3> doubles_;

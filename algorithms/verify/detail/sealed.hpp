@@ -39,18 +39,18 @@ struct SealedParts {
 /// (1) R26: each kept triangle that lies in a surface without being given for it is within the
 ///     limit of the given triangles of this surface; each trimmed triangle is within it of what is
 ///     given and not trimmed. So the surface as it was and as it is are nowhere farther apart.
-/// (2) R54: kept added triangles are connected, over edges and within their surface, to an edge
-///     that has exactly one given triangle of it, which is not trimmed: to its border. A way may
-///     lead through the outside of the volume.
-/// (3) R55: an edge at which only an added triangle was kept lies on a lateral side of an added
-///     triangle: from a vertex of the border on which it was built to one that is none, or to
-///     another one, unless that is an edge. Added triangles that are connected meet another surface,
-///     or their own where it does not end, or join two parts of its border: one has a side along the
-///     border, and its opposite corner is an end of another edge of the border at which they are.
-/// (4) R56: no edge divides a trimmed triangle from one that was kept unless other triangles are
-///     there, of the given ones and the kept added ones. No edge has a single one of these left if
-///     it had more. Each connected part that was trimmed is next to a part of its surface that was
-///     not.
+/// (2) R54: each added triangle goes on from the border of its surface, which has the extended ones
+///     where triangles seal: it has a side, from vertex to vertex, in common with the only triangle
+///     there, or with an added one of the same list for which this holds; and the two pass it in
+///     opposite directions, so that they face the same side. Or it is the end of a strip that was
+///     left alone, with one vertex of its surface. It is no given triangle of another surface. What was kept of added triangles is connected, over edges and within their surface,
+///     with given triangles of it that are not trimmed. A way may lead through the outside of the
+///     volume.
+/// (3) R55: an edge at which only an added triangle was kept lies on a side of an added triangle
+///     from a vertex that its surface had before.
+/// (4) R56: no edge with a trimmed triangle is left with a single one. Each trimmed part is
+///     connected with a part of its surface that is not trimmed.
+/// That added triangles meet another surface, or close a gap, is not judged.
 /// Precondition: R1 to R8, R51 and R53 hold.
 void check_sealed(const SealedParts& parts, Violations& found);
 

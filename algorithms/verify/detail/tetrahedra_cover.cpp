@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <terrane/algorithms/verify/detail/blocks.hpp>
+#include <terrane/algorithms/verify/detail/box_tree.hpp>
 #include <terrane/algorithms/verify/detail/tetrahedra.hpp>
 
 namespace terrane::verifier {
@@ -149,10 +150,18 @@ public:
         parts_(parts), nodes_(nodes), axis_(axis) {}
 
     [[nodiscard]] bool is_simple() const {
-        const std::size_t n = nodes_.size();
-        for (std::size_t i = 0; i < n; ++i)
-            for (std::size_t j = i + 1; j < n; ++j) {
-                if (!boxes_touch(i, j)) continue;
+        const auto n = static_cast<std::uint32_t>(nodes_.size());
+        std::vector<Box> boxes;
+        Numbers sides;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            boxes.push_back(enclose(at(i), 1));
+            extend(boxes.back(), enclose(at(i + 1), 1));
+            boxes.back().low[axis_] = boxes.back().high[axis_] = 0;
+            sides.push_back(i);
+        }
+        const BoxTree tree(std::move(boxes), sides);
+        for (const std::uint32_t i : sides)
+            for (const std::uint32_t j : tree.touching_above(i)) {
                 const bool meet = j == i + 1         ? folds(i, j)
                                   : (j + 1) % n == i ? folds(j, i)
                                                      : sides_meet(i, j);
@@ -164,14 +173,6 @@ public:
 private:
     [[nodiscard]] const Vector4& at(std::size_t i) const {
         return parts_.nodes[nodes_[i % nodes_.size()]];
-    }
-    [[nodiscard]] bool boxes_touch(std::size_t i, std::size_t j) const {
-        for (const std::size_t x : {(axis_ + 1) % 3, (axis_ + 2) % 3}) {
-            const auto [low, high] = std::minmax(at(i)[x], at(i + 1)[x]);
-            const auto [other_low, other_high] = std::minmax(at(j)[x], at(j + 1)[x]);
-            if (high < other_low || other_high < low) return false;
-        }
-        return true;
     }
     [[nodiscard]] int turn_at(std::size_t i, const Vector4& p) const {
         return sgn(turn(at(i), at(i + 1), p, axis_));

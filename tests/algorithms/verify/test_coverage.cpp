@@ -3,7 +3,12 @@
 
 #include <catch2/catch.hpp>
 
+#include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
+
+#include <terrane/algorithms/verify/stoppable.hpp>
 
 #include "support/verify_points.hpp"
 
@@ -19,10 +24,79 @@ using namespace verify_points;
 bool covered(const std::vector<Vector4>& points, const std::vector<Triangle>& children,
              int collar) {
     const Vector4 a = point(0, 0, 0), b = point(12, 0, 0), c = point(0, 12, 0);
-    return Coverage({&a, &b, &c}, points, collar).holds(children);
+    const Coverage coverage({&a, &b, &c}, points, collar);
+    return coverage.holds(Coverage::Facing(coverage, children));
 }
 
+/// Returns how many exact numbers are computed for a task.
+std::uint64_t work_of(const std::function<void()>& task) {
+    std::uint64_t looks = 0;
+    REQUIRE(stoppable(
+        {},
+        [&]() -> Result<bool> {
+            task();
+            return true;
+        },
+        &looks));
+    return looks;
+}
+
+/// Checks that work grows in proportion to a size, but for logarithms.
+void check_growth(const std::function<void(int)>& task) {
+    const auto at = [&](int n) { return work_of([&] { task(n); }); };
+    const std::uint64_t once = at(1000), twice = at(2000), four_times = at(4000);
+    INFO(once << " " << twice << " " << four_times);
+    CHECK(twice < once * 5 / 2);
+    CHECK(four_times < twice * 5 / 2);
+}
+
+/// Needles from one corner of a parent to its opposite side.
+struct Needles {
+    explicit Needles(int count) : size(4 * count) {
+        points = {point(0, size, 0)};
+        for (int i = 0; i <= count; ++i) points.push_back(point(4 * i, 0, 0));
+        for (std::uint32_t i = 1; i < points.size() - 1; ++i) triangles.push_back({0, i, i + 1});
+    }
+    bool are_covering(int collar) const {
+        const Vector4 a = point(0, 0, 0), b = point(size, 0, 0), c = point(0, size, 0);
+        const Coverage coverage({&a, &b, &c}, points, collar);
+        return coverage.holds(Coverage::Facing(coverage, triangles));
+    }
+    int size;
+    std::vector<Vector4> points;
+    std::vector<Triangle> triangles;
+};
+
 } // namespace
+
+TEST_CASE("verifier: coverage takes time in proportion to the children") {
+    check_growth([](int n) { CHECK(Needles(n).are_covering(0)); });
+    check_growth([](int n) { // a triangle across all needles
+        Needles needles(n);
+        const auto v = static_cast<std::uint32_t>(needles.points.size());
+        for (const auto& [x, y] : {std::pair{1, 1}, {needles.size - 8, 1}, {1, needles.size / 2}})
+            needles.points.push_back(point(x, y, 1));
+        needles.triangles.push_back({v, v + 1, v + 2});
+        CHECK(needles.are_covering(0));
+    });
+    check_growth([](int n) { // needles that have no sides in common
+        Needles apart(n);
+        std::vector<Vector4> points;
+        for (Triangle& t : apart.triangles)
+            for (std::uint32_t& corner : t) {
+                points.push_back(apart.points[corner]);
+                corner = static_cast<std::uint32_t>(points.size() - 1);
+            }
+        apart.points = points;
+        CHECK_FALSE(apart.are_covering(0)); // too much to look at
+    });
+    check_growth([](int n) { // a side near many small triangles
+        const Needles needles(n);
+        const NearTriangles near(needles.points, needles.triangles, 1);
+        CHECK(near.reach(point(0, 0, 0), point(needles.size, 0, 0)));
+        CHECK(near.reach(point(0, 0, 0), point(0, needles.size, 0)));
+    });
+}
 
 TEST_CASE("verifier: coverage of a triangle by itself, and by three around a point") {
     const std::vector<Vector4> points{point(0, 0, 0), point(12, 0, 0), point(0, 12, 0),

@@ -70,7 +70,7 @@ TEST_CASE("verifier: a segment near triangles, one after the other") {
                                       point(50, 31, 0), point(50, 40, 0), point(51, 40, 0)}; // 6
     const Vector4 start = point(0, 0, 0), end = point(100, 0, 0);
     const auto is_near = [&](const std::vector<Triangle>& triangles, int bound) {
-        return segment_is_near({&start, &end}, points, triangles, bound);
+        return NearTriangles(points, triangles, bound).reach(start, end);
     };
     const Triangle left{0, 1, 2}, right{3, 4, 5}, middle{6, 7, 8};
     CHECK(is_near({left, right}, 50)); // the middle is just so far from both

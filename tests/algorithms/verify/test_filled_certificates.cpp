@@ -265,21 +265,34 @@ TEST_CASE("filled certificates: a filling is a disc, and faces a side of the bor
                                   Triangle{8 + k, 12 + n, 8 + n}, Triangle{8 + k, 12 + k, 12 + n}})
             rings.triangles.push_back(t);
     }
-    const auto judged_with = [](Surface surface, const std::vector<Triangle>& added) {
+    const auto judged_with = [](Surface surface, const std::vector<Triangle>& added,
+                                const std::vector<std::int32_t>& holes = {},
+                                const std::vector<Point3>& vertices = {}) {
         Subject s;
         const auto records = add_inputs(s, {{"in.obj", obj_text({surface})}});
-        const std::size_t given = surface.triangles.size();
+        const std::size_t given = surface.triangles.size(), points = surface.vertices.size();
         surface.triangles.insert(surface.triangles.end(), added.begin(), added.end());
+        surface.vertices.insert(surface.vertices.end(), vertices.begin(), vertices.end());
         std::vector<std::int32_t> interpolated(given, 0);
+        interpolated.insert(interpolated.end(), holes.begin(), holes.end());
         interpolated.resize(surface.triangles.size(), 1);
         const std::vector<double> deviation(surface.vertices.size(), 0);
-        s.certificate = Json::parse(
-            to_filled_certificate(records, s.surfaces, {},
-                                  std::vector<FilledRecord>{{&surface, surface.vertices.size(),
-                                                             given, interpolated, deviation}}));
+        s.certificate = Json::parse(to_filled_certificate(
+            records, s.surfaces, {},
+            std::vector<FilledRecord>{{&surface, points, given, interpolated, deviation}}));
         return judged(s);
     };
-    CHECK(judged_with(rings, {{4, 5, 6}, {4, 6, 7}, {12, 14, 13}, {12, 15, 14}}) == "");
+    const std::vector<Triangle> both{{4, 5, 6}, {4, 6, 7}, {12, 14, 13}, {12, 15, 14}};
+    CHECK(judged_with(rings, both, {1, 1, 2, 2}) == "");
+    CHECK(judged_with(rings, both, {7, 7, 3, 3}) == "");
+    CHECK(judged_with(rings, both, {1, 1, 1, 1}) == "R28");
+    CHECK(judged_with(rings, both, {1, 2, 3, 3}) == "R28");
+    // The border around a ring instead of the hole in it, or both.
+    std::vector<Triangle> cone;
+    for (std::uint32_t k = 0; k < 4; ++k) cone.push_back({(k + 1) % 4, k, 16});
+    CHECK(judged_with(rings, cone, {}, {{1.5, 1.5, -0.1}}) == "R35");
+    cone.insert(cone.end(), {{4, 5, 6}, {4, 6, 7}});
+    CHECK(judged_with(rings, cone, {1, 1, 1, 1, 2, 2}, {{1.5, 1.5, -0.1}}) == "R35");
     std::vector<Triangle> tube;
     for (std::uint32_t k = 0; k < 4; ++k) {
         const std::uint32_t n = (k + 1) % 4;
@@ -295,19 +308,22 @@ TEST_CASE("filled certificates: a filling is a disc, and faces a side of the bor
 
 TEST_CASE("filled certificates: VTP files with other expected errors") {
     const Subject right = filled_subject(holed(), {"vtp"});
-    check_forgeries(
-        right,
-        {
-            filled(
-                "an expected error of one new vertex",
-                [](Json& f) { shift_number(f["deviation"].back(), 1); }, "R21"),
-            filled(
-                "an unknown expected error", [](Json& f) { f["deviation"].back() = nullptr; },
-                "R21"),
-            filled(
-                "another number of a hole",
-                [](Json& f) { f["invented"].back() = f["invented"].back().get<int>() + 1; }, "R21"),
-        });
+    check_forgeries(right, {
+                               filled(
+                                   "an expected error of one new vertex",
+                                   [](Json& f) { shift_number(f["deviation"].back(), 1); }, "R21"),
+                               filled(
+                                   "an unknown expected error",
+                                   [](Json& f) { f["deviation"].back() = nullptr; }, "R21"),
+                               filled(
+                                   "another number of a hole",
+                                   [](Json& f) {
+                                       const Json last = f["invented"].back();
+                                       for (Json& number : f["invented"])
+                                           if (number == last) number = 77;
+                                   },
+                                   "R21"),
+                           });
 }
 
 TEST_CASE("filled certificates: forged numbers") {
@@ -326,6 +342,9 @@ TEST_CASE("filled certificates: forged numbers") {
                 "a given triangle in a hole", [](Json& f) { f["invented"][0] = 1; }, "R28"),
             filled(
                 "a new triangle in no hole", [](Json& f) { f["invented"].back() = 0; }, "R28"),
+            filled(
+                "a new triangle in another hole",
+                [](Json& f) { f["invented"].back() = f["invented"].back().get<int>() + 1; }, "R28"),
             filled(
                 "a triangle without a number of a hole",
                 [](Json& f) { f["invented"].erase(f["invented"].size() - 1); }, "R28"),

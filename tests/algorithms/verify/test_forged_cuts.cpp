@@ -6,6 +6,10 @@
 #include <set>
 #include <utility>
 
+#include <random>
+
+#include <terrane/algorithms/verify/detail/cut.hpp>
+
 #include "support/cut_certificates.hpp"
 
 namespace {
@@ -65,6 +69,7 @@ void add_sliver_outside(Json& m, std::size_t own) {
 TEST_CASE("cut certificates: a triangle of doubles outside is refused", "[volume_of_interest]") {
     Subject wrong = boxed_sheets();
     add_sliver_outside(wrong.certificate["rounded"], own_inputs(wrong));
+    number_regions(wrong.certificate["rounded"], wrong.surfaces);
     wrong.certificate["outputs"] = Json::array();
     wrong.contents.clear();
     CHECK(judged(wrong, {.max_deviation = 1e-7}).find("R52") != std::string::npos);
@@ -90,4 +95,41 @@ TEST_CASE("cut certificates: volumes that no text can state are refused", "[volu
     CHECK(rule_of(rotated) == Rule::R50_volume);
     rotated.cut->volume.corners.clear();
     CHECK(verify_certificate(boxed_sheets().inputs, rotated).violations.empty());
+}
+
+TEST_CASE("cut certificates: a hexahedron is a box", "[volume_of_interest]") {
+    std::mt19937_64 random(1);
+    const auto number = [&](double low, double high) {
+        return std::uniform_real_distribution(low, high)(random);
+    };
+    const auto is_accepted = [](const std::vector<Surface>& boundary) {
+        verifier::Violations found;
+        verifier::check_volume({"hexahedron", {}, {}, 0, boundary}, {}, found);
+        return found.empty();
+    };
+    const auto changed = [](std::vector<Surface> boundary, const Point3& from, const auto& change) {
+        for (Surface& s : boundary)
+            for (Point3& p : s.vertices)
+                if (p == from) change(p);
+        return boundary;
+    };
+    for (int run = 0; run < 100; ++run) {
+        const double far = run % 2 == 0 ? 1 : 1e7, thin = run % 3 == 0 ? 1e-3 : 1;
+        const RotatedBox box{{far * number(-9, 9), far * number(-9, 9), number(-9, 9)},
+                             run % 5 == 0,
+                             {number(1, 9), thin * number(1, 9), number(1, 9)},
+                             number(-360, 360),
+                             number(-90, 90),
+                             number(-90, 90)};
+        const auto boundary = rotated_box_boundary(box);
+        REQUIRE(boundary);
+        CHECK(is_accepted(*boundary));
+        const Point3 corner = boundary->front().vertices[run % 4];
+        const double little = 1e-12 * far;
+        CHECK_FALSE(is_accepted(changed(*boundary, corner, [&](Point3& p) { p.x += little; })));
+        auto sheared = *boundary;
+        for (Surface& s : sheared)
+            for (Point3& p : s.vertices) p.y += 1000 * little * (p.x - corner.x);
+        CHECK_FALSE(is_accepted(sheared));
+    }
 }

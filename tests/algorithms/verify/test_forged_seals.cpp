@@ -61,6 +61,13 @@ TEST_CASE("sealed certificates: forged lists of what was added", "[sealing]") {
                     s[0]["sealed"].erase(s[0]["sealed"].size() - 1);
                 },
                 "R6"),
+            sealed(
+                "as extended, without a volume",
+                [&](Json& s) {
+                    s[0]["extended"] = s[0]["sealed"];
+                    s[0]["sealed"] = Json::array();
+                },
+                "R53"),
             {"the added triangles are left out", [](Json& c) { c.erase("sealed"); }, "missing"},
             {"a key of a part is left out", [](Json& c) { c["sealed"][0].erase("extended"); },
              "missing"},
@@ -173,7 +180,7 @@ TEST_CASE("sealed certificates: forged volumes and extensions", "[sealing]") {
         {
             {"another height", [](Json& c) { c["cut"]["volume"]["between"][1] = "3"; }, "R50"},
             {"another corner", [](Json& c) { c["cut"]["volume"]["corners"][0][0] = "1"; }, "R50"},
-            {"no volume", [](Json& c) { c["cut"]["volume"] = nullptr; }, "R1"},
+            {"no volume", [](Json& c) { c["cut"]["volume"] = nullptr; }, "R53"},
             {"a nameless volume", [](Json& c) { c["cut"]["volume"]["shape"] = ""; }, "shape"},
             {"a side of the box is missing",
              [](Json& c) { c["cut"]["volume"]["boundary"].erase(2); }, "R50"},

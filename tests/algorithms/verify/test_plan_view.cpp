@@ -106,27 +106,5 @@ TEST_CASE("plan view: points are in triangles, and triangles overlap, where rati
     }
 }
 
-TEST_CASE("plan view: the parts into which a function divides a polygon add up to its area",
-          "[verify]") {
-    for (const unsigned bits : {4U, 30U, 52U, 60U, 190U, 210U, 1100U}) {
-        NearLines points(bits + 1, bits);
-        for (int run = 0; run < 300; ++run) {
-            const auto p = points.some<6>();
-            const auto [s, t] = two_triangles(p);
-            if (!s || !t) continue;
-            const PlanFunction height = height_function(*s), other = height_function(*t);
-            const PlanFunction over{height.x - other.x, height.y - other.y, height.one - other.one};
-            const PlanFunction under{-over.x, -over.y, -over.one};
-            const PlacePolygon whole{place_of(*(*s)[0]), place_of(*(*s)[1]), place_of(*(*s)[2])};
-            const PlacePolygon above = part_where(whole, over), below = part_where(whole, under);
-            for (const Place& place : above) CHECK(sgn(over.at(place)) >= 0);
-            for (const Place& place : below) CHECK(sgn(under.at(place)) >= 0);
-            CHECK((doubled_area(above) + doubled_area(below) == doubled_area(whole) ||
-                   (sgn(over.x) == 0 && sgn(over.y) == 0)));
-            CHECK(has_area(above) == (doubled_area(above) > 0));
-        }
-    }
-}
-
 } // namespace
 } // namespace terrane::verifier
