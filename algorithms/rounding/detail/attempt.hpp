@@ -90,6 +90,7 @@ public:
         find_first_regions();
         tell(0.9);
         if (!pairs.empty() && !is_hopeless_) repair(pairs);
+        if (changed_ && pairs.empty()) state_.open_closed_parts(deviation());
         if (run_.stop.stop_requested()) return interrupted();
         finish(pairs);
         tell(1);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Parts of one input triangle that enclose a space, once sheets that nearly coincide were joined.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
+
+namespace terrane::rounding::detail {
+
+/// Returns parts of one input triangle without which its parts enclose nothing, and have the same
+/// edges, pieces and holes: statement (5) of docs/explanation/rounding.md. Of parts that will do it
+/// returns those with fewest parents. `parts` are indices into `triangles`. Cost: near-linear where
+/// nothing is enclosed, else cubic in the number of the parts that do.
+std::vector<std::uint32_t> superfluous_parts(std::span<const Triangle> triangles,
+                                             const IndexLists<std::uint32_t>& parents_of,
+                                             std::span<const std::uint32_t> parts);
+
+} // namespace terrane::rounding::detail
