@@ -151,6 +151,10 @@ Result<Attempted> MovedWhole::attempt(const std::vector<Surface>& surfaces) {
         return Attempted::in_contact;
     add_to_report(input_.how(), arrangement_, first_.report, *rounded);
     rounded->report.rounds += rounds_;
+    if (task_.parted != nullptr && are_parted(arrangement_, *rounded)) {
+        if (!*task_.parted) *task_.parted = std::move(rounded);
+        return Attempted::in_contact;
+    }
     found_ = std::move(rounded);
     return Attempted::conforming;
 }
@@ -222,6 +226,8 @@ Result<double> sufficient_limit(const Arrangement& a, Task task) {
 Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& options,
                               const Run& run) {
     Task task{options, options.max_move.value_or(default_max_move(a)), a.state->kept_planes, run};
+    std::optional<RoundedMesh> parted;
+    task.parted = &parted;
     auto rounded = round_once(a, task);
     const auto is_unclean = [&] { return rounded && !rounded->report.clean; };
     if (is_unclean() && options.max_rounds > 0) {
@@ -230,6 +236,7 @@ Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& optio
         auto again = round_once(a, task);
         if (!again || again->report.clean) rounded = std::move(again);
     }
+    if (is_unclean() && parted) rounded = std::move(*parted);
     if (is_unclean() && options.max_rounds > 0 && !options.max_move) {
         const auto limit = sufficient_limit(a, task);
         if (!limit) return limit.error();

@@ -11,6 +11,7 @@
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
+#include <terrane/algorithms/rounding/detail/closed_parts.hpp>
 #include <terrane/algorithms/rounding/detail/places.hpp>
 #include <terrane/algorithms/rounding/detail/repair.hpp>
 #include <terrane/algorithms/rounding/detail/reports.hpp>
@@ -120,15 +121,19 @@ void Rounding::leave(std::span<const CandidatePair> pairs) {
     left_ = crowd_->parents();
 }
 
+RepairTask Rounding::repair_task() const {
+    return {task_.kept,
+            task_.limit,
+            moved_.largest,
+            options_.max_rounds,
+            hopeless_from(arrangement_.triangles.size()),
+            arrangement_.state->whole,
+            tests_all()};
+}
+
 /// Repairs what is left, and notes whether triangles may have changed.
 void Rounding::repair(std::vector<CandidatePair>& pairs) {
-    const RepairTask task{task_.kept,
-                          task_.limit,
-                          moved_.largest,
-                          options_.max_rounds,
-                          hopeless_from(arrangement_.triangles.size()),
-                          arrangement_.state->whole,
-                          tests_all()};
+    const RepairTask task = repair_task();
     Repair repair(state_, task, run_);
     repair(pairs);
     out_.report.rounds = repair.rounds();
@@ -138,6 +143,25 @@ void Rounding::repair(std::vector<CandidatePair>& pairs) {
     pairs = repair_places(state_, task, std::move(pairs), run_);
     ++out_.report.rounds;
     changed_ = true;
+}
+
+/// Snaps lenses to coarser and coarser grids until there are none, as long as all stays conforming.
+void Rounding::close_lenses() {
+    const auto& corners = arrangement_.state->corners;
+    const RepairTask task = repair_task();
+    for (const int digits : rounding_tuning.place_digits) {
+        std::vector<CandidatePair> pairs;
+        const auto edges = group_edges(state_.triangles, state_.points.size(), run_);
+        for (const std::uint32_t t : lenses(state_.triangles, edges, state_.parents_of, corners))
+            pairs.push_back({t, t});
+        if (pairs.empty()) return;
+        Repair repair(state_, task, run_);
+        const auto grid = repair.grid(digits);
+        if (!grid) return;
+        const RoundingState before = state_;
+        if (!repair.on_grid(*grid, pairs)) state_ = before;
+        ++out_.report.rounds;
+    }
 }
 
 /// Each vertex is at most as far from where it was as its own moves and that of the input add up

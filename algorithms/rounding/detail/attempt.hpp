@@ -20,6 +20,7 @@
 #include <terrane/algorithms/regions/regions_over.hpp>
 #include <terrane/algorithms/rounding/detail/pair_decisions.hpp>
 #include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
+#include <terrane/algorithms/rounding/detail/repair.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
@@ -36,6 +37,7 @@ struct Task {
     const Run& run;
     bool repairs_places = false;                 ///< see RepairTask
     unsigned most_attempts = options.max_rounds; ///< with moved inputs
+    std::optional<RoundedMesh>* parted{};        ///< gets a mesh that are_parted() is true of
 };
 
 /// How many contacts a rounding repairs at most.
@@ -90,7 +92,10 @@ public:
         find_first_regions();
         tell(0.9);
         if (!pairs.empty() && !is_hopeless_) repair(pairs);
-        if (changed_ && pairs.empty()) state_.open_closed_parts(deviation());
+        if (changed_ && pairs.empty()) {
+            close_lenses();
+            state_.open_closed_parts(deviation());
+        }
         if (run_.stop.stop_requested()) return interrupted();
         finish(pairs);
         tell(1);
@@ -111,6 +116,8 @@ private:
     void take_sample();
     [[nodiscard]] ParentsInContact contacts_of_sample() const;
     void repair(std::vector<CandidatePair>& pairs);
+    void close_lenses();
+    [[nodiscard]] RepairTask repair_task() const;
     void to_nearest();
     void constructed_to_nearest(std::size_t v);
     [[nodiscard]] Point3 given(const Point3& input) const;

@@ -2,10 +2,12 @@
 #include <terrane/algorithms/rounding/detail/closed_parts.hpp>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <map>
 #include <set>
 
+#include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
 
 namespace terrane::rounding::detail {
@@ -34,7 +36,74 @@ std::set<std::uint32_t> without_free_edges(std::span<const Triangle> triangles,
     return left;
 }
 
+bool have_common_side(const Triangle& t, const Triangle& u) {
+    const auto is_of_u = [&](std::uint32_t v) { return std::ranges::count(u, v) > 0; };
+    return std::ranges::count_if(t, is_of_u) == 2;
+}
+
+/// Returns pairs of input triangles with a common side that have an edge in common which is not free in
+/// both: round a lens there are such edges.
+std::set<Side> overlapping_neighbours(const EdgeSides& edges,
+                                      const IndexLists<std::uint32_t>& parents_of,
+                                      std::span<const Triangle> corners) {
+    std::set<Side> pairs;
+    edges.for_each([&](std::uint32_t, std::uint32_t, std::span<const EdgeSides::Side> sides) {
+        if (sides.size() < 3) return;
+        std::map<std::uint32_t, unsigned> count; // per parent
+        for (const auto& side : sides)
+            for (const std::uint32_t p : parents_of[side.triangle]) ++count[p];
+        for (const auto& [p, of_p] : count)
+            for (const auto& [q, of_q] : count)
+                if (p < q && of_p + of_q > 2 && have_common_side(corners[p], corners[q]))
+                    pairs.insert({p, q});
+    });
+    return pairs;
+}
+
+/// Returns the Euler characteristic of what two sets of triangles have in common.
+int common_characteristic(std::span<const Triangle> triangles, std::span<const std::uint32_t> one,
+                          std::span<const std::uint32_t> other) {
+    std::map<Side, unsigned> vertices, edges; // 1: of one, 2: of the other, 3: of both
+    std::map<std::uint32_t, unsigned> faces;
+    for (const unsigned of : {1U, 2U})
+        for (const std::uint32_t t : of == 1 ? one : other) {
+            faces[t] |= of;
+            for (unsigned i = 0; i < 3; ++i) {
+                edges[side_of(triangles[t], i)] |= of;
+                vertices[{triangles[t][i], 0}] |= of;
+            }
+        }
+    const auto count = [](const auto& all) {
+        return static_cast<int>(
+            std::ranges::count_if(all, [](const auto& entry) { return entry.second == 3; }));
+    };
+    return count(vertices) - count(edges) + count(faces);
+}
+
 } // namespace
+
+/// What two triangles with a common side have in common is convex before, so that its Euler
+/// characteristic is 1.
+std::vector<std::uint32_t> lenses(std::span<const Triangle> triangles, const EdgeSides& edges,
+                                  const IndexLists<std::uint32_t>& parents_of,
+                                  std::span<const Triangle> corners) {
+    std::vector<std::uint32_t> found;
+    for (const Side& pair : overlapping_neighbours(edges, parents_of, corners)) {
+        std::array<std::vector<std::uint32_t>, 3> parts; // of one, of the other, of either
+        for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+            const std::array is_of{std::ranges::binary_search(parents_of[t], pair[0]),
+                                   std::ranges::binary_search(parents_of[t], pair[1])};
+            if (is_of[0]) parts[0].push_back(t);
+            if (is_of[1]) parts[1].push_back(t);
+            if (is_of[0] || is_of[1]) parts[2].push_back(t);
+        }
+        if (common_characteristic(triangles, parts[0], parts[1]) == 1) continue;
+        const auto closed = without_free_edges(triangles, parts[2]);
+        found.insert(found.end(), closed.begin(), closed.end());
+    }
+    sort_unique(found);
+    return found;
+}
 
 /// Reduces the boundary of each part, modulo 2, by those of earlier ones with the same last edge. What
 /// is left of none is a sum of them: the part closes a surface.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Parts of one input triangle that enclose a space, once sheets that nearly coincide were joined.
+// Parts of one input triangle, or of two with a common side, that enclose a space, once sheets that
+// nearly coincide were joined.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 
 namespace terrane::rounding::detail {
@@ -19,5 +21,12 @@ namespace terrane::rounding::detail {
 std::vector<std::uint32_t> superfluous_parts(std::span<const Triangle> triangles,
                                              const IndexLists<std::uint32_t>& parents_of,
                                              std::span<const std::uint32_t> parts);
+
+/// Returns triangles that enclose spaces between two input triangles with a common side, whose parts
+/// have edges in common all round these spaces: ascending. corners: of the input triangles.
+/// Cost: a pass over the edges, and one over the triangles for each such pair.
+std::vector<std::uint32_t> lenses(std::span<const Triangle> triangles, const EdgeSides& edges,
+                                  const IndexLists<std::uint32_t>& parents_of,
+                                  std::span<const Triangle> corners);
 
 } // namespace terrane::rounding::detail

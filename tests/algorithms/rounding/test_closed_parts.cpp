@@ -105,3 +105,22 @@ TEST_CASE("rounding: a triangle goes where it encloses a space as the part of it
     CHECK(state.triangles.size() == 3);
     CHECK(state.parents_of.size() == 3);
 }
+
+TEST_CASE("rounding: a lens at the common side of two triangles is found") {
+    const std::vector<Triangle> corners{{0, 1, 2}, {1, 0, 3}};
+    // The side 0 1 goes through 4 and through 5. Each input has slivers between, and one of these paths
+    // is its border.
+    std::vector<Triangle> triangles{{0, 5, 2}, {5, 1, 2}, {0, 4, 5}, {4, 1, 5}, {4, 0, 3},
+                                    {1, 4, 3}, {0, 4, 6}, {0, 6, 5}, {4, 1, 6}, {6, 1, 5}};
+    IndexLists<std::uint32_t> parents_of;
+    for (std::uint32_t t = 0; t < 10; ++t) parents_of.push_back(std::array{t < 4 ? 0U : 1U});
+    const auto found = [&](std::span<const Triangle> inputs) {
+        return lenses(triangles, group_edges(triangles, 7), parents_of, inputs);
+    };
+    CHECK(found(corners) == std::vector<std::uint32_t>{2, 3, 6, 7, 8, 9});
+    CHECK(found(std::vector<Triangle>{{0, 1, 2}, {1, 6, 3}}).empty()); // no common side
+    triangles = {{0, 4, 2}, {4, 1, 2}, {4, 0, 3}, {1, 4, 3}};
+    parents_of = {};
+    for (std::uint32_t t = 0; t < 4; ++t) parents_of.push_back(std::array{t / 2});
+    CHECK(found(corners).empty());
+}
