@@ -66,6 +66,7 @@ void name_input(const Arrangement& a, Arrangement& snapped) {
 struct Attempt {
     std::optional<RoundedMesh> rounded; ///< nothing where a boundary was not closed
     ParentsInContact in_contact{};      ///< if it is not conforming
+    bool is_ill_joined = false;         ///< if it is
 };
 
 /// Arranges a moved input and rounds that.
@@ -83,7 +84,7 @@ Result<Attempt> arrange_again(const Arrangement& a, const std::vector<Surface>& 
     auto rounded = rounding();
     if (!rounded) return rounded.error();
     auto in_contact = rounding.left() ? *rounding.left() : parents_in_contact(rounded.value());
-    return {Attempt{std::move(rounded).value(), std::move(in_contact)}};
+    return {Attempt{std::move(rounded).value(), std::move(in_contact), rounding.is_ill_joined()}};
 }
 
 /// An arrangement whose input is moved.
@@ -144,15 +145,15 @@ Result<Attempted> MovedWhole::attempt(const std::vector<Surface>& surfaces) {
     auto done = arrange_again(arrangement_, surfaces, input_.how(), task_);
     if (!done) return done.error();
     ++rounds_;
-    auto& [rounded, in_contact] = done.value();
+    auto& [rounded, in_contact, is_ill_joined] = done.value();
     last_ = std::move(in_contact);
     if (!rounded) return Attempted::torn;
     if (!rounded->report.clean || rounded->report.surface_deviation > task_.limit)
         return Attempted::in_contact;
     add_to_report(input_.how(), arrangement_, first_.report, *rounded);
     rounded->report.rounds += rounds_;
-    if (task_.parted != nullptr && are_parted(arrangement_, *rounded)) {
-        if (!*task_.parted) *task_.parted = std::move(rounded);
+    if (task_.spare != nullptr && (is_ill_joined || are_parted(arrangement_, *rounded))) {
+        if (!*task_.spare) *task_.spare = std::move(rounded);
         return Attempted::in_contact;
     }
     found_ = std::move(rounded);
@@ -186,7 +187,7 @@ Result<RoundedMesh> round_once(const Arrangement& a, const Task& task) {
                            task);
     auto rounded = where_it_lies();
     const auto is_unclean = [&] { return rounded && !rounded.value().report.clean; };
-    if (is_unclean() && may_move_input) {
+    if ((is_unclean() || where_it_lies.is_ill_joined()) && may_move_input) {
         auto in_contact =
             where_it_lies.left() ? *where_it_lies.left() : parents_in_contact(rounded.value());
         rounded = MovedWhole(a, std::move(rounded).value(), std::move(in_contact), task)();
@@ -226,8 +227,8 @@ Result<double> sufficient_limit(const Arrangement& a, Task task) {
 Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& options,
                               const Run& run) {
     Task task{options, options.max_move.value_or(default_max_move(a)), a.state->kept_planes, run};
-    std::optional<RoundedMesh> parted;
-    task.parted = &parted;
+    std::optional<RoundedMesh> spare;
+    task.spare = &spare;
     auto rounded = round_once(a, task);
     const auto is_unclean = [&] { return rounded && !rounded->report.clean; };
     if (is_unclean() && options.max_rounds > 0) {
@@ -236,7 +237,7 @@ Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& optio
         auto again = round_once(a, task);
         if (!again || again->report.clean) rounded = std::move(again);
     }
-    if (is_unclean() && parted) rounded = std::move(*parted);
+    if (is_unclean() && spare) rounded = std::move(*spare);
     if (is_unclean() && options.max_rounds > 0 && !options.max_move) {
         const auto limit = sufficient_limit(a, task);
         if (!limit) return limit.error();

@@ -7,6 +7,7 @@
 
 #include <terrane/algorithms/arrangement/intersection_edges.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
+#include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
@@ -121,19 +122,15 @@ void Rounding::leave(std::span<const CandidatePair> pairs) {
     left_ = crowd_->parents();
 }
 
-RepairTask Rounding::repair_task() const {
-    return {task_.kept,
-            task_.limit,
-            moved_.largest,
-            options_.max_rounds,
-            hopeless_from(arrangement_.triangles.size()),
-            arrangement_.state->whole,
-            tests_all()};
-}
-
 /// Repairs what is left, and notes whether triangles may have changed.
 void Rounding::repair(std::vector<CandidatePair>& pairs) {
-    const RepairTask task = repair_task();
+    const RepairTask task{task_.kept,
+                          task_.limit,
+                          moved_.largest,
+                          options_.max_rounds,
+                          hopeless_from(arrangement_.triangles.size()),
+                          arrangement_.state->whole,
+                          tests_all()};
     Repair repair(state_, task, run_);
     repair(pairs);
     out_.report.rounds = repair.rounds();
@@ -145,23 +142,17 @@ void Rounding::repair(std::vector<CandidatePair>& pairs) {
     changed_ = true;
 }
 
-/// Snaps lenses to coarser and coarser grids until there are none, as long as all stays conforming.
-void Rounding::close_lenses() {
-    const auto& corners = arrangement_.state->corners;
-    const RepairTask task = repair_task();
-    for (const int digits : rounding_tuning.place_digits) {
-        std::vector<CandidatePair> pairs;
-        const auto edges = group_edges(state_.triangles, state_.points.size(), run_);
-        for (const std::uint32_t t : lenses(state_.triangles, edges, state_.parents_of, corners))
-            pairs.push_back({t, t});
-        if (pairs.empty()) return;
-        Repair repair(state_, task, run_);
-        const auto grid = repair.grid(digits);
-        if (!grid) return;
-        const RoundingState before = state_;
-        if (!repair.on_grid(*grid, pairs)) state_ = before;
-        ++out_.report.rounds;
+/// Notes which input triangles are ill-joined.
+void Rounding::find_ill_joined() {
+    const auto edges = group_edges(state_.triangles, state_.points.size(), run_);
+    for (const auto& [p, q] :
+         ill_joined(state_.triangles, edges, state_.parents_of, arrangement_.state->corners)) {
+        is_ill_joined_ = true;
+        if (!left_) left_.emplace();
+        left_->pairs.emplace_back(p, q);
+        left_->all.insert(left_->all.end(), {p, q});
     }
+    if (is_ill_joined_) sort_unique(left_->all);
 }
 
 /// Each vertex is at most as far from where it was as its own moves and that of the input add up

@@ -20,7 +20,6 @@
 #include <terrane/algorithms/regions/regions_over.hpp>
 #include <terrane/algorithms/rounding/detail/pair_decisions.hpp>
 #include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
-#include <terrane/algorithms/rounding/detail/repair.hpp>
 #include <terrane/algorithms/rounding/detail/separation.hpp>
 #include <terrane/algorithms/rounding/detail/snapped_input.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
@@ -37,7 +36,8 @@ struct Task {
     const Run& run;
     bool repairs_places = false;                 ///< see RepairTask
     unsigned most_attempts = options.max_rounds; ///< with moved inputs
-    std::optional<RoundedMesh>* parted{};        ///< gets a mesh that are_parted() is true of
+    std::optional<RoundedMesh>* spare{};         ///< gets a conforming mesh that is ill-joined, or
+                                                 ///< that are_parted() is true of
 };
 
 /// How many contacts a rounding repairs at most.
@@ -93,8 +93,8 @@ public:
         tell(0.9);
         if (!pairs.empty() && !is_hopeless_) repair(pairs);
         if (changed_ && pairs.empty()) {
-            close_lenses();
             state_.open_closed_parts(deviation());
+            find_ill_joined();
         }
         if (run_.stop.stop_requested()) return interrupted();
         finish(pairs);
@@ -102,7 +102,9 @@ public:
         return std::move(out_);
     }
 
-    /// The parents of the contacts, if they were left.
+    /// Whether the mesh is conforming, but input triangles are ill-joined: see closed_parts.hpp.
+    [[nodiscard]] bool is_ill_joined() const { return is_ill_joined_; }
+    /// The parents of the contacts, if they were left, or those that are ill-joined.
     [[nodiscard]] const std::optional<ParentsInContact>& left() const { return left_; }
 
 private:
@@ -116,8 +118,7 @@ private:
     void take_sample();
     [[nodiscard]] ParentsInContact contacts_of_sample() const;
     void repair(std::vector<CandidatePair>& pairs);
-    void close_lenses();
-    [[nodiscard]] RepairTask repair_task() const;
+    void find_ill_joined();
     void to_nearest();
     void constructed_to_nearest(std::size_t v);
     [[nodiscard]] Point3 given(const Point3& input) const;
@@ -155,6 +156,7 @@ private:
     bool ends_when_full_ = false;          ///< whether the first search ends once the crowd is full
     std::stop_source full_;                ///< stops the first search then
     bool is_hopeless_ = false;             ///< whether nothing was repaired
+    bool is_ill_joined_ = false;
     std::optional<ParentsInContact> left_;
     FirstSearch first_search_;       ///< how the first search decided pairs, if they are counted
     bool changed_ = false;           ///< whether the triangles differ from the arrangement's

@@ -2,7 +2,6 @@
 #include <terrane/algorithms/rounding/detail/closed_parts.hpp>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <map>
 #include <set>
@@ -42,7 +41,7 @@ bool have_common_side(const Triangle& t, const Triangle& u) {
 }
 
 /// Returns pairs of input triangles with a common side that have an edge in common which is not free in
-/// both: round a lens there are such edges.
+/// both.
 std::set<Side> overlapping_neighbours(const EdgeSides& edges,
                                       const IndexLists<std::uint32_t>& parents_of,
                                       std::span<const Triangle> corners) {
@@ -58,6 +57,15 @@ std::set<Side> overlapping_neighbours(const EdgeSides& edges,
                     pairs.insert({p, q});
     });
     return pairs;
+}
+
+/// Returns the parts of an input triangle.
+std::vector<std::uint32_t> parts_of(const IndexLists<std::uint32_t>& parents_of,
+                                    std::uint32_t input) {
+    std::vector<std::uint32_t> parts;
+    for (std::uint32_t t = 0; t < parents_of.size(); ++t)
+        if (std::ranges::binary_search(parents_of[t], input)) parts.push_back(t);
+    return parts;
 }
 
 /// Returns the Euler characteristic of what two sets of triangles have in common.
@@ -84,24 +92,14 @@ int common_characteristic(std::span<const Triangle> triangles, std::span<const s
 
 /// What two triangles with a common side have in common is convex before, so that its Euler
 /// characteristic is 1.
-std::vector<std::uint32_t> lenses(std::span<const Triangle> triangles, const EdgeSides& edges,
-                                  const IndexLists<std::uint32_t>& parents_of,
-                                  std::span<const Triangle> corners) {
-    std::vector<std::uint32_t> found;
-    for (const Side& pair : overlapping_neighbours(edges, parents_of, corners)) {
-        std::array<std::vector<std::uint32_t>, 3> parts; // of one, of the other, of either
-        for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-            const std::array is_of{std::ranges::binary_search(parents_of[t], pair[0]),
-                                   std::ranges::binary_search(parents_of[t], pair[1])};
-            if (is_of[0]) parts[0].push_back(t);
-            if (is_of[1]) parts[1].push_back(t);
-            if (is_of[0] || is_of[1]) parts[2].push_back(t);
-        }
-        if (common_characteristic(triangles, parts[0], parts[1]) == 1) continue;
-        const auto closed = without_free_edges(triangles, parts[2]);
-        found.insert(found.end(), closed.begin(), closed.end());
-    }
-    sort_unique(found);
+std::vector<Side> ill_joined(std::span<const Triangle> triangles, const EdgeSides& edges,
+                             const IndexLists<std::uint32_t>& parents_of,
+                             std::span<const Triangle> corners) {
+    std::vector<Side> found;
+    for (const Side& pair : overlapping_neighbours(edges, parents_of, corners))
+        if (common_characteristic(triangles, parts_of(parents_of, pair[0]),
+                                  parts_of(parents_of, pair[1])) != 1)
+            found.push_back(pair);
     return found;
 }
 

@@ -240,7 +240,7 @@ Attempt Places::attempt(const Place& place) const {
         const auto grid = repair.grid(digits);
         if (!grid || grid->reach() == last) break; // coarser ones are as fine
         last = grid->reach();
-        if (repair.on_grid(*grid, repair.contacts())) {
+        if (repair.on_grid(*grid)) {
             out.mended = std::move(mended);
             return out;
         }

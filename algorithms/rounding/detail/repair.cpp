@@ -106,7 +106,8 @@ void Repair::operator()(std::vector<CandidatePair>& pairs) {
     }
 }
 
-bool Repair::on_grid(const SnapGrid& grid, std::vector<CandidatePair> pairs) {
+bool Repair::on_grid(const SnapGrid& grid) {
+    auto pairs = contacts();
     const std::size_t most = 2 * pairs.size() + rounding_tuning.sampled;
     for (unsigned round = 0; round < rounding_tuning.place_rounds && !pairs.empty(); ++round) {
         if (grid.reach() > task_.limit - deviation() || !snap_round(pairs, grid)) return false;

@@ -70,9 +70,8 @@ public:
 
     /// Returns the grid of these digits, or the coarsest finer one within the limit; no grid fits: none.
     [[nodiscard]] std::optional<SnapGrid> grid(int digits) const;
-    /// Snaps these pairs, and what is in contact then, to a grid, round after round. Returns whether
-    /// nothing is in contact at last.
-    bool on_grid(const SnapGrid& grid, std::vector<CandidatePair> pairs);
+    /// Snaps what is in contact to a grid, round after round. Returns whether nothing is in contact then.
+    bool on_grid(const SnapGrid& grid);
 
     /// Merges equal points and drops triangles without area, as RoundingState::tidy does. Returns
     /// false, and does nothing, if what it needs is missing.

@@ -106,7 +106,7 @@ TEST_CASE("rounding: a triangle goes where it encloses a space as the part of it
     CHECK(state.parents_of.size() == 3);
 }
 
-TEST_CASE("rounding: a lens at the common side of two triangles is found") {
+TEST_CASE("rounding: two triangles whose common side is two paths are ill-joined") {
     const std::vector<Triangle> corners{{0, 1, 2}, {1, 0, 3}};
     // The side 0 1 goes through 4 and through 5. Each input has slivers between, and one of these paths
     // is its border.
@@ -115,9 +115,10 @@ TEST_CASE("rounding: a lens at the common side of two triangles is found") {
     IndexLists<std::uint32_t> parents_of;
     for (std::uint32_t t = 0; t < 10; ++t) parents_of.push_back(std::array{t < 4 ? 0U : 1U});
     const auto found = [&](std::span<const Triangle> inputs) {
-        return lenses(triangles, group_edges(triangles, 7), parents_of, inputs);
+        const auto edges = group_edges(triangles, 7);
+        return ill_joined(triangles, edges, parents_of, inputs);
     };
-    CHECK(found(corners) == std::vector<std::uint32_t>{2, 3, 6, 7, 8, 9});
+    CHECK(found(corners) == std::vector<Side>{{0, 1}});
     CHECK(found(std::vector<Triangle>{{0, 1, 2}, {1, 6, 3}}).empty()); // no common side
     triangles = {{0, 4, 2}, {4, 1, 2}, {4, 0, 3}, {1, 4, 3}};
     parents_of = {};
