@@ -7,12 +7,10 @@
 
 #include <terrane/algorithms/arrangement/intersection_edges.hpp>
 #include <terrane/algorithms/arrangement/soup.hpp>
-#include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/intersection/intersection.hpp>
 #include <terrane/algorithms/mesh/work_hook.hpp>
-#include <terrane/algorithms/rounding/detail/closed_parts.hpp>
 #include <terrane/algorithms/rounding/detail/places.hpp>
 #include <terrane/algorithms/rounding/detail/repair.hpp>
 #include <terrane/algorithms/rounding/detail/reports.hpp>
@@ -140,19 +138,6 @@ void Rounding::repair(std::vector<CandidatePair>& pairs) {
     pairs = repair_places(state_, task, std::move(pairs), run_);
     ++out_.report.rounds;
     changed_ = true;
-}
-
-/// Notes which input triangles are ill-joined.
-void Rounding::find_ill_joined() {
-    const auto edges = group_edges(state_.triangles, state_.points.size(), run_);
-    for (const auto& [p, q] :
-         ill_joined(state_.triangles, edges, state_.parents_of, arrangement_.state->corners)) {
-        is_ill_joined_ = true;
-        if (!left_) left_.emplace();
-        left_->pairs.emplace_back(p, q);
-        left_->all.insert(left_->all.end(), {p, q});
-    }
-    if (is_ill_joined_) sort_unique(left_->all);
 }
 
 /// Each vertex is at most as far from where it was as its own moves and that of the input add up

@@ -92,19 +92,14 @@ public:
         find_first_regions();
         tell(0.9);
         if (!pairs.empty() && !is_hopeless_) repair(pairs);
-        if (changed_ && pairs.empty()) {
-            state_.open_closed_parts(deviation());
-            find_ill_joined();
-        }
+        if (changed_ && pairs.empty()) state_.open_closed_parts(deviation());
         if (run_.stop.stop_requested()) return interrupted();
         finish(pairs);
         tell(1);
         return std::move(out_);
     }
 
-    /// Whether the mesh is conforming, but input triangles are ill-joined: see closed_parts.hpp.
-    [[nodiscard]] bool is_ill_joined() const { return is_ill_joined_; }
-    /// The parents of the contacts, if they were left, or those that are ill-joined.
+    /// The parents of the contacts, if they were left.
     [[nodiscard]] const std::optional<ParentsInContact>& left() const { return left_; }
 
 private:
@@ -118,7 +113,6 @@ private:
     void take_sample();
     [[nodiscard]] ParentsInContact contacts_of_sample() const;
     void repair(std::vector<CandidatePair>& pairs);
-    void find_ill_joined();
     void to_nearest();
     void constructed_to_nearest(std::size_t v);
     [[nodiscard]] Point3 given(const Point3& input) const;
@@ -156,7 +150,6 @@ private:
     bool ends_when_full_ = false;          ///< whether the first search ends once the crowd is full
     std::stop_source full_;                ///< stops the first search then
     bool is_hopeless_ = false;             ///< whether nothing was repaired
-    bool is_ill_joined_ = false;
     std::optional<ParentsInContact> left_;
     FirstSearch first_search_;       ///< how the first search decided pairs, if they are counted
     bool changed_ = false;           ///< whether the triangles differ from the arrangement's

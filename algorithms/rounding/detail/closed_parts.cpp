@@ -7,6 +7,7 @@
 #include <set>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
 
 namespace terrane::rounding::detail {
@@ -92,9 +93,13 @@ int common_characteristic(std::span<const Triangle> triangles, std::span<const s
 
 /// What two triangles with a common side have in common is convex before, so that its Euler
 /// characteristic is 1.
-std::vector<Side> ill_joined(std::span<const Triangle> triangles, const EdgeSides& edges,
+std::vector<Side> ill_joined(std::span<const Triangle> triangles,
                              const IndexLists<std::uint32_t>& parents_of,
                              std::span<const Triangle> corners) {
+    std::uint32_t vertices = 0;
+    for (const Triangle& t : triangles)
+        vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
+    const EdgeSides edges = group_edges(triangles, vertices);
     std::vector<Side> found;
     for (const Side& pair : overlapping_neighbours(edges, parents_of, corners))
         if (common_characteristic(triangles, parts_of(parents_of, pair[0]),

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <terrane/algorithms/core/index_lists.hpp>
-#include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
 
@@ -26,7 +25,7 @@ std::vector<std::uint32_t> superfluous_parts(std::span<const Triangle> triangles
 /// Returns pairs of input triangles with a common side whose parts have in common what has a hole or
 /// is torn: the parts then nearly coincide. corners: of the input triangles.
 /// Cost: a pass over the edges, and one over the triangles for each pair that has a part in common.
-std::vector<Side> ill_joined(std::span<const Triangle> triangles, const EdgeSides& edges,
+std::vector<Side> ill_joined(std::span<const Triangle> triangles,
                              const IndexLists<std::uint32_t>& parents_of,
                              std::span<const Triangle> corners);
 

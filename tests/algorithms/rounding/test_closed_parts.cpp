@@ -115,8 +115,7 @@ TEST_CASE("rounding: two triangles whose common side is two paths are ill-joined
     IndexLists<std::uint32_t> parents_of;
     for (std::uint32_t t = 0; t < 10; ++t) parents_of.push_back(std::array{t < 4 ? 0U : 1U});
     const auto found = [&](std::span<const Triangle> inputs) {
-        const auto edges = group_edges(triangles, 7);
-        return ill_joined(triangles, edges, parents_of, inputs);
+        return ill_joined(triangles, parents_of, inputs);
     };
     CHECK(found(corners) == std::vector<Side>{{0, 1}});
     CHECK(found(std::vector<Triangle>{{0, 1, 2}, {1, 6, 3}}).empty()); // no common side
