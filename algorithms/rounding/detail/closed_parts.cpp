@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 
-#include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
 
@@ -36,11 +35,6 @@ std::set<std::uint32_t> without_free_edges(std::span<const Triangle> triangles,
     return left;
 }
 
-bool have_common_side(const Triangle& t, const Triangle& u) {
-    const auto is_of_u = [&](std::uint32_t v) { return std::ranges::count(u, v) > 0; };
-    return std::ranges::count_if(t, is_of_u) == 2;
-}
-
 /// Returns pairs of input triangles with a common side that have an edge in common which is not free in
 /// both.
 std::set<Side> overlapping_neighbours(const EdgeSides& edges,
@@ -52,21 +46,16 @@ std::set<Side> overlapping_neighbours(const EdgeSides& edges,
         std::map<std::uint32_t, unsigned> count; // per parent
         for (const auto& side : sides)
             for (const std::uint32_t p : parents_of[side.triangle]) ++count[p];
+        std::map<Side, std::vector<std::uint32_t>> with; // parents, by their sides
         for (const auto& [p, of_p] : count)
-            for (const auto& [q, of_q] : count)
-                if (p < q && of_p + of_q > 2 && have_common_side(corners[p], corners[q]))
-                    pairs.insert({p, q});
+            for (unsigned i = 0; i < 3; ++i) {
+                auto& others = with[side_of(corners[p], i)];
+                for (const std::uint32_t q : others)
+                    if (of_p + count[q] > 2) pairs.insert({q, p});
+                others.push_back(p);
+            }
     });
     return pairs;
-}
-
-/// Returns the parts of an input triangle.
-std::vector<std::uint32_t> parts_of(const IndexLists<std::uint32_t>& parents_of,
-                                    std::uint32_t input) {
-    std::vector<std::uint32_t> parts;
-    for (std::uint32_t t = 0; t < parents_of.size(); ++t)
-        if (std::ranges::binary_search(parents_of[t], input)) parts.push_back(t);
-    return parts;
 }
 
 /// Returns the Euler characteristic of what two sets of triangles have in common.
@@ -91,6 +80,18 @@ int common_characteristic(std::span<const Triangle> triangles, std::span<const s
 
 } // namespace
 
+IndexLists<std::uint32_t> parts_of_inputs(const IndexLists<std::uint32_t>& parents_of) {
+    std::vector<std::uint32_t> part_of; // per parent of each triangle
+    std::uint32_t inputs = 0;
+    for (std::uint32_t t = 0; t < parents_of.size(); ++t)
+        for (const std::uint32_t p : parents_of[t]) {
+            part_of.push_back(t);
+            inputs = std::max(inputs, p + 1);
+        }
+    return lists_by_key<std::uint32_t>(inputs, parents_of.values,
+                                       [&](std::size_t i) { return part_of[i]; });
+}
+
 /// What two triangles with a common side have in common is convex before, so that its Euler
 /// characteristic is 1.
 std::vector<Side> ill_joined(std::span<const Triangle> triangles,
@@ -101,9 +102,11 @@ std::vector<Side> ill_joined(std::span<const Triangle> triangles,
         vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
     const EdgeSides edges = group_edges(triangles, vertices);
     std::vector<Side> found;
-    for (const Side& pair : overlapping_neighbours(edges, parents_of, corners))
-        if (common_characteristic(triangles, parts_of(parents_of, pair[0]),
-                                  parts_of(parents_of, pair[1])) != 1)
+    const auto pairs = overlapping_neighbours(edges, parents_of, corners);
+    if (pairs.empty()) return found;
+    const auto parts = parts_of_inputs(parents_of);
+    for (const Side& pair : pairs)
+        if (common_characteristic(triangles, parts[pair[0]], parts[pair[1]]) != 1)
             found.push_back(pair);
     return found;
 }

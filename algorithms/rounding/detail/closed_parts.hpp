@@ -14,6 +14,9 @@
 
 namespace terrane::rounding::detail {
 
+/// Returns the parts of each input triangle up to the last that has any, ascending.
+IndexLists<std::uint32_t> parts_of_inputs(const IndexLists<std::uint32_t>& parents_of);
+
 /// Returns parts of one input triangle without which its parts enclose nothing, and have the same
 /// edges, pieces and holes: statement (5) of docs/explanation/rounding.md. Of parts that will do it
 /// returns those with fewest parents. `parts` are indices into `triangles`. Cost: near-linear where
@@ -24,7 +27,7 @@ std::vector<std::uint32_t> superfluous_parts(std::span<const Triangle> triangles
 
 /// Returns pairs of input triangles with a common side whose parts have in common what has a hole or
 /// is torn: the parts then nearly coincide. corners: of the input triangles.
-/// Cost: a pass over the edges, and one over the triangles for each pair that has a part in common.
+/// Cost: a pass over the edges, and one over the parts of each pair that overlaps.
 std::vector<Side> ill_joined(std::span<const Triangle> triangles,
                              const IndexLists<std::uint32_t>& parents_of,
                              std::span<const Triangle> corners);

@@ -330,18 +330,10 @@ void RoundingState::join_equal(std::span<const std::uint32_t> dirty, std::vector
 }
 
 void RoundingState::open_closed_parts(double moved) {
-    constexpr std::size_t least = 4;    // the faces of a tetrahedron
-    std::vector<std::uint32_t> part_of; // per parent of each triangle
-    std::uint32_t inputs = 0;
-    for (std::uint32_t t = 0; t < triangles.size(); ++t)
-        for (const std::uint32_t p : parents_of[t]) {
-            part_of.push_back(t);
-            inputs = std::max(inputs, p + 1);
-        }
-    const auto parts = lists_by_key<std::uint32_t>(inputs, parents_of.values,
-                                                   [&](std::size_t i) { return part_of[i]; });
+    constexpr std::size_t least = 4; // the faces of a tetrahedron
+    const auto parts = parts_of_inputs(parents_of);
     std::map<std::uint32_t, std::set<std::uint32_t>> taken; // from parents, per triangle
-    for (std::uint32_t p = 0; p < inputs; ++p)
+    for (std::uint32_t p = 0; p < parts.size(); ++p)
         if (parts[p].size() >= least)
             for (const std::uint32_t t : superfluous_parts(triangles, parents_of, parts[p]))
                 taken[t].insert(p);
