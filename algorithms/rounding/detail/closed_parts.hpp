@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Parts of one input triangle, or of two with a common side, that enclose a space, once sheets that
-// nearly coincide were joined.
+// Finds parts of one input triangle, or of two with a common side, that enclose a space, once sheets
+// that nearly coincide were joined.
 #pragma once
 
 #include <cstdint>
