@@ -92,6 +92,7 @@ RepairedPart repair_part(PartOfDoubles part, const Run& run) {
     }
     out.rounds = repair.rounds();
     if (!out.clean) return out;
+    state.open_closed_parts(deviation_of(state, part.used));
     out.surface_deviation = deviation_of(state, part.used);
     out.max_move = largest_move;
     for (const double m : state.move) out.max_move = std::max(out.max_move, m);

@@ -8,11 +8,13 @@
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
 #include <terrane/algorithms/arrangement/intersection_edges.hpp>
+#include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/is_external.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/core/stage_timer.hpp>
 #include <terrane/algorithms/rounding/detail/attempt.hpp>
+#include <terrane/algorithms/rounding/detail/closed_parts.hpp>
 #include <terrane/algorithms/rounding/detail/contact_clusters.hpp>
 #include <terrane/algorithms/rounding/detail/moved_attempts.hpp>
 #include <terrane/algorithms/rounding/detail/parents_in_contact.hpp>
@@ -60,6 +62,20 @@ void name_input(const Arrangement& a, Arrangement& snapped) {
     snapped.inputs.duplicates = a.inputs.duplicates;
     snapped.intersection_edges =
         find_intersection_edges(snapped.state->adjacency, snapped.inputs, snapped.parents_of);
+}
+
+/// Returns the input triangles of a conforming mesh that are ill-joined.
+ParentsInContact parents_ill_joined(const Arrangement& a, const RoundedMesh& rounded) {
+    ParentsInContact found;
+    const RoundingReport& report = rounded.report;
+    if (report.rounds + report.merged_vertices + report.collapsed_triangles == 0) return found;
+    for (const auto& [p, q] :
+         ill_joined(rounded.mesh->triangles, rounded.mesh->parents_of, a.state->corners)) {
+        found.pairs.emplace_back(p, q);
+        found.all.insert(found.all.end(), {p, q});
+    }
+    sort_unique(found.all);
+    return found;
 }
 
 /// An attempt to round a moved input.
@@ -151,6 +167,14 @@ Result<Attempted> MovedWhole::attempt(const std::vector<Surface>& surfaces) {
         return Attempted::in_contact;
     add_to_report(input_.how(), arrangement_, first_.report, *rounded);
     rounded->report.rounds += rounds_;
+    if (task_.spare != nullptr) {
+        auto ill_joined = parents_ill_joined(arrangement_, *rounded);
+        if (!ill_joined.all.empty() || are_parted(arrangement_, *rounded)) {
+            last_ = std::move(ill_joined);
+            if (!*task_.spare) *task_.spare = std::move(rounded);
+            return Attempted::in_contact;
+        }
+    }
     found_ = std::move(rounded);
     return Attempted::conforming;
 }
@@ -182,9 +206,12 @@ Result<RoundedMesh> round_once(const Arrangement& a, const Task& task) {
                            task);
     auto rounded = where_it_lies();
     const auto is_unclean = [&] { return rounded && !rounded.value().report.clean; };
-    if (is_unclean() && may_move_input) {
-        auto in_contact =
-            where_it_lies.left() ? *where_it_lies.left() : parents_in_contact(rounded.value());
+    ParentsInContact in_contact;
+    if (rounded && may_move_input)
+        in_contact = where_it_lies.left()           ? *where_it_lies.left()
+                     : rounded.value().report.clean ? parents_ill_joined(a, rounded.value())
+                                                    : parents_in_contact(rounded.value());
+    if (may_move_input && (is_unclean() || !in_contact.all.empty())) {
         rounded = MovedWhole(a, std::move(rounded).value(), std::move(in_contact), task)();
     }
     if (is_unclean() && where_it_lies.left()) rounded = Rounding(a, unmoved, Repairs::all, task)();
@@ -222,6 +249,8 @@ Result<double> sufficient_limit(const Arrangement& a, Task task) {
 Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& options,
                               const Run& run) {
     Task task{options, options.max_move.value_or(default_max_move(a)), a.state->kept_planes, run};
+    std::optional<RoundedMesh> spare;
+    task.spare = &spare;
     auto rounded = round_once(a, task);
     const auto is_unclean = [&] { return rounded && !rounded->report.clean; };
     if (is_unclean() && options.max_rounds > 0) {
@@ -230,6 +259,7 @@ Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& optio
         auto again = round_once(a, task);
         if (!again || again->report.clean) rounded = std::move(again);
     }
+    if (is_unclean() && spare) rounded = std::move(*spare);
     if (is_unclean() && options.max_rounds > 0 && !options.max_move) {
         const auto limit = sufficient_limit(a, task);
         if (!limit) return limit.error();

@@ -36,6 +36,8 @@ struct Task {
     const Run& run;
     bool repairs_places = false;                 ///< see RepairTask
     unsigned most_attempts = options.max_rounds; ///< with moved inputs
+    std::optional<RoundedMesh>* spare{};         ///< gets a conforming mesh that is ill-joined, or
+                                                 ///< that are_parted() is true of
 };
 
 /// How many contacts a rounding repairs at most.
@@ -90,6 +92,7 @@ public:
         find_first_regions();
         tell(0.9);
         if (!pairs.empty() && !is_hopeless_) repair(pairs);
+        if (changed_ && pairs.empty()) state_.open_closed_parts(deviation());
         if (run_.stop.stop_requested()) return interrupted();
         finish(pairs);
         tell(1);

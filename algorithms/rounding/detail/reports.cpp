@@ -4,9 +4,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <map>
+#include <set>
 #include <span>
+#include <utility>
 
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/regions/regions_over.hpp>
 #include <terrane/algorithms/rounding/detail/state.hpp>
 #include <terrane/algorithms/rounding/detail/vanished.hpp>
@@ -24,6 +29,28 @@ std::vector<double> exact_moves(const Arrangement& a, const Mesh& mesh) {
     for (std::size_t v = 0; v < a.vertices.size(); ++v)
         moves.push_back(distance_bound(a.state->points.enclosure(a.vertices[v]), mesh.vertices[v]));
     return moves;
+}
+
+using SurfacePair = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Calls visit(vertex, pair) for all pairs of surfaces at each vertex of more than one.
+template <class Visit>
+void for_each_meeting(std::size_t vertices, std::span<const Triangle> triangles,
+                      const IndexLists<std::uint32_t>& surfaces_of, const Visit& visit) {
+    std::vector<std::uint32_t> first(vertices, no_index), last(vertices, no_index);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> all; // vertices with their surfaces
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        for (const std::uint32_t s : surfaces_of[t])
+            for (const std::uint32_t v : triangles[t]) {
+                if (first[v] == no_index) first[v] = s;
+                if (first[v] == s || last[v] == s) continue; // most repeat one of these
+                if (last[v] == no_index) all.emplace_back(v, first[v]);
+                all.emplace_back(v, last[v] = s);
+            }
+    sort_unique(all);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t j = i + 1; j < all.size() && all[j].first == all[i].first; ++j)
+            visit(all[i].first, SurfacePair(all[i].second, all[j].second));
 }
 
 std::vector<std::size_t> regions_per_surface(std::size_t surfaces,
@@ -79,6 +106,30 @@ void add_to_report(const MovedInput& moved, const Arrangement& a, const Rounding
     report.moved_input_vertices += moved.moved;
     report.merged_vertices += moved.merged;
     report.vanished = vanished(a, rounded.mesh->parents_of);
+}
+
+bool are_parted(const Arrangement& a, const RoundedMesh& rounded) {
+    constexpr double stated = 4; // deviations in a certificate
+    const Mesh& mesh = *rounded.mesh;
+    std::set<SurfacePair> joined;
+    for_each_meeting(mesh.vertices.size(), mesh.triangles, mesh.surfaces_of,
+                     [&](std::uint32_t, const SurfacePair& pair) { joined.insert(pair); });
+    if (2 * joined.size() == a.surfaces.size() * (a.surfaces.size() - 1)) return false;
+    std::set<std::uint32_t> thinned;
+    for (const std::uint32_t t : rounded.report.vanished)
+        thinned.insert(a.inputs.surface_of(InputTriangleId(t)));
+    std::map<SurfacePair, Point3> first; // where others meet
+    bool any = false;
+    for_each_meeting(a.vertices.size(), a.triangles, a.surfaces_of,
+                     [&](std::uint32_t v, const SurfacePair& pair) {
+                         if (any || joined.contains(pair) || thinned.contains(pair.first) ||
+                             thinned.contains(pair.second))
+                             return;
+                         const Point3 p = a.state->points.nearest(a.vertices[v]);
+                         const Point3& q = first.try_emplace(pair, p).first->second;
+                         any = move_bound(p, q) > stated * rounded.report.deviation;
+                     });
+    return any;
 }
 
 void report_vanished_regions(const Arrangement& a, RoundedMesh& rounded) {

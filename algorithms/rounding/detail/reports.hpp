@@ -29,6 +29,11 @@ std::array<std::size_t, 32> decades_of(std::span<const double> moves);
 void add_to_report(const MovedInput& moved, const Arrangement& arrangement,
                    const RoundingReport& first, RoundedMesh& rounded);
 
+/// Tells whether two surfaces that meet in the arrangement, at points that are farther from each other
+/// than terrane verify accepts, have no vertex of the mesh in common. Surfaces of which a triangle
+/// vanished may be parted.
+bool are_parted(const Arrangement& arrangement, const RoundedMesh& rounded);
+
 /// Compares the regions with those of the exact surfaces and reports losses.
 void report_vanished_regions(const Arrangement& arrangement, RoundedMesh& rounded);
 

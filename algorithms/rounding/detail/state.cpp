@@ -12,6 +12,7 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/algorithms/rounding/detail/closed_parts.hpp>
 #include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
 #include <terrane/algorithms/rounding/detail/tuning.hpp>
 #include <terrane/kernel/predicates.hpp>
@@ -326,6 +327,29 @@ void RoundingState::join_equal(std::span<const std::uint32_t> dirty, std::vector
     triangles.resize(kept);
     if (!origins.empty()) origins.resize(kept);
     parents_of = std::move(parents);
+}
+
+void RoundingState::open_closed_parts(double moved) {
+    constexpr std::size_t least = 4; // the faces of a tetrahedron
+    const auto parts = parts_of_inputs(parents_of);
+    std::map<std::uint32_t, std::set<std::uint32_t>> taken; // from parents, per triangle
+    for (std::uint32_t p = 0; p < parts.size(); ++p)
+        if (parts[p].size() >= least)
+            for (const std::uint32_t t : superfluous_parts(triangles, parents_of, parts[p]))
+                taken[t].insert(p);
+    if (taken.empty()) return;
+    IndexLists<std::uint32_t> left;
+    std::vector<bool> gone(triangles.size(), false);
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const auto from = taken.find(t);
+        for (const std::uint32_t p : parents_of[t])
+            if (from == taken.end() || !from->second.contains(p)) left.values.push_back(p);
+        left.close();
+        gone[t] = left[t].empty();
+    }
+    parents_of = std::move(left);
+    join_equal({}, gone);
+    largest_gap_ = std::max(largest_gap_, moved);
 }
 
 void RoundingState::replace_triangles(std::vector<Triangle> fresh,

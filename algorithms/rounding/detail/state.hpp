@@ -73,6 +73,12 @@ struct RoundingState {
     /// tests for triangles with dirty corners only.
     bool tidy(const Run& run);
 
+    /// Takes superfluous parts from input triangles whose parts enclose a space, so that none do any
+    /// more, and drops triangles that are no part of any then. Surfaces moved by `moved`, and points
+    /// where a part was taken are up to twice as far from the others: see statement (5) of
+    /// docs/explanation/rounding.md.
+    void open_closed_parts(double moved);
+
     /// Replaces all triangles by new ones. faces_of lists for each the old triangles that contain
     /// it.
     void replace_triangles(std::vector<Triangle> fresh, const IndexLists<std::uint32_t>& faces_of);
