@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,29 +22,21 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr unsigned highest_degree = 2;
-
-/// A model, and the least degree of a trend that makes its covariance positive definite.
-struct Shape {
-    Variogram variogram;
-    unsigned least_degree = 0;
-};
-
 /// Lists the shapes that are wanted, without ranges.
-std::vector<Shape> shapes(const KrigingOptions& options) {
+std::vector<Variogram> shapes(const KrigingOptions& options) {
     using enum VariogramModel;
     const auto shape = [](VariogramModel model, double exponent = 1) {
         Variogram v;
         v.model = model;
         v.exponent = exponent;
-        return Shape{v, model == thin_plate || model == cubic ? 1U : 0U};
+        return v;
     };
-    std::vector<Shape> all{shape(power),       shape(thin_plate),  shape(cubic),
-                           shape(exponential), shape(matern, 1.5), shape(matern, 2.5),
-                           shape(gaussian)};
+    std::vector<Variogram> all{shape(power),       shape(thin_plate),  shape(cubic),
+                               shape(exponential), shape(matern, 1.5), shape(matern, 2.5),
+                               shape(gaussian)};
     if (!options.model) return all;
     if (*options.model == spherical) return {shape(spherical)};
-    std::erase_if(all, [&](const Shape& s) { return s.variogram.model != *options.model; });
+    std::erase_if(all, [&](const Variogram& v) { return v.model != *options.model; });
     return all;
 }
 
@@ -51,67 +44,62 @@ std::vector<Shape> shapes(const KrigingOptions& options) {
 class Search {
 public:
     Search(std::span<const Point3> data, const KrigingOptions& options, const Run& run) :
-        options_(options), run_(run) {
-        const auto pairs =
-            well_spread_pairs(data, constants.most_fitted, constants.most_fitted / 2);
-        const auto points = selected(data, pairs.chosen);
-        for (unsigned degree = 0; degree <= highest_degree; ++degree)
-            likelihoods_.emplace_back(points, degree);
-        least_range_ = std::max(constants.least_range * likelihoods_[0].extent(),
-                                constants.gaps_per_range * pairs.gap);
-    }
+        Search(data, well_spread_pairs(data, constants.most_fitted, constants.most_fitted / 2),
+               options, run) {}
 
     /// Returns models, the likeliest first; only the trend of least degree that is the data.
     std::vector<Likely> operator()() {
-        for (const Likelihood& of : likelihoods_) {
-            if (of.trend_only()) return {of.of_noise()};
-            found_.push_back(of.of_noise());
-        }
-        std::vector<Variogram> first, others;
-        for (const Shape& s : shapes(options_))
-            for (const Variogram& v : ranged(s.variogram)) {
-                first.push_back(v);
-                if (s.least_degree == 0) others.push_back(v);
+        found_ = likelihood_.of_noise();
+        if (found_[0].likelihood == HUGE_VAL) return std::move(found_);
+        std::vector<Variogram> all;
+        for (const Variogram& shape : shapes(options_))
+            for (const Variogram& v : ranged(shape)) all.push_back(v);
+        add(all, {});
+        // A smooth field without noise is likely only near its very range.
+        for (const double part : {2.0, 4.0})
+            for (const Variogram& shape : shapes(options_)) {
+                const auto best = std::find_if(found_.begin(), found_.end(), [&](const Likely& l) {
+                    return l.variogram.sill > 0 && l.variogram.model == shape.model &&
+                           l.variogram.exponent == shape.exponent;
+                });
+                if (best != found_.end()) refine(*best, part);
             }
-        add(first, 1);
-        add(first, 2);
-        add(others, 0);
-        sort();
-        for (const double part : {2.0, 4.0}) {
-            refine(found_[0], part);
-            sort();
-        }
+        for (const double part : {8.0, 16.0}) refine(found_[0], part);
         if (options_.anisotropy && found_[0].variogram.sill > 0) turn(found_[0]);
-        sort();
         return std::move(found_);
     }
 
 private:
-    void sort() {
+    Search(std::span<const Point3> data, const SpreadPairs& pairs, const KrigingOptions& options,
+           const Run& run) :
+        options_(options),
+        run_(run), likelihood_(selected(data, pairs.chosen)),
+        least_range_(std::max(constants.least_range * likelihood_.extent(),
+                              constants.gaps_per_range * pairs.gap)) {}
+
+    /// Adds these shapes, with the trend of this degree or with all.
+    void add(std::span<const Variogram> all, std::optional<unsigned> degree, double prior = 0) {
+        if (run_.stop.stop_requested()) return;
+        std::vector<std::vector<Likely>> found(all.size());
+        if (run_.progress) run_.progress("variogram", 0);
+        const auto one = [&](std::size_t i) {
+            if (!run_.stop.stop_requested()) found[i] = likelihood_.at(all[i]);
+        };
+        with_threads(run_, [&] { for_each_index(all.size(), one); });
+        for (const auto& of_shape : found)
+            for (Likely likely : of_shape) {
+                likely.likelihood -= prior;
+                if (likely.degree == degree.value_or(likely.degree)) found_.push_back(likely);
+            }
         std::stable_sort(found_.begin(), found_.end(), [](const Likely& a, const Likely& b) {
             return a.likelihood > b.likelihood;
         });
     }
 
-    /// Adds these shapes with a trend of this degree.
-    void add(std::span<const Variogram> all, unsigned degree, double prior = 0) {
-        if (run_.stop.stop_requested()) return;
-        std::vector<Likely> found(all.size());
-        if (run_.progress) run_.progress("variogram", 0);
-        const auto one = [&](std::size_t i) {
-            if (!run_.stop.stop_requested()) found[i] = likelihoods_[degree].at(all[i]);
-        };
-        with_threads(run_, [&] { for_each_index(all.size(), one); });
-        for (Likely& f : found) {
-            f.likelihood -= prior;
-            if (f.variogram.sill > 0) found_.push_back(f);
-        }
-    }
-
     /// Gives a shape ranges at equal ratios.
     [[nodiscard]] std::vector<Variogram> ranged(Variogram shape) const {
         using enum VariogramModel;
-        const double extent = std::max(likelihoods_[0].extent(), 1e-300);
+        const double extent = std::max(likelihood_.extent(), 1e-300);
         shape.range = extent;
         if (shape.model == power || shape.model == thin_plate || shape.model == cubic)
             return {shape}; // a mere unit
@@ -154,7 +142,7 @@ private:
 
     const KrigingOptions& options_;
     const Run& run_;
-    std::vector<Likelihood> likelihoods_; ///< by degree
+    Likelihood likelihood_;
     double least_range_ = 0;
     std::vector<Likely> found_;
 };
@@ -230,10 +218,12 @@ std::vector<Missed> missed_by(const System& system, const MatrixXd& projection,
                               std::span<const std::vector<Index>> all) {
     std::vector<Missed> result;
     for (const auto& some : all) {
-        const MatrixXd covariance = inverse_of(projection(some, some));
-        if (covariance.size() == 0) return {};
-        result.push_back(
-            {covariance * system.weights()(some), covariance.diagonal().cwiseMax(1e-300)});
+        MatrixXd factor = projection(some, some);
+        if (!cholesky(factor, {})) return {};
+        const MatrixXd inverse = inverse_of_factor(factor);
+        const VectorXd half = inverse * system.weights()(some);
+        result.push_back({inverse.transpose() * half,
+                          inverse.colwise().squaredNorm().transpose().cwiseMax(1e-300)});
     }
     return result;
 }

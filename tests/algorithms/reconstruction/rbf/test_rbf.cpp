@@ -291,7 +291,7 @@ TEST_CASE("rbf: an island in a hole serves as data and is joined", "[rbf]") {
           0.03);
 }
 
-TEST_CASE("rbf: patches interpolate rough data and more data than centres", "[rbf]") {
+TEST_CASE("rbf: the rest interpolates rough data and more data than centres", "[rbf]") {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> rough(-0.02, 0.02);
     Surface s =
@@ -304,7 +304,6 @@ TEST_CASE("rbf: patches interpolate rough data and more data than centres", "[rb
     REQUIRE(filling);
     CHECK(report.data > 5000);
     CHECK(report.centres <= 200);
-    CHECK(report.patches > 100);
     CHECK(report.missed > 0.01);
     CHECK(report.largest_error < 1e-10);
     CHECK(report.rms_error <= report.largest_error);
@@ -366,9 +365,8 @@ TEST_CASE("rbf: invalid options and loops are refused, and a stop request is obe
     const auto hole = holes_of(s).at(0);
     for (const RbfOptions& wrong :
          {RbfOptions{.reach = -1}, RbfOptions{.most_centres = 3}, RbfOptions{.most_centres = 5000},
-          RbfOptions{.offset = -1}, RbfOptions{.tolerance = std::nan("")}, RbfOptions{.size = -2},
-          RbfOptions{.most_vertices = 0}, RbfOptions{.degree = 9}, RbfOptions{.smoothing = -1.0},
-          RbfOptions{.smoothing = std::nan("")}}) {
+          RbfOptions{.size = -2}, RbfOptions{.most_vertices = 0}, RbfOptions{.degree = 9},
+          RbfOptions{.smoothing = -1.0}, RbfOptions{.smoothing = std::nan("")}}) {
         const auto filling = fill_by_rbf(s, hole, wrong);
         REQUIRE(!filling);
         CHECK(filling.error().code == ErrorCode::bad_option);
