@@ -339,14 +339,15 @@ def measure(task):
     try:
         draw, new, seconds = drawn(*task)
     except LookupError as none:
-        print(f"  left out: {none}")
-        return None
+        return f"  left out: {none}"
+    except RuntimeError as failed:
+        return f"EXCEEDED: seed {task[2]}: {failed}"
     seed = task[2]
     new = new[draw.rng.permutation(len(new))[:250]]
     truth = draw.truth(new[:, :2])
     new, truth = new[np.isfinite(truth)], truth[np.isfinite(truth)]
     if len(new) == 0:
-        return None
+        return f"  left out: {draw.parts[0]}: the hole's triangles have no middle where it was"
     rms = lambda e: float(np.sqrt(np.mean(e**2)))
     error, least = new[:, 2] - truth, 1e-4 * draw.deviation  # of fields as rough as JITTER
     others = {name: max(least, rms(z - truth)) for name, z in draw.others(new[:, :2]).items()}
@@ -427,11 +428,14 @@ def main():
             rows = list(pool.map(measure, tasks))
     else:
         rows = [measure(t) for t in tasks]
-    rows = [r for r in rows if r]
+    for text in sorted({r for r in rows if isinstance(r, str)}):
+        print(text)
+    failed = any(isinstance(r, str) and r.startswith("EXCEEDED") for r in rows)
+    rows = [r for r in rows if not isinstance(r, str)]
     table(rows)
     if arguments.json:
         Path(arguments.json).write_text(json.dumps(rows))
-    return 0 if judged(rows) else 1
+    return 0 if judged(rows) and not failed else 1
 
 
 if __name__ == "__main__":

@@ -62,7 +62,8 @@ std::string description(const ModelAverage& average) {
                 : "; no blocks as wide as the hole can be left out";
     if (std::isfinite(average.rim_ratio))
         text += fmt::format(", its rim by {} times", figure(average.rim_ratio, 3));
-    if (!average.determined) text += "; too few data to tell an expected error";
+    if (!average.unknown.empty())
+        text += fmt::format("; no expected error can be told: {}", average.unknown);
     return text;
 }
 

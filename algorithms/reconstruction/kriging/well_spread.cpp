@@ -95,8 +95,8 @@ double rounding_of(std::span<const Point3> data, unsigned degree) {
     for (const Point3& p : data) largest = std::max(largest, std::abs(p.z));
     const double unit = std::nextafter(largest, HUGE_VAL) - largest;
     // A rounding is spread evenly over a unit. Estimates are sums of hundreds of terms: by the oracle's
-    // planes, they have twelve of them, and those of degree 2 twice that.
-    return unit * std::sqrt(12.0 * degree / 12);
+    // planes, they have twelve of them, those of degree 2 twice that.
+    return unit * std::sqrt(12.0 * std::max(degree, 1U) / 12);
 }
 
 } // namespace terrane

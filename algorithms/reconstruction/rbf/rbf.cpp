@@ -15,7 +15,6 @@
 
 #include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
@@ -134,13 +133,6 @@ Result<Surface> mesh_zero_level(const Implicit& f, const RbfData& data, const Tr
     return zero_level(function, options, run);
 }
 
-/// A function whose zero level fills the hole, and what is known of it.
-struct FittedLevel {
-    Implicit f;
-    RbfChoice choice;
-    std::string model; ///< described
-};
-
 /// The zero level over the hole, and the data it comes from.
 struct Level {
     const Implicit& f;
@@ -208,20 +200,6 @@ std::string describe(const RbfReport& r, const RbfForm& form, bool smoothed) {
                                figure(r.largest_error, 2));
 }
 
-/// Steps (2) to (4).
-Result<FittedLevel> fit_any(const RbfData& data, const TriangleTree& tree,
-                            const RbfOptions& options, RbfReport& report, const Run& run) {
-    report = {};
-    auto choice = choose_form(data, options, run);
-    if (!choice) return choice.error();
-    const RbfForm& form = choice->form;
-    report.degree = form.polynomial.degree;
-    auto f = fit_hole(data, tree, form, options, report, run);
-    if (!f) return f.error();
-    auto model = describe(report, form, form.smoothed || options.smoothing.has_value());
-    return FittedLevel{std::move(*f), std::move(*choice), std::move(model)};
-}
-
 Error interrupted() {
     return Error{ErrorCode::interrupted, "stopped on request", ""};
 }
@@ -232,10 +210,14 @@ Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
                                    {options.reach, options.rings, options.long_edges});
     if (!data) return data.error();
     const TriangleTree tree(data.value().points, data.value().triangles);
-    const auto fitted = fit_any(data.value(), tree, options, report, run);
+    report = {};
+    const auto choice = choose_form(*data, options, run); // steps (2) to (4)
+    if (!choice) return choice.error();
+    report.degree = choice->form.polynomial.degree;
+    const auto f = fit_hole(*data, tree, choice->form, options, report, run);
     if (run.stop.stop_requested()) return interrupted();
-    if (!fitted) return fitted.error();
-    const Level level{fitted->f, fitted->choice.validated, data.value(), tree};
+    if (!f) return f.error();
+    const Level level{*f, choice->validated, *data, tree};
     auto mesh = mesh_to_size(level, loop, options, report.size, run);
     if (!mesh) return mesh.error();
     Filling filling;
@@ -247,9 +229,10 @@ Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
     filling.report.interpolated = filling.surface.vertices.size();
     filling.report.area = area_of(filling.surface);
     filling.report.expected_error = no_number;
-    filling.report.validated_error = fitted->choice.validated;
-    filling.report.left_out = fitted->choice.left_out;
-    filling.report.model = fitted->model;
+    filling.report.validated_error = choice->validated;
+    filling.report.left_out = choice->left_out;
+    filling.report.model =
+        describe(report, choice->form, choice->form.smoothed || options.smoothing);
     if (options.long_edges) filling.report.model += "; with points on long edges";
     if (run.stop.stop_requested()) return interrupted();
     return filling;
@@ -270,20 +253,15 @@ Status validate_options(const RbfOptions& o) {
 }
 
 Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
-                            const RbfOptions& options, RbfReport& report, const Run& run) {
+                            const RbfOptions& options, const Run& run, RbfReport* report) {
     return guarded("for the filling", "fill", [&]() -> Result<Filling> {
-        report = {};
+        RbfReport unused;
+        RbfReport& told = report != nullptr ? *report : unused;
+        told = {};
         if (const auto good = validate_options(options); !good) return good.error();
         if (auto sound = check_edge_length(loop, options.size); !sound) return sound.error();
-        return fill_valid(surface, loop, options, report, run);
+        return fill_valid(surface, loop, options, told, run);
     });
-}
-
-Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
-                            const RbfOptions& options, const Run& run) {
-    const StandardArithmetic guard;
-    RbfReport report;
-    return fill_by_rbf(surface, loop, options, report, run);
 }
 
 std::vector<NamedConstant> rbf_constants() {

@@ -77,15 +77,12 @@ struct RbfReport {
 /// Checks options. Errors: bad_option.
 Status validate_options(const RbfOptions& options);
 
-/// Fills a hole by steps (1) to (5). Errors: bad_option, bad_index, bad_number; unsupported (an
-/// island that touches the border in a vertex; a zero level too large for its edge length);
-/// nothing_to_do; interrupted, out_of_memory.
+/// Fills a hole by steps (1) to (5), and describes the fit in `report`, if any. Errors: bad_option,
+/// bad_index, bad_number; unsupported (an island that touches the border in a vertex; a zero level
+/// too large for its edge length); nothing_to_do; interrupted, out_of_memory.
 Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
-                            const RbfOptions& options = {}, const Run& run = {});
-
-/// Fills a hole and describes the fit in `report`.
-Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
-                            const RbfOptions& options, RbfReport& report, const Run& run);
+                            const RbfOptions& options = {}, const Run& run = {},
+                            RbfReport* report = nullptr);
 
 /// Lists the constants that decide the result and are not options.
 std::vector<NamedConstant> rbf_constants();

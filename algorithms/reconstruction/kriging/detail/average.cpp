@@ -87,7 +87,7 @@ KnownHeights AveragedHeights::average_at(std::span<const Point3> places,
         known.heights.push_back(ground_ + mean[i] +
                                 (beside_border_ ? (*beside_border_)({p.x, p.y, 0}) : 0));
         known.expected.push_back(
-            average_.determined
+            average_.unknown.empty()
                 ? std::hypot(average_.factor * std::sqrt(std::max(0.0, variance[i])), rounding_)
                 : std::numeric_limits<double>::quiet_NaN());
     }

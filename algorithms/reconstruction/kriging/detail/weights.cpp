@@ -54,18 +54,21 @@ public:
         std::vector<Variogram> all;
         for (const Variogram& shape : shapes(options_))
             for (const Variogram& v : ranged(shape)) all.push_back(v);
-        add(all, {});
+        add(of(all, {}));
         // A smooth field without noise is likely only near its very range.
-        for (const double part : {2.0, 4.0})
-            for (const Variogram& shape : shapes(options_)) {
-                const auto best = std::find_if(found_.begin(), found_.end(), [&](const Likely& l) {
-                    return l.variogram.sill > 0 && l.variogram.model == shape.model &&
-                           l.variogram.exponent == shape.exponent;
-                });
-                if (best != found_.end()) refine(*best, part);
-            }
-        for (const double part : {8.0, 16.0}) refine(found_[0], part);
-        if (options_.anisotropy && found_[0].variogram.sill > 0) turn(found_[0]);
+        for (const Variogram& shape : shapes(options_)) {
+            const auto best = std::find_if(found_.begin(), found_.end(), [&](const Likely& l) {
+                return l.variogram.sill > 0 && l.variogram.model == shape.model &&
+                       l.variogram.exponent == shape.exponent;
+            });
+            if (best == found_.end()) continue;
+            for (const double part : {2.0, 4.0, 8.0, 16.0})
+                for (const Likely& other : beside(*best, part))
+                    if (other.likelihood > best->likelihood) *best = other;
+        }
+        add({});
+        for (const double part : {2.0, 4.0}) add(beside(found_[0], part));
+        if (options_.anisotropy && found_[0].variogram.sill > 0) add(turned(found_[0]));
         return std::move(found_);
     }
 
@@ -77,23 +80,29 @@ private:
         least_range_(std::max(constants.least_range * likelihood_.extent(),
                               constants.gaps_per_range * pairs.gap)) {}
 
-    /// Adds these shapes, with the trend of this degree or with all.
-    void add(std::span<const Variogram> all, std::optional<unsigned> degree, double prior = 0) {
-        if (run_.stop.stop_requested()) return;
+    /// Adds models, and sorts all.
+    void add(const std::vector<Likely>& more) {
+        found_.insert(found_.end(), more.begin(), more.end());
+        std::stable_sort(found_.begin(), found_.end(), [](const Likely& a, const Likely& b) {
+            return a.likelihood > b.likelihood;
+        });
+    }
+
+    /// Finds nugget and sill of these shapes, with the trend of this degree or with all.
+    [[nodiscard]] std::vector<Likely> of(std::span<const Variogram> all,
+                                         std::optional<unsigned> degree) const {
+        if (run_.stop.stop_requested()) return {};
         std::vector<std::vector<Likely>> found(all.size());
         if (run_.progress) run_.progress("variogram", 0);
         const auto one = [&](std::size_t i) {
             if (!run_.stop.stop_requested()) found[i] = likelihood_.at(all[i]);
         };
         with_threads(run_, [&] { for_each_index(all.size(), one); });
+        std::vector<Likely> result;
         for (const auto& of_shape : found)
-            for (Likely likely : of_shape) {
-                likely.likelihood -= prior;
-                if (likely.degree == degree.value_or(likely.degree)) found_.push_back(likely);
-            }
-        std::stable_sort(found_.begin(), found_.end(), [](const Likely& a, const Likely& b) {
-            return a.likelihood > b.likelihood;
-        });
+            for (const Likely& likely : of_shape)
+                if (likely.degree == degree.value_or(likely.degree)) result.push_back(likely);
+        return result;
     }
 
     /// Gives a shape ranges at equal ratios.
@@ -114,30 +123,31 @@ private:
         return all;
     }
 
-    /// Adds ranges a part of a step from that of a model.
-    void refine(Likely likely, double part) {
+    /// Finds models whose ranges are a part of a step from that of a model.
+    [[nodiscard]] std::vector<Likely> beside(const Likely& likely, double part) const {
         const auto all = ranged(likely.variogram);
-        if (all.size() < 2 || !(likely.variogram.sill > 0)) return;
+        if (all.size() < 2 || !(likely.variogram.sill > 0)) return {};
         const double ratio = std::pow(all[1].range / all[0].range, 1 / part);
         std::vector<Variogram> between{likely.variogram, likely.variogram};
         between[0].range *= ratio;
         between[1].range /= ratio;
-        add(between, likely.degree);
+        return of(between, likely.degree);
     }
 
-    /// Adds anisotropy to a model. It changes neither the area nor the shape near h = 0. All
+    /// Gives a model anisotropy, which changes neither the area nor the shape near h = 0. All
     /// directions together count as one model.
-    void turn(Likely plain) {
+    [[nodiscard]] std::vector<Likely> turned(const Likely& plain) const {
         constexpr int directions = 6;
-        std::vector<Variogram> turned;
+        std::vector<Variogram> all(directions, plain.variogram);
         for (int d = 0; d < directions; ++d) {
-            Variogram v = plain.variogram;
+            Variogram& v = all[static_cast<std::size_t>(d)];
             v.angle = 180.0 * d / directions;
             v.ratio = constants.turned_ratio;
             v.range /= std::sqrt(v.ratio);
-            turned.push_back(v);
         }
-        add(turned, plain.degree, std::log(directions));
+        auto found = of(all, plain.degree);
+        for (Likely& likely : found) likely.likelihood -= std::log(directions);
+        return found;
     }
 
     const KrigingOptions& options_;
@@ -333,7 +343,9 @@ std::string description(const WeighedModel& model) {
 ModelAverage weigh_models(const DataAroundHole& around, const KrigingOptions& options,
                           const Run& run) {
     ModelAverage average;
-    average.determined = around.data.size() >= constants.least_data;
+    if (around.data.size() < constants.least_data) average.unknown = "too few data";
+    if (std::ranges::all_of(around.data, [](const Point3& p) { return p.z == 0; }))
+        average.unknown = "all heights are 0, which has no unit";
     auto likely = Search(around.data, options, run)();
     likely = chosen(likely);
     if (options.noise)

@@ -45,7 +45,7 @@ std::string description(const WeighedModel& model);
 /// Models with weights, and how they foretell blocks of data that are left out.
 struct ModelAverage {
     std::vector<WeighedModel> models; ///< the likeliest first
-    bool determined = true;           ///< whether there are enough data to tell an expected error
+    std::string unknown{};            ///< why no expected error can be told; empty: it can
     std::size_t blocks = 0;           ///< that could be left out
     double ratio = std::numeric_limits<double>::quiet_NaN(); ///< root mean square over blocks of
                                                              ///< error / expected error

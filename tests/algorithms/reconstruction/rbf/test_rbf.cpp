@@ -198,12 +198,12 @@ TEST_CASE("rbf: a hinge sharper than the border edges gets smaller triangles", "
     const Surface s = fold_with_hole(220, 150, 0.47, 0.5, 0.126);
     const auto hole = holes_of(s).at(0);
     RbfReport report;
-    const auto filling = fill_by_rbf(s, hole, {.most_centres = 400}, report, {});
+    const auto filling = fill_by_rbf(s, hole, {.most_centres = 400}, {}, &report);
     REQUIRE(filling);
     CHECK(report.size == Approx(12.97).epsilon(0.01)); // half the border's median edge
     CHECK(join_filling(s, hole, filling.value().surface));
     // The number of vertices limits the refinement, too.
-    REQUIRE(fill_by_rbf(s, hole, {.most_centres = 400, .most_vertices = 300}, report, {}));
+    REQUIRE(fill_by_rbf(s, hole, {.most_centres = 400, .most_vertices = 300}, {}, &report));
     CHECK(report.size == Approx(25.9).epsilon(0.01));
 }
 
@@ -246,9 +246,9 @@ TEST_CASE("rbf: triangles are as small as the precision of the level warrants", 
     // beyond the allowed number of vertices.
     const Surface rough = holed(0.02);
     RbfReport other;
-    REQUIRE(fill_by_rbf(rough, holes_of(rough).at(0), {}, other, {}));
+    REQUIRE(fill_by_rbf(rough, holes_of(rough).at(0), {}, {}, &other));
     CHECK(other.size > 0.24);
-    REQUIRE(fill_by_rbf(smooth, hole, {.most_vertices = 100}, other, {}));
+    REQUIRE(fill_by_rbf(smooth, hole, {.most_vertices = 100}, {}, &other));
     CHECK(other.size > 0.24);
 }
 
@@ -300,7 +300,7 @@ TEST_CASE("rbf: the rest interpolates rough data and more data than centres", "[
     s = punched(s, disk(5, 5, 2));
     const auto hole = holes_of(s).at(0);
     RbfReport report;
-    const auto filling = fill_by_rbf(s, hole, {.reach = 3, .most_centres = 200}, report, {});
+    const auto filling = fill_by_rbf(s, hole, {.reach = 3, .most_centres = 200}, {}, &report);
     REQUIRE(filling);
     CHECK(report.data > 5000);
     CHECK(report.centres <= 200);

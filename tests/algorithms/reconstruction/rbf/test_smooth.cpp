@@ -103,7 +103,7 @@ TEST_CASE("rbf: noise of the data stays out of the hole, interpolated or smoothe
         options.smoothing = smoothing;
         options.most_centres = 400;
         RbfReport report;
-        const auto filling = fill_by_rbf(s, hole, options, report, {});
+        const auto filling = fill_by_rbf(s, hole, options, {}, &report);
         REQUIRE(filling);
         if (smoothing) {
             CHECK(report.largest_error == report.missed);
