@@ -62,11 +62,10 @@ public:
                        l.variogram.exponent == shape.exponent;
             });
             if (best == found_.end()) continue;
-            for (const double part : {2.0, 4.0, 8.0, 16.0})
-                for (const Likely& other : beside(*best, part))
-                    if (other.likelihood > best->likelihood) *best = other;
+            for (const double part : {2.0, 4.0, 8.0, 16.0}) climb(*best, part);
         }
         add({});
+        for (const double part : {32.0, 64.0}) climb(found_[0], part);
         for (const double part : {2.0, 4.0}) add(beside(found_[0], part));
         if (options_.anisotropy && found_[0].variogram.sill > 0) add(turned(found_[0]));
         return std::move(found_);
@@ -132,6 +131,12 @@ private:
         between[0].range *= ratio;
         between[1].range /= ratio;
         return of(between, likely.degree);
+    }
+
+    /// Replaces a model by a likelier one beside it.
+    void climb(Likely& likely, double part) const {
+        for (const Likely& other : beside(likely, part))
+            if (other.likelihood > likely.likelihood) likely = other;
     }
 
     /// Gives a model anisotropy, which changes neither the area nor the shape near h = 0. All
