@@ -11,9 +11,9 @@ shared with the program.
 
   tests/oracles/filled_fields.py --draws 2000 --jobs 2
 
-With --real, the surfaces of files are punched at random places instead, and their own triangles are the truth.
-Holes and others are the same; the program converts the files, and a place where it says that the surface is no
-graph is left for another one.
+With --real, the surfaces of files are punched at random places instead, and the vertices that are taken out are the
+truth: the new triangles are compared with it. Holes and others are the same; the program converts the files, and a
+place where it says that the surface is no graph is left for another one.
 
   tests/oracles/filled_fields.py --draws 200 --real horizons.ts seabed.irap
 
@@ -213,7 +213,7 @@ def surfaces_of(program, paths):
 
 
 class Punched(Draw):
-    """A hole in a part of a real surface, whose truth are its own triangles."""
+    """A hole in a part of a real surface, whose truth are the vertices that are taken out."""
 
     covariances, amplitude, share_of_noise = [], 1.0, 0.0
 
@@ -240,7 +240,8 @@ class Punched(Draw):
         used, corners = np.unique(near[~in_hole], return_inverse=True)
         if not in_hole.any() or len(used) < 100 or taken[edges[count == 1]].any():
             return False
-        self.lost, self.triangles = near[in_hole], corners.reshape(-1, 3)
+        self.lost = self.vertices[np.setdiff1d(near, used)]
+        self.triangles = corners.reshape(-1, 3)
         self.points, self.z = flat[used], self.vertices[used, 2]
         if len(np.unique(self.points, axis=0)) < len(used):
             return False  # no graph
@@ -248,18 +249,23 @@ class Punched(Draw):
         return self.deviation > 0
 
     def truth(self, places):
-        """Returns heights of the triangles that were taken out; NaN elsewhere."""
-        a, b, c = (self.vertices[self.lost[:, i]] for i in range(3))
-        u, v, p = (b - a)[:, :2], (c - a)[:, :2], places[:, None] - a[:, :2]
-        area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
-        area = np.where(area == 0, np.nan, area)
-        t = (p[..., 0] * v[:, 1] - p[..., 1] * v[:, 0]) / area
-        s = (u[:, 0] * p[..., 1] - u[:, 1] * p[..., 0]) / area
-        least = np.nan_to_num(np.minimum(np.minimum(t, s), 1 - t - s), nan=-1)
-        at = least.argmax(1), np.arange(len(places))
-        t, s = t[at[1], at[0]], s[at[1], at[0]]
-        z = a[at[0], 2] + t * (b - a)[at[0], 2] + s * (c - a)[at[0], 2]
-        return np.where(least.max(1) > -1e-9, z, np.nan)
+        """Returns heights at places of vertices that were taken out."""
+        return self.lost[cdist(places, self.lost[:, :2]).argmin(1), 2]
+
+
+def interpolated(vertices, triangles, places):
+    """Returns rows of vertices at places, linear within triangles; without those outside."""
+    a, b, c = (vertices[triangles[:, i]] for i in range(3))
+    u, v, p = (b - a)[:, :2], (c - a)[:, :2], places[:, None] - a[:, :2]
+    area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+    area = np.where(area == 0, np.nan, area)
+    t = (p[..., 0] * v[:, 1] - p[..., 1] * v[:, 0]) / area
+    s = (u[:, 0] * p[..., 1] - u[:, 1] * p[..., 0]) / area
+    least = np.nan_to_num(np.minimum(np.minimum(t, s), 1 - t - s), nan=-1)
+    row, best = np.arange(len(places)), least.argmax(1)
+    t, s = t[row, best][:, None], s[row, best][:, None]
+    found = a[best] + t * (b - a)[best] + s * (c - a)[best]
+    return np.c_[places, found[:, 2:]][least.max(1) > -1e-9]
 
 
 def universal_kriging(p, z, places):
@@ -308,13 +314,20 @@ def filled(program, draw, method):
         holes = json.loads((folder / "stats.json").read_text())["holes"]
         if not holes:
             raise RuntimeError("0 holes")
-        if rows:
+        if rows and not isinstance(draw, Punched):
             return np.array(rows)
         lines = [line.split() for line in (folder / "out.obj").read_text().splitlines()]
         vertices = np.array([w[1:4] for w in lines if w and w[0] == "v"], float)
         triangles = np.array([w[1:4] for w in lines if w and w[0] == "f"], int) - 1
-        middles = vertices[triangles[len(draw.triangles):]].mean(1)
         expected = holes[0]["filled"]["expected_error"]
+        new = triangles[len(draw.triangles):]
+        if isinstance(draw, Punched):
+            if not rows:
+                flat = interpolated(vertices, new, draw.lost[:, :2])
+                return np.c_[flat, np.full(len(flat), np.nan if expected is None else expected)]
+            deviation = np.r_[np.zeros(len(vertices) - len(rows)), np.array(rows)[:, 3]]
+            return interpolated(np.c_[vertices, deviation], new, draw.lost[:, :2])
+        middles = vertices[new].mean(1)
         return np.c_[middles, np.full(len(middles), np.nan if expected is None else expected)]
 
 
@@ -350,7 +363,7 @@ def measure(task):
     truth = draw.truth(new[:, :2])
     new, truth = new[np.isfinite(truth)], truth[np.isfinite(truth)]
     if len(new) == 0:
-        return f"  left out: {draw.parts[0]}: the hole's triangles have no middle where it was"
+        return f"  left out: {draw.parts[0]}: no vertex that was taken out is in the filled hole"
     rms = lambda e: float(np.sqrt(np.mean(e**2)))
     error, least = new[:, 2] - truth, 1e-4 * draw.deviation  # of fields as rough as JITTER
     others = {name: max(least, rms(z - truth)) for name, z in draw.others(new[:, :2]).items()}
