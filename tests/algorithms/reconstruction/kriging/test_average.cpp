@@ -299,9 +299,11 @@ TEST_CASE("kriging: with few data no expected error is told", "[kriging]") {
     Random random(34);
     Ring ring = ring_of(random);
     draw(random, ring);
-    const DataAroundHole few{std::span(ring.data).first(constants.least_data - 1), 8, hole_radius};
+    const DataAroundHole few{std::span(ring.data).first(19), 8, hole_radius};
     const auto average = weigh_models(few, {}, {});
     CHECK(average.unknown == "too few data");
+    const DataAroundHole enough{std::span(ring.data).first(20), 8, hole_radius};
+    CHECK(weigh_models(enough, {}, {}).unknown.empty());
     const auto known = AveragedHeights(few, average, {}).at(ring.places, {});
     for (const double e : known.expected) CHECK(std::isnan(e));
     for (const double z : known.heights) CHECK(std::isfinite(z));
