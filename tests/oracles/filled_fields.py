@@ -327,8 +327,7 @@ def filled(program, draw, method):
                 return np.c_[flat, np.full(len(flat), np.nan if expected is None else expected)]
             deviation = np.r_[np.zeros(len(vertices) - len(rows)), np.array(rows)[:, 3]]
             found = interpolated(np.c_[vertices, deviation], new, draw.lost[:, :2])
-            found[:, 3] = np.where(found[:, 3] > 0, found[:, 3], expected)  # between border vertices alone
-            return found
+            return found[found[:, 3] > 0.1 * expected]  # the border is given, and has no expected error
         middles = vertices[new].mean(1)
         return np.c_[middles, np.full(len(middles), np.nan if expected is None else expected)]
 
