@@ -320,16 +320,17 @@ def filled(program, draw, method):
         vertices = np.array([w[1:4] for w in lines if w and w[0] == "v"], float)
         triangles = np.array([w[1:4] for w in lines if w and w[0] == "f"], int) - 1
         expected = holes[0]["filled"]["expected_error"]
+        expected = np.nan if expected is None else expected
         new = triangles[len(draw.triangles):]
         if isinstance(draw, Punched):
             if not rows:
                 flat = interpolated(vertices, new, draw.lost[:, :2])
-                return np.c_[flat, np.full(len(flat), np.nan if expected is None else expected)]
+                return np.c_[flat, np.full(len(flat), expected)]
             deviation = np.r_[np.zeros(len(vertices) - len(rows)), np.array(rows)[:, 3]]
             found = interpolated(np.c_[vertices, deviation], new, draw.lost[:, :2])
-            return found[found[:, 3] > 0.1 * expected]  # the border is given, and has no expected error
+            return found[~(found[:, 3] <= 0.1 * expected)]  # the border is given, and has no expected error
         middles = vertices[new].mean(1)
-        return np.c_[middles, np.full(len(middles), np.nan if expected is None else expected)]
+        return np.c_[middles, np.full(len(middles), expected)]
 
 
 def drawn(program, method, seed, files):
@@ -363,6 +364,8 @@ def measure(task):
     new = new[draw.rng.permutation(len(new))[:250]]
     truth = draw.truth(new[:, :2])
     new, truth = new[np.isfinite(truth)], truth[np.isfinite(truth)]
+    if np.isnan(new[:, 3]).any():
+        return f"  left out: {draw.parts[0]}: an expected error is unknown"
     if len(new) == 0:
         return f"  left out: {draw.parts[0]}: no vertex that was taken out is in the filled hole"
     rms = lambda e: float(np.sqrt(np.mean(e**2)))
