@@ -43,9 +43,9 @@ there is, by the numbers that --holes takes.
 
 kriging needs a surface that is z = f(x, y) round the hole. rbf (the zero level of a radial basis
 function through points round the hole) takes any surface, folds too; with --smoothing it need not
-meet these points. Both foresee their errors. The surface keeps all its vertices and triangles; new
-ones come after them and share the border's vertices. Where new triangles would cross others, nothing
-is written. VTP gets arrays interpolated (the number of the hole, 0 for what was given)
+meet these points. Of z = f(x, y), errors are foreseen. The surface keeps all its vertices and
+triangles; new ones come after them and share the border's vertices. Where new triangles would cross
+others, nothing is written. VTP gets arrays interpolated (the number of the hole, 0 for what was given)
 and deviation (the expected error, mean of the corners). A hole that can't be filled is named and
 left open, and the exit status is 1.
 

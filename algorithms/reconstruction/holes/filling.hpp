@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
 
@@ -19,5 +20,13 @@ struct Filling {
                           ///< unknown
     FillReport report{};  ///< how it was made
 };
+
+/// Computes the area of a surface.
+inline double area_of(const Surface& s) {
+    double sum = 0;
+    for (const Triangle& t : s.triangles)
+        sum += area_between(s.vertices[t[0]], s.vertices[t[1]], s.vertices[t[2]]);
+    return sum;
+}
 
 } // namespace terrane

@@ -8,7 +8,6 @@
 #include <terrane/algorithms/mesh/edges.hpp>
 
 namespace terrane::detail {
-namespace {
 
 using holes::detail::constants;
 
@@ -16,8 +15,6 @@ double root_mean_square(std::span<const double> values) {
     const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
     return std::sqrt(squares / static_cast<double>(values.size()));
 }
-
-} // namespace
 
 std::vector<Edge> some_inner_edges(std::span<const Triangle> triangles, std::size_t vertices,
                                    std::size_t most) {

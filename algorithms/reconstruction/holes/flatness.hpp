@@ -19,9 +19,7 @@ constexpr unsigned most_halvings = holes::detail::constants.most_halvings;
 std::vector<Edge> some_inner_edges(std::span<const Triangle> triangles, std::size_t vertices,
                                    std::size_t most);
 
-inline Point3 middle_of(const Point3& a, const Point3& b) {
-    return {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
-}
+double root_mean_square(std::span<const double> values);
 
 /// Tells whether smaller triangles would bring a filling nearer to the truth. `sags` are the
 /// distances of the interpolating function from the midpoints of edges, `expected` its own expected

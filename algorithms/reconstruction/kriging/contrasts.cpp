@@ -16,6 +16,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+/// Logarithms of the nuggets that are tried, in mean variances of contrasts: 1e-10 and 1e3.
+constexpr double least_nugget = -23.02585092994046, most_nugget = 6.907755278982137;
+
 /// Reflects data by the k-th Householder vector, whose first component is 1.
 void reflect(const MatrixXd& vectors, double factor, Index k, double* data) {
     const Index below = vectors.rows() - k - 1;
@@ -84,24 +87,37 @@ void Contrasts::reproduce(MatrixXd& terms) const {
     vectors_.topLeftCorner(m, m).transpose().triangularView<Eigen::Lower>().solveInPlace(terms);
 }
 
-TridiagonalKernel::TridiagonalKernel(const MatrixXd& kernel, const VectorXd& contrasts) {
+TridiagonalKernel::TridiagonalKernel(const MatrixXd& kernel, const VectorXd& contrasts,
+                                     std::vector<Index> trends) :
+    trends_(std::move(trends)) {
     const Eigen::Tridiagonalization<MatrixXd> form(kernel);
     diagonal_ = form.diagonal();
     beside_ = form.subDiagonal();
-    values_ = contrasts;
-    values_.applyOnTheLeft(form.matrixQ().adjoint());
     scale_ = std::max(diagonal_.mean(), std::numeric_limits<double>::min());
+    MatrixXd columns = MatrixXd::Zero(contrasts.size(), most_columns);
+    Index next = trends_.back();
+    columns.topLeftCorner(next, next).setIdentity();
+    for (const Index trend : trends_)
+        columns.col(next++).tail(contrasts.size() - trend) =
+            contrasts.tail(contrasts.size() - trend);
+    columns.applyOnTheLeft(form.matrixQ().adjoint());
+    for (Index i = 0; i < columns.rows(); ++i) rows_.emplace_back(columns.row(i));
 }
 
-TridiagonalKernel::Profile TridiagonalKernel::profile(double nugget) const {
-    const Index n = diagonal_.size();
-    double pivot = 0, carried = 0, squares = 0, logarithms = 0, product = 1;
+/// Computes the likelihood of contrasts without those of a trend from that of all: the determinant
+/// grows by that of the trend's generalised least squares, whose residual gives the sill.
+std::vector<LikelyNugget> TridiagonalKernel::profile(double nugget) const {
+    const Index n = diagonal_.size(), most = trends_.back();
+    double pivot = 0, logarithms = 0, product = 1;
+    Columns carried = Columns::Zero();
+    Eigen::Matrix<double, most_columns, most_columns> products;
+    products.setZero();
     for (Index i = 0; i < n; ++i) {
         const double ratio = i == 0 ? 0 : beside_[i - 1] / pivot;
         pivot = diagonal_[i] + nugget - (i == 0 ? 0 : ratio * beside_[i - 1]);
         if (!(pivot > 0)) return {};
-        carried = values_[i] - ratio * carried;
-        squares += carried * carried / pivot;
+        carried = rows_[static_cast<std::size_t>(i)] - ratio * carried;
+        products.noalias() += (carried / pivot) * carried.transpose();
         product *= pivot;
         if (product < 1e-200 || product > 1e200) { // a logarithm for many pivots at a time
             logarithms += std::log(product);
@@ -109,33 +125,75 @@ TridiagonalKernel::Profile TridiagonalKernel::profile(double nugget) const {
         }
     }
     logarithms += std::log(product);
-    const double sill = squares / static_cast<double>(n);
-    if (!(sill > 0)) return {};
-    return {-(static_cast<double>(n) * std::log(sill) + logarithms) / 2, sill};
+    // The factor of the trends' products, row by row.
+    for (Index j = 0; j < most; ++j) {
+        products(j, j) = std::sqrt(products(j, j));
+        products.row(j).tail(most_columns - j - 1) /= products(j, j);
+        for (Index k = j + 1; k < most; ++k)
+            products.row(k).tail(most_columns - k) -=
+                products(j, k) * products.row(j).tail(most_columns - k);
+    }
+    std::vector<LikelyNugget> found(trends_.size());
+    for (std::size_t t = 0; t < trends_.size(); ++t) {
+        const Index trend = trends_[t], column = most + static_cast<Index>(t);
+        const auto count = static_cast<double>(n - trend);
+        const double squares =
+            products(column, column) - products.col(column).head(trend).squaredNorm();
+        const double sill = squares / count;
+        const double all = logarithms + 2 * products.diagonal().head(trend).array().log().sum();
+        if (sill > 0) found[t] = {-(count * std::log(sill) + all) / 2, sill, sill * nugget};
+    }
+    return found;
 }
 
-LikelyNugget TridiagonalKernel::most_likely() const {
-    LikelyNugget best;
-    double best_at = 0;
-    constexpr double least = 1e-10, most = 1e3; // nuggets in mean variances of contrasts
-    const double low = std::log(least), high = std::log(most);
+std::vector<LikelyNugget> TridiagonalKernel::most_likely() const {
+    std::vector<LikelyNugget> best(trends_.size());
+    std::vector<double> best_at(trends_.size());
     const auto attempt = [&](double exponent) {
-        const double nugget = scale_ * std::exp(exponent);
-        const Profile found = profile(nugget);
-        if (!(found.likelihood > best.likelihood)) return;
-        best = {found.likelihood, found.sill, found.sill * nugget};
-        best_at = exponent;
+        const auto found = profile(scale_ * std::exp(exponent));
+        for (std::size_t t = 0; t < found.size(); ++t) {
+            if (!(found[t].likelihood > best[t].likelihood)) continue;
+            best[t] = found[t];
+            best_at[t] = exponent;
+        }
     };
     constexpr int steps = 48, halvings = 3;
-    double step = (high - low) / steps;
-    for (int k = 0; k <= steps; ++k) attempt(low + k * step);
+    double step = (most_nugget - least_nugget) / steps;
+    for (int k = 0; k <= steps; ++k) attempt(least_nugget + k * step);
     for (int k = 0; k < halvings; ++k) {
         step /= 2;
-        const double middle = best_at;
-        attempt(std::max(low, middle - step));
-        attempt(middle + step);
+        for (const double middle : std::vector(best_at)) {
+            attempt(std::max(least_nugget, middle - step));
+            attempt(middle + step);
+        }
     }
     return best;
+}
+
+double TridiagonalKernel::nugget_leaving(double squares) const {
+    const Index n = diagonal_.size(), column = trends_.back();
+    const auto left = [&](double nugget) { // nugget times the weights, by elimination
+        std::vector<double> pivots, carried;
+        for (Index i = 0; i < n; ++i) {
+            const double ratio = i == 0 ? 0 : beside_[i - 1] / pivots.back();
+            pivots.push_back(diagonal_[i] + nugget - (i == 0 ? 0 : ratio * beside_[i - 1]));
+            carried.push_back(rows_[static_cast<std::size_t>(i)][column] -
+                              (i == 0 ? 0 : ratio * carried.back()));
+        }
+        double sum = 0, weight = 0;
+        for (Index i = n; i-- > 0;) {
+            const auto k = static_cast<std::size_t>(i);
+            weight = (carried[k] - (i + 1 < n ? beside_[i] * weight : 0)) / pivots[k];
+            sum += nugget * nugget * weight * weight;
+        }
+        return sum;
+    };
+    double low = least_nugget, high = most_nugget;
+    for (int k = 0; k < 40; ++k) {
+        const double middle = (low + high) / 2;
+        (left(scale_ * std::exp(middle)) < squares ? low : high) = middle;
+    }
+    return scale_ * std::exp(high);
 }
 
 bool cholesky(MatrixXd& matrix, const Run& run) {
@@ -170,11 +228,15 @@ MatrixXd squared(const MatrixXd& matrix) {
     return result;
 }
 
-MatrixXd inverse_of(MatrixXd matrix) {
-    if (!cholesky(matrix, {})) return {};
-    MatrixXd half = MatrixXd::Identity(matrix.rows(), matrix.cols());
-    divide_by_factor(matrix, half);
-    return squared(half);
+MatrixXd inverse_of_factor(const MatrixXd& factor) {
+    constexpr Index panel = 32;
+    const Index n = factor.rows();
+    MatrixXd inverse = MatrixXd::Identity(n, n);
+    for (Index k = 0; k < n; k += panel) { // columns are 0 above their diagonal
+        Eigen::Ref<MatrixXd> columns = inverse.block(k, k, n - k, std::min(panel, n - k));
+        factor.bottomRightCorner(n - k, n - k).triangularView<Eigen::Lower>().solveInPlace(columns);
+    }
+    return inverse;
 }
 
 } // namespace terrane

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -52,22 +53,31 @@ struct LikelyNugget {
 };
 
 /// Holds the covariance matrix of contrasts in a basis in which it is tridiagonal. The likelihood of
-/// another nugget then costs O(n). Cost of the basis: 4/3 n^3.
+/// another nugget then costs O(n), for trends of all degrees together. Cost of the basis: 4/3 n^3.
 class TridiagonalKernel {
 public:
-    TridiagonalKernel(const Eigen::MatrixXd& kernel, const Eigen::VectorXd& contrasts);
+    /// `trends`: how many of the first contrasts belong to each trend, ascending, at most three
+    /// numbers up to 5.
+    TridiagonalKernel(const Eigen::MatrixXd& kernel, const Eigen::VectorXd& contrasts,
+                      std::vector<Eigen::Index> trends);
 
-    /// Finds the nugget and the sill with the largest restricted likelihood (Harville 1977).
-    [[nodiscard]] LikelyNugget most_likely() const;
+    /// Finds, for each trend, the nugget and the sill with the largest restricted likelihood
+    /// (Harville 1977).
+    [[nodiscard]] std::vector<LikelyNugget> most_likely() const;
+    /// Finds the nugget, for a sill of 1, with which this sum of squares is left of the contrasts
+    /// of the first trend, or the largest that is tried. Needs a first trend of 0.
+    [[nodiscard]] double nugget_leaving(double squares) const;
 
 private:
-    struct Profile {
-        double likelihood = -HUGE_VAL;
-        double sill = 0;
-    };
-    [[nodiscard]] Profile profile(double nugget) const;
+    static constexpr int most_columns = 8;
+    using Columns = Eigen::Matrix<double, most_columns, 1>;
 
-    Eigen::VectorXd diagonal_, beside_, values_;
+    [[nodiscard]] std::vector<LikelyNugget> profile(double nugget) const;
+
+    std::vector<Eigen::Index> trends_;
+    Eigen::VectorXd diagonal_, beside_;
+    std::vector<Columns> rows_; ///< per number of the basis: of the trends' contrasts, then of the
+                                ///< data without those of each trend
     double scale_ = 0;
 };
 
@@ -83,7 +93,7 @@ void divide_by_transposed(const Eigen::MatrixXd& factor, Eigen::MatrixXd& column
 /// Computes the product of the transpose of a matrix and itself.
 Eigen::MatrixXd squared(const Eigen::MatrixXd& matrix);
 
-/// Inverts a matrix. Returns an empty one if the matrix is not positive definite.
-Eigen::MatrixXd inverse_of(Eigen::MatrixXd matrix);
+/// Inverts a Cholesky factor. Cost: n^3 / 3.
+Eigen::MatrixXd inverse_of_factor(const Eigen::MatrixXd& factor);
 
 } // namespace terrane

@@ -2,7 +2,6 @@
 #include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -29,48 +28,23 @@ namespace {
 /// in classes of its distance, and its variogram at distances up to theirs.
 void record_variogram(std::span<const Point3> data, const WeighedModel& likeliest,
                       FillReport& report) {
-    constexpr std::size_t classes = 15, steps = 60;
-    const Variogram& model = likeliest.variogram;
     const TrendTerms trend(data, likeliest.degree);
     const Eigen::MatrixXd terms = trend.matrix(data);
-    Eigen::VectorXd heights(static_cast<Eigen::Index>(data.size()));
-    for (std::size_t i = 0; i < data.size(); ++i) heights(static_cast<Eigen::Index>(i)) = data[i].z;
+    const Eigen::VectorXd heights = heights_of(data);
     const Contrasts contrasts(terms);
     Eigen::VectorXd numbers = heights;
     contrasts.apply(numbers);
     const Eigen::VectorXd left = heights - terms * contrasts.trend_of(numbers);
     std::vector<Point3> residuals(data.begin(), data.end());
-    Point3 least = data.front(), largest = data.front();
-    for (std::size_t i = 0; i < data.size(); ++i) {
-        const Point3& p = data[i];
+    for (std::size_t i = 0; i < data.size(); ++i)
         residuals[i].z = left(static_cast<Eigen::Index>(i));
-        least = {std::min(least.x, p.x), std::min(least.y, p.y), 0};
-        largest = {std::max(largest.x, p.x), std::max(largest.y, p.y), 0};
-    }
-    const double longest = std::hypot(largest.x - least.x, largest.y - least.y) / 2;
+    const double longest = flat_extent_of(data) / 2;
     if (!(longest > 0)) return;
-    struct Class {
-        double distance = 0, gamma = 0, pairs = 0;
-    };
-    const auto bins = experimental_variogram(residuals, longest);
-    double farthest = 0;
-    for (const VariogramBin& bin : bins)
-        farthest = std::max(farthest, model.distance(bin.dx, bin.dy));
-    if (!(farthest > 0)) return;
-    std::array<Class, classes> sums{};
-    for (const VariogramBin& bin : bins) {
-        const double distance = model.distance(bin.dx, bin.dy);
-        const auto at = static_cast<std::size_t>(classes * distance / farthest);
-        Class& sum = sums[std::min(at, classes - 1)];
-        const auto pairs = static_cast<double>(bin.pairs);
-        sum = {sum.distance + pairs * distance, sum.gamma + pairs * bin.gamma, sum.pairs + pairs};
-    }
-    for (const Class& sum : sums)
-        if (sum.pairs > 0)
-            report.variogram.push_back({sum.distance / sum.pairs, sum.gamma / sum.pairs});
+    report.variogram = experimental_variogram(residuals, likeliest.variogram, longest);
+    constexpr std::size_t steps = 60;
     for (std::size_t i = 1; i <= steps; ++i) {
-        const double distance = farthest * static_cast<double>(i) / steps;
-        report.variogram_model.push_back({distance, model.at(distance)});
+        const double distance = longest * static_cast<double>(i) / steps;
+        report.variogram_model.push_back({distance, likeliest.variogram.at(distance)});
     }
 }
 
@@ -88,7 +62,8 @@ std::string description(const ModelAverage& average) {
                 : "; no blocks as wide as the hole can be left out";
     if (std::isfinite(average.rim_ratio))
         text += fmt::format(", its rim by {} times", figure(average.rim_ratio, 3));
-    if (!average.determined) text += "; too few data to tell an expected error";
+    if (!average.unknown.empty())
+        text += fmt::format("; no expected error can be told: {}", average.unknown);
     return text;
 }
 

@@ -53,148 +53,7 @@ double median_edge(const std::vector<Point3>& points, const Polygon& polygon) {
     return *middle;
 }
 
-/// Checks that each border edge has the surface on one side and the filling on the other.
-Status check_sides(const KrigingData& data, std::span<const Point3> points,
-                   std::span<const Triangle> triangles) {
-    std::map<std::array<std::uint32_t, 2>, std::uint32_t> third_of;
-    for (const Triangle& t : triangles)
-        for (unsigned i = 0; i < 3; ++i) third_of[{t[i], t[(i + 1) % 3]}] = t[(i + 2) % 3];
-    std::size_t edge = 0;
-    for (const Polygon& polygon : data.borders)
-        for (std::size_t i = 0; i < polygon.size(); ++i, ++edge) {
-            const auto a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-            const auto along = third_of.find({a, b}), against = third_of.find({b, a});
-            const auto found = along != third_of.end() ? along : against;
-            const Point3 &p = points[a], &q = points[b];
-            const Sign filled = found == third_of.end()
-                                    ? Sign::Zero
-                                    : orient2d(Axis::z, p, q, points[found->second]);
-            const Point3& inner = data.points[data.inner_of[edge]];
-            if (filled * orient2d(Axis::z, p, q, inner) != Sign::Negative)
-                return Error{ErrorCode::unsupported,
-                             "the surface is no graph z = f(x, y) next to the hole: it reaches "
-                             "into the hole, seen from above; --method rbf can fill it",
-                             place_text(p)};
-        }
-    return Done{};
-}
-
-/// A filling before it has heights; contains only vertices of its triangles.
-struct FlatFilling {
-    std::vector<Point3> points; ///< border points first
-    std::size_t border = 0;
-    std::vector<Triangle> triangles; ///< front up
-};
-
-Result<FlatFilling> mesh_of(const KrigingData& data, double mesh_size, const Run& run) {
-    FlatFilling flat;
-    for (const Polygon& polygon : data.borders) flat.border += polygon.size();
-    std::vector<Point3> points(data.points.begin(),
-                               data.points.begin() + static_cast<std::ptrdiff_t>(flat.border));
-    const auto places =
-        places_within(points, data.borders, mesh_size, constants.most_places, run.stop);
-    if (run.stop.stop_requested()) return stopped();
-    points.insert(points.end(), places.begin(), places.end());
-    auto triangles = triangulate_inside(points, data.borders, run);
-    if (!triangles) {
-        if (triangles.error().code != ErrorCode::improper_contact) return triangles.error();
-        Error error = triangles.error();
-        error.code = ErrorCode::unsupported;
-        error.sentence = "the hole can't be filled as z = f(x, y): " + error.sentence +
-                         "; --method rbf can fill it";
-        return error;
-    }
-    std::vector<std::uint32_t> number(points.size(), UINT32_MAX);
-    for (std::uint32_t i = 0; i < flat.border; ++i) number[i] = i;
-    flat.points.assign(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(flat.border));
-    for (Triangle t : triangles.value()) {
-        for (auto& v : t) {
-            if (number[v] == UINT32_MAX) {
-                number[v] = static_cast<std::uint32_t>(flat.points.size());
-                flat.points.push_back(points[v]);
-            }
-            v = number[v];
-        }
-        flat.triangles.push_back(t);
-    }
-    if (const auto status = check_sides(data, flat.points, flat.triangles); !status)
-        return status.error();
-    return flat;
-}
-
-/// Sets the heights of interpolated vertices. Returns the expected error per vertex, 0 on the
-/// borders.
-std::vector<double> set_heights(FlatFilling& flat, const HeightSource& source) {
-    const auto known = source(std::span(flat.points).subspan(flat.border));
-    std::vector<double> expected_error(flat.border, 0);
-    for (std::size_t i = 0; i < known.heights.size(); ++i)
-        flat.points[flat.border + i].z = known.heights[i];
-    expected_error.insert(expected_error.end(), known.expected.begin(), known.expected.end());
-    return expected_error;
-}
-
-/// Tells whether smaller triangles would bring the filling nearer to the truth.
-bool is_too_flat(const FlatFilling& flat, const HeightSource& source, double mesh_size) {
-    const auto edges =
-        detail::some_inner_edges(flat.triangles, flat.points.size(), constants.most_sags);
-    std::vector<Point3> places;
-    for (const auto& [a, b] : edges) {
-        const Point3 &p = flat.points[a], &q = flat.points[b];
-        places.insert(places.end(), {p, q, detail::middle_of(p, q)});
-    }
-    const auto known = source(places);
-    std::vector<double> sags, expected;
-    for (std::size_t i = 0; i < places.size(); i += 3) {
-        // Estimates, not data: noise at the border does not count.
-        sags.push_back(known.heights[i + 2] - (known.heights[i] + known.heights[i + 1]) / 2);
-        expected.push_back(known.expected[i + 2]);
-    }
-    return detail::flatness_outweighs(sags, expected, mesh_size);
-}
-
-double root_mean_square(std::span<const double> values) {
-    const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
-    return std::sqrt(squares / static_cast<double>(values.size()));
-}
-
-/// Computes the expected error of triangles between border vertices alone, at their middles: how far
-/// they are from the estimates, and these from the truth.
-double error_of_flat(const FlatFilling& flat, const HeightSource& source) {
-    std::vector<Point3> middles;
-    for (const Triangle& t : flat.triangles) {
-        const Point3 &a = flat.points[t[0]], &b = flat.points[t[1]], &c = flat.points[t[2]];
-        middles.push_back({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3, (a.z + b.z + c.z) / 3});
-    }
-    const auto known = source(middles);
-    std::vector<double> errors;
-    for (std::size_t i = 0; i < middles.size(); ++i)
-        errors.push_back(std::hypot(known.expected[i], known.heights[i] - middles[i].z));
-    return root_mean_square(errors);
-}
-
-double area_of(const Surface& s) {
-    double sum = 0;
-    for (const Triangle& t : s.triangles)
-        sum += area_between(s.vertices[t[0]], s.vertices[t[1]], s.vertices[t[2]]);
-    return sum;
-}
-
 } // namespace
-
-struct FlatHole::State {
-    Surface named; ///< name and role of the surface, no more
-    KrigingData data;
-    std::size_t border = 0;
-    double area = 0;      ///< positive if the loop is counterclockwise
-    double mesh_size = 0; ///< as used
-    bool given = false;   ///< whether a mesh size was
-    FlatFilling flat;
-};
-
-FlatHole::FlatHole(std::unique_ptr<State> state) : state_(std::move(state)) {}
-FlatHole::FlatHole(FlatHole&&) noexcept = default;
-FlatHole& FlatHole::operator=(FlatHole&&) noexcept = default;
-FlatHole::~FlatHole() = default;
 
 Result<FlatHole> FlatHole::of(const Surface& surface, const BorderLoop& loop,
                               std::span<const BorderLoop> loops, std::size_t rings,
@@ -204,68 +63,148 @@ Result<FlatHole> FlatHole::of(const Surface& surface, const BorderLoop& loop,
     const RingRange range{rings, edge > 0 ? std::floor(reach / edge) : 0};
     auto found = collect_data(surface, loops_within(surface, loop, loops), range, run);
     if (!found) return found.error();
-    auto state = std::make_unique<State>();
-    state->named = {surface.name, surface.role, {}, {}};
-    state->data = std::move(found).value();
-    for (const Polygon& polygon : state->data.borders) state->border += polygon.size();
-    state->area = signed_area(state->data.points, state->data.borders[0]);
-    if (state->area == 0 || !(median_edge(state->data.points, state->data.borders[0]) > 0))
+    FlatHole hole;
+    hole.named_ = {surface.name, surface.role, {}, {}};
+    hole.data_ = std::move(found).value();
+    hole.area_ = signed_area(hole.data_.points, hole.data_.borders[0]);
+    if (hole.area_ == 0 || !(median_edge(hole.data_.points, hole.data_.borders[0]) > 0))
         return Error{ErrorCode::nothing_to_do, "the hole has no area, seen from above",
                      place_text(loop.centre)};
-    return FlatHole(std::move(state));
-}
-
-const std::vector<Point3>& FlatHole::data() const {
-    return state_->data.points;
-}
-
-std::size_t FlatHole::border() const {
-    return state_->border;
+    return hole;
 }
 
 double FlatHole::radius() const {
-    return std::sqrt(std::abs(state_->area) / std::numbers::pi);
-}
-
-double FlatHole::mesh_size() const {
-    return state_->mesh_size;
+    return std::sqrt(std::abs(area_) / std::numbers::pi);
 }
 
 Status FlatHole::triangulate(double mesh_size, const Run& run) {
-    State& s = *state_;
-    s.given = mesh_size > 0;
-    s.mesh_size = s.given ? mesh_size : median_edge(s.data.points, s.data.borders[0]);
-    auto flat = mesh_of(s.data, s.mesh_size, run);
-    if (!flat) return flat.error();
-    s.flat = std::move(flat).value();
+    given_ = mesh_size > 0;
+    mesh_size_ = given_ ? mesh_size : median_edge(data_.points, data_.borders[0]);
+    return build(run);
+}
+
+Status FlatHole::build(const Run& run) {
+    const auto on_border = static_cast<std::ptrdiff_t>(border());
+    std::vector<Point3> points(data_.points.begin(), data_.points.begin() + on_border);
+    const auto places =
+        places_within(points, data_.borders, mesh_size_, constants.most_places, run.stop);
+    if (run.stop.stop_requested()) return stopped();
+    points.insert(points.end(), places.begin(), places.end());
+    auto triangles = triangulate_inside(points, data_.borders, run);
+    if (!triangles) {
+        if (triangles.error().code != ErrorCode::improper_contact) return triangles.error();
+        Error error = triangles.error();
+        error.code = ErrorCode::unsupported;
+        error.sentence = "the hole can't be filled as z = f(x, y): " + error.sentence +
+                         "; --method rbf can fill it";
+        return error;
+    }
+    // Only vertices of triangles are kept.
+    std::vector<std::uint32_t> number(points.size(), UINT32_MAX);
+    std::iota(number.begin(), number.begin() + on_border, 0U);
+    mesh_ = {{points.begin(), points.begin() + on_border}, {}};
+    for (Triangle t : triangles.value()) {
+        for (auto& v : t) {
+            if (number[v] == UINT32_MAX) {
+                number[v] = static_cast<std::uint32_t>(mesh_.points.size());
+                mesh_.points.push_back(points[v]);
+            }
+            v = number[v];
+        }
+        mesh_.triangles.push_back(t);
+    }
+    return check_sides();
+}
+
+/// Checks that each border edge has the surface on one side and the filling on the other.
+Status FlatHole::check_sides() const {
+    std::map<std::array<std::uint32_t, 2>, std::uint32_t> third_of;
+    for (const Triangle& t : mesh_.triangles)
+        for (unsigned i = 0; i < 3; ++i) third_of[{t[i], t[(i + 1) % 3]}] = t[(i + 2) % 3];
+    std::size_t edge = 0;
+    for (const Polygon& polygon : data_.borders)
+        for (std::size_t i = 0; i < polygon.size(); ++i, ++edge) {
+            const auto a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+            const auto along = third_of.find({a, b}), against = third_of.find({b, a});
+            const auto found = along != third_of.end() ? along : against;
+            const Point3 &p = mesh_.points[a], &q = mesh_.points[b];
+            const Sign filled = found == third_of.end()
+                                    ? Sign::Zero
+                                    : orient2d(Axis::z, p, q, mesh_.points[found->second]);
+            const Point3& inner = data_.points[data_.inner_of[edge]];
+            if (filled * orient2d(Axis::z, p, q, inner) != Sign::Negative)
+                return Error{ErrorCode::unsupported,
+                             "the surface is no graph z = f(x, y) next to the hole: it reaches "
+                             "into the hole, seen from above; --method rbf can fill it",
+                             place_text(p)};
+        }
     return Done{};
 }
 
+/// Sets the heights of interpolated vertices. Returns the expected error per vertex, 0 on the
+/// borders.
+std::vector<double> FlatHole::set_heights(const HeightSource& source) {
+    const auto known = source(std::span(mesh_.points).subspan(border()));
+    std::vector<double> expected_error(border(), 0);
+    for (std::size_t i = 0; i < known.heights.size(); ++i)
+        mesh_.points[border() + i].z = known.heights[i];
+    expected_error.insert(expected_error.end(), known.expected.begin(), known.expected.end());
+    return expected_error;
+}
+
+/// Tells whether smaller triangles would bring the filling nearer to the truth.
+bool FlatHole::is_too_flat(const HeightSource& source) const {
+    std::vector<Point3> places;
+    for (const auto& [a, b] :
+         detail::some_inner_edges(mesh_.triangles, mesh_.points.size(), constants.most_sags)) {
+        const Point3 &p = mesh_.points[a], &q = mesh_.points[b];
+        places.insert(places.end(), {p, q, middle_of(p, q)});
+    }
+    const auto known = source(places);
+    std::vector<double> sags, expected;
+    for (std::size_t i = 0; i < places.size(); i += 3) {
+        // Estimates, not data: noise at the border does not count.
+        sags.push_back(known.heights[i + 2] - (known.heights[i] + known.heights[i + 1]) / 2);
+        expected.push_back(known.expected[i + 2]);
+    }
+    return detail::flatness_outweighs(sags, expected, mesh_size_);
+}
+
+/// Computes the expected error of triangles between border vertices alone, at their middles: how far
+/// they are from the estimates, and these from the truth.
+double FlatHole::error_of_flat(const HeightSource& source) const {
+    std::vector<Point3> middles;
+    for (const Triangle& t : mesh_.triangles)
+        middles.push_back(centre_of(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]));
+    const auto known = source(middles);
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < middles.size(); ++i)
+        errors.push_back(std::hypot(known.expected[i], known.heights[i] - middles[i].z));
+    return detail::root_mean_square(errors);
+}
+
 Result<Filling> FlatHole::filled(const HeightSource& source, const Run& run) {
-    State& s = *state_;
     Filling filling;
-    filling.expected_error = set_heights(s.flat, source);
-    for (unsigned halvings = 0; !s.given && halvings < detail::most_halvings; ++halvings) {
-        if (4 * (s.flat.points.size() - s.border) > constants.most_places ||
-            run.stop.stop_requested() || !is_too_flat(s.flat, source, s.mesh_size))
+    filling.expected_error = set_heights(source);
+    for (unsigned halvings = 0; !given_ && halvings < detail::most_halvings; ++halvings) {
+        if (4 * (mesh_.points.size() - border()) > constants.most_places ||
+            run.stop.stop_requested() || !is_too_flat(source))
             break;
-        s.mesh_size /= 2;
-        auto flat = mesh_of(s.data, s.mesh_size, run);
-        if (!flat) return flat.error();
-        s.flat = std::move(flat).value();
-        filling.expected_error = set_heights(s.flat, source);
+        mesh_size_ /= 2;
+        if (const auto built = build(run); !built) return built.error();
+        filling.expected_error = set_heights(source);
     }
     if (run.stop.stop_requested()) return stopped();
-    filling.surface = {s.named.name, s.named.role, s.flat.points, s.flat.triangles};
+    filling.surface = {named_.name, named_.role, mesh_.points, mesh_.triangles};
     filling.exact_border = true;
-    if (s.area > 0) // the loop has the surface on its left, which here means front down
+    if (area_ > 0) // the loop has the surface on its left, which here means front down
         for (Triangle& t : filling.surface.triangles) std::swap(t[1], t[2]);
-    filling.report.interpolated = filling.surface.vertices.size() - s.border;
+    filling.report.interpolated = mesh_.points.size() - border();
     filling.report.area = area_of(filling.surface);
     filling.report.expected_error =
         filling.report.interpolated > 0
-            ? root_mean_square(std::span(filling.expected_error).subspan(s.border))
-            : error_of_flat(s.flat, source);
+            ? detail::root_mean_square(std::span(filling.expected_error).subspan(border()))
+            : error_of_flat(source);
     return filling;
 }
 

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/reconstruction/holes/filling.hpp>
 #include <terrane/algorithms/reconstruction/holes/holes.hpp>
+#include <terrane/algorithms/reconstruction/kriging/detail/data.hpp>
 
 namespace terrane {
 
@@ -35,18 +35,13 @@ public:
     static Result<FlatHole> of(const Surface& surface, const BorderLoop& loop,
                                std::span<const BorderLoop> loops, std::size_t rings,
                                const Run& run = {});
-    FlatHole(FlatHole&&) noexcept;
-    FlatHole& operator=(FlatHole&&) noexcept;
-    ~FlatHole();
 
     /// The corners; those on borders come first, in the order of the loops.
-    [[nodiscard]] const std::vector<Point3>& data() const;
+    [[nodiscard]] const std::vector<Point3>& data() const { return data_.points; }
     /// Number of data on borders.
-    [[nodiscard]] std::size_t border() const;
+    [[nodiscard]] std::size_t border() const { return data_.inner_of.size(); }
     /// Radius of a disk with the area of the hole.
     [[nodiscard]] double radius() const;
-    /// Distance of the vertices of the mesh, as used.
-    [[nodiscard]] double mesh_size() const;
 
     /// Builds the mesh, without heights. `mesh_size`: the distance of its vertices; 0: the median
     /// edge of the border. Errors: unsupported if the border crosses itself or the surface reaches
@@ -64,10 +59,24 @@ public:
     Result<Filling> filled(const HeightSource& source, const Run& run);
 
 private:
-    struct State;
-    explicit FlatHole(std::unique_ptr<State> state);
+    /// Vertices of triangles, those on borders first, and the triangles, front up.
+    struct Mesh {
+        std::vector<Point3> points;
+        std::vector<Triangle> triangles;
+    };
 
-    std::unique_ptr<State> state_;
+    Status build(const Run& run);
+    Status check_sides() const;
+    std::vector<double> set_heights(const HeightSource& source);
+    [[nodiscard]] bool is_too_flat(const HeightSource& source) const;
+    [[nodiscard]] double error_of_flat(const HeightSource& source) const;
+
+    Surface named_; ///< name and role of the surface, no more
+    kriging::detail::KrigingData data_;
+    double area_ = 0;      ///< positive if the loop is counterclockwise
+    double mesh_size_ = 0; ///< as used
+    bool given_ = false;   ///< whether a mesh size was
+    Mesh mesh_;
 };
 
 } // namespace terrane

@@ -14,9 +14,6 @@
 namespace terrane {
 namespace {
 
-/// Classes by distance, and by direction of 15 degrees each; points all pairs of which count.
-constexpr std::size_t distance_classes = 15, direction_classes = 12, most_points = 1500;
-
 /// Those that a user can ask for by name.
 constexpr std::array named_models{VariogramModel::spherical, VariogramModel::exponential,
                                   VariogramModel::gaussian, VariogramModel::power,
@@ -58,49 +55,6 @@ double shape(VariogramModel model, double ratio, double exponent) {
     }
     return exponent == 1 ? ratio : std::pow(ratio, exponent);
 }
-
-/// Sums over the pairs of each class.
-class Classes {
-public:
-    explicit Classes(double longest) :
-        longest_(longest), bins_(distance_classes * direction_classes) {}
-
-    void add(const Point3& a, const Point3& b) {
-        double dx = b.x - a.x, dy = b.y - a.y;
-        if (dx < 0 || (dx == 0 && dy < 0)) {
-            dx = -dx;
-            dy = -dy;
-        }
-        const double h = length_in_plane(dx, dy);
-        if (!(h > 0) || h > longest_) return;
-        const auto at = [](double share, std::size_t classes) {
-            return std::min(static_cast<std::size_t>(share * static_cast<double>(classes)),
-                            classes - 1);
-        };
-        const double direction = std::atan2(dy, dx) / std::numbers::pi + 0.5; // in [0, 1]
-        VariogramBin& bin = bins_[at(h / longest_, distance_classes) * direction_classes +
-                                  at(direction, direction_classes)];
-        bin.dx += dx;
-        bin.dy += dy;
-        bin.distance += h;
-        bin.gamma += (b.z - a.z) * (b.z - a.z) / 2;
-        ++bin.pairs;
-    }
-
-    std::vector<VariogramBin> means() {
-        std::vector<VariogramBin> result;
-        for (VariogramBin& bin : bins_) {
-            if (bin.pairs == 0) continue;
-            const auto n = static_cast<double>(bin.pairs);
-            result.push_back({bin.dx / n, bin.dy / n, bin.distance / n, bin.gamma / n, bin.pairs});
-        }
-        return result;
-    }
-
-private:
-    double longest_;
-    std::vector<VariogramBin> bins_;
-};
 
 } // namespace
 
@@ -151,14 +105,28 @@ std::string description(const Variogram& v) {
     return text;
 }
 
-std::vector<VariogramBin> experimental_variogram(std::span<const Point3> points, double longest) {
+std::vector<std::array<double, 2>> experimental_variogram(std::span<const Point3> points,
+                                                          const Variogram& model, double longest) {
     const StandardArithmetic guard;
-    Classes classes(longest);
+    constexpr std::size_t classes = 15, most_points = 1500;
+    std::array<std::array<double, 3>, classes> sums{}; // of distances, of gamma, and of pairs
     const auto chosen = std::min(points.size(), most_points);
     const auto pick = [&](std::size_t k) { return points[k * points.size() / chosen]; };
     for (std::size_t i = 0; i < chosen; ++i)
-        for (std::size_t j = i + 1; j < chosen; ++j) classes.add(pick(i), pick(j));
-    return classes.means();
+        for (std::size_t j = i + 1; j < chosen; ++j) {
+            const Point3 p = pick(i), q = pick(j);
+            const double h = model.distance(q.x - p.x, q.y - p.y);
+            if (!(h > 0) || h > longest) continue;
+            const auto at = static_cast<std::size_t>(double(classes) * h / longest);
+            auto& [distance, gamma, pairs] = sums[std::min(at, classes - 1)];
+            distance += h;
+            gamma += (q.z - p.z) * (q.z - p.z) / 2;
+            ++pairs;
+        }
+    std::vector<std::array<double, 2>> result;
+    for (const auto& [distance, gamma, pairs] : sums)
+        if (pairs > 0) result.push_back({distance / pairs, gamma / pairs});
+    return result;
 }
 
 } // namespace terrane

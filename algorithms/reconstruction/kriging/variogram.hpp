@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -50,22 +49,19 @@ struct Variogram {
     [[nodiscard]] double at(double distance) const;
 };
 
+/// The least degree of a trend with which a model's variogram is minus a covariance.
+inline unsigned least_degree(VariogramModel model) {
+    return model == VariogramModel::thin_plate || model == VariogramModel::cubic ? 1 : 0;
+}
+
 /// Describes a variogram: "gaussian model, range 1200, sill 64, nugget 0.2; longest at 30 degrees
 /// from x, 0.5 of it across"
 std::string description(const Variogram& variogram);
 
-/// A class of pairs of points.
-struct VariogramBin {
-    double dx = 0;         ///< mean difference in x, >= 0
-    double dy = 0;         ///< mean difference in y
-    double distance = 0;   ///< mean distance
-    double gamma = 0;      ///< half the mean squared difference of heights
-    std::size_t pairs = 0; ///< > 0
-};
-
-/// Computes the experimental variogram in 15 distance classes and 12 direction classes; empty ones
-/// are omitted. Pairs are all those of at most 1500 points, evenly spaced, that are no farther
-/// apart than `longest`. Cost: about a million pairs at most.
-std::vector<VariogramBin> experimental_variogram(std::span<const Point3> points, double longest);
+/// Computes the experimental variogram in 15 classes of the distance of a variogram, up to `longest`:
+/// per class with pairs, their mean distance and half their mean squared difference of heights. Pairs
+/// are all those of at most 1500 points, evenly spaced. Cost: about a million pairs at most.
+std::vector<std::array<double, 2>> experimental_variogram(std::span<const Point3> points,
+                                                          const Variogram& model, double longest);
 
 } // namespace terrane

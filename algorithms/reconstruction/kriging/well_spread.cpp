@@ -94,9 +94,9 @@ double rounding_of(std::span<const Point3> data, unsigned degree) {
     double largest = 0;
     for (const Point3& p : data) largest = std::max(largest, std::abs(p.z));
     const double unit = std::nextafter(largest, HUGE_VAL) - largest;
-    // Of the true height, of the estimate, and of a sum before it, and as much again for squares; each
-    // is spread evenly over a unit. That of the data averages out.
-    return unit * std::sqrt(3.0 * degree / 12);
+    // A rounding is spread evenly over a unit. Estimates are sums of hundreds of terms: by the oracle's
+    // planes, they have twelve of them, those of degree 2 twice that.
+    return unit * std::sqrt(12.0 * std::max(degree, 1U) / 12);
 }
 
 } // namespace terrane

@@ -15,15 +15,14 @@
 
 #include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
-#include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
+#include <terrane/algorithms/mesh/measure.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/reconstruction/holes/expected_points.hpp>
 #include <terrane/algorithms/reconstruction/holes/flatness.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/constants.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/data.hpp>
-#include <terrane/algorithms/reconstruction/rbf/detail/error.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/fit.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/zero_level.hpp>
 
@@ -134,32 +133,10 @@ Result<Surface> mesh_zero_level(const Implicit& f, const RbfData& data, const Tr
     return zero_level(function, options, run);
 }
 
-/// A function whose zero level fills the hole, and what is known of it.
-struct FittedLevel {
-    Implicit f;                                  ///< of a surface that is no graph
-    double precision = no_number;                ///< without errors: factor of the power function
-    RbfPolynomial polynomial;                    ///< of the power function
-    std::vector<std::array<double, 2>> left_out; ///< FillReport::left_out
-    double validated = no_number;                ///< root mean square error at data left out
-    std::string model;                           ///< described
-};
-
-/// Computes how precisely the level is known at each place: its expected error, or else the power
-/// function, scaled to what the form missed of data left out; 0 over the surface. The latter tells
-/// how small triangles need be; for an expected error it is too rough.
-std::vector<double> precision_at(std::span<const Point3> places, const RbfData& data,
-                                 const FittedLevel& level, const Run& run) {
-    if (!std::isfinite(level.precision)) return std::vector<double>(places.size(), no_number);
-    const RbfError error(data, level.polynomial, 0, level.f.nugget);
-    auto precision = error.at(places, false, run);
-    for (double& d : precision) d *= level.precision;
-    return precision;
-}
-
 /// The zero level over the hole, and the data it comes from.
 struct Level {
-    const FittedLevel& fitted;
     const Implicit& f;
+    double precision; ///< root mean square error at data left out; NaN if unknown
     const RbfData& data;
     const TriangleTree& tree; ///< of the data's triangles
 };
@@ -178,22 +155,17 @@ bool cuts_corners(const Surface& mesh, const Level& level, double size) {
 }
 
 /// Tells whether smaller triangles would bring the filling nearer to the truth.
-bool is_too_flat(const Surface& mesh, const Level& level, double size, const Run& run) {
+bool is_too_flat(const Surface& mesh, const Level& level, double size) {
     const RbfFunction& f = level.f.smooth; // patches fade within less than an edge
-    std::vector<Point3> middles;
     std::vector<double> sags;
     for (const auto& [a, b] :
          detail::some_inner_edges(mesh.triangles, mesh.vertices.size(), constants.most_sags)) {
-        const Point3 &p = mesh.vertices[a], &q = mesh.vertices[b], m = detail::middle_of(p, q);
+        const Point3 &p = mesh.vertices[a], &q = mesh.vertices[b], m = middle_of(p, q);
         const double over = constants.over_surface * size;
         if (level.tree.distance(m, over) < over) continue; // over the surface
-        const Point3 g = f.gradient(m);
-        const double step = -f(m) / dot(g, g); // to the level, whose precision counts
-        sags.push_back((f(m) - (f(p) + f(q)) / 2) / length(g));
-        middles.push_back({m.x + step * g.x, m.y + step * g.y, m.z + step * g.z});
+        sags.push_back((f(m) - (f(p) + f(q)) / 2) / length(f.gradient(m)));
     }
-    return detail::flatness_outweighs(sags, precision_at(middles, level.data, level.fitted, run),
-                                      size);
+    return detail::flatness_outweighs(sags, std::span(&level.precision, 1), size);
 }
 
 /// Triangulates the zero level with edges as long as those of the border, or a half or a quarter of
@@ -206,8 +178,8 @@ Result<Surface> mesh_to_size(const Level& level, const BorderLoop& loop, const R
     auto mesh = mesh_zero_level(level.f, level.data, level.tree, size, run);
     if (options.size > 0) return mesh;
     for (unsigned halvings = 0; halvings < detail::most_halvings && size / 2 >= least; ++halvings) {
-        if (!mesh || !(cuts_corners(mesh.value(), level, size) ||
-                       is_too_flat(mesh.value(), level, size, run)))
+        if (!mesh ||
+            !(cuts_corners(mesh.value(), level, size) || is_too_flat(mesh.value(), level, size)))
             break;
         auto finer = mesh_zero_level(level.f, level.data, level.tree, size / 2, run);
         // The finer mesh may be too large.
@@ -218,50 +190,14 @@ Result<Surface> mesh_to_size(const Level& level, const BorderLoop& loop, const R
     return mesh;
 }
 
-double area_of(const Surface& s) {
-    double sum = 0;
-    for (const Triangle& t : s.triangles)
-        sum += length(cross(minus(s.vertices[t[1]], s.vertices[t[0]]),
-                            minus(s.vertices[t[2]], s.vertices[t[0]]))) /
-               2;
-    return sum;
-}
-
 std::string describe(const RbfReport& r, const RbfForm& form, bool smoothed) {
     const auto start = fmt::format(
         "degree {}{}, {} of {} data are centres, {} constraints {} off the surface {}; ",
         form.polynomial.degree, form.polynomial.in_space ? " in space" : "", r.centres, r.data,
         r.offsets, figure(r.offset, 4), form.along_axis ? "across the hole" : "along normals");
-    if (smoothed)
-        return start + fmt::format("smoothed with {:.0f} degrees of freedom; data missed by {} "
-                                   "at most, {} patches, then by {}",
-                                   r.freedom, figure(r.missed, 2), r.patches,
-                                   figure(r.largest_error, 2));
-    return start + fmt::format("condition {}, residual {} after {} refinements; data "
-                               "missed by {} at most, {} patches, then by {}",
-                               figure(r.solution.condition, 2), figure(r.solution.residual, 2),
-                               r.solution.refinements, figure(r.missed, 2), r.patches,
+    return start + fmt::format("{}data missed by {} at most, then by {}",
+                               smoothed ? "smoothed; " : "", figure(r.missed, 2),
                                figure(r.largest_error, 2));
-}
-
-/// Steps (2) to (4).
-Result<FittedLevel> fit_any(const RbfData& data, const TriangleTree& tree,
-                            const RbfOptions& options, RbfReport& report, const Run& run) {
-    report = {};
-    const auto choice = choose_form(data, options, run);
-    if (!choice) return choice.error();
-    const RbfForm& form = choice.value().form;
-    report.degree = form.polynomial.degree;
-    auto f = fit_hole(data, tree, form, options, report, run);
-    if (!f) return f.error();
-    FittedLevel level;
-    level.f = std::move(f).value();
-    level.precision = choice.value().expected;
-    level.polynomial = form.polynomial;
-    level.validated = choice.value().validated;
-    level.left_out = choice.value().left_out;
-    level.model = describe(report, form, form.smoothed || options.smoothing.has_value());
-    return level;
 }
 
 Error interrupted() {
@@ -274,10 +210,14 @@ Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
                                    {options.reach, options.rings, options.long_edges});
     if (!data) return data.error();
     const TriangleTree tree(data.value().points, data.value().triangles);
-    const auto fitted = fit_any(data.value(), tree, options, report, run);
+    report = {};
+    const auto choice = choose_form(*data, options, run); // steps (2) to (4)
+    if (!choice) return choice.error();
+    report.degree = choice->form.polynomial.degree;
+    const auto f = fit_hole(*data, tree, choice->form, options, report, run);
     if (run.stop.stop_requested()) return interrupted();
-    if (!fitted) return fitted.error();
-    const Level level{*fitted, fitted->f, data.value(), tree};
+    if (!f) return f.error();
+    const Level level{*f, choice->validated, *data, tree};
     auto mesh = mesh_to_size(level, loop, options, report.size, run);
     if (!mesh) return mesh.error();
     Filling filling;
@@ -289,9 +229,10 @@ Result<Filling> fill_valid(const Surface& surface, const BorderLoop& loop,
     filling.report.interpolated = filling.surface.vertices.size();
     filling.report.area = area_of(filling.surface);
     filling.report.expected_error = no_number;
-    filling.report.validated_error = fitted->validated;
-    filling.report.left_out = fitted->left_out;
-    filling.report.model = fitted->model;
+    filling.report.validated_error = choice->validated;
+    filling.report.left_out = choice->left_out;
+    filling.report.model =
+        describe(report, choice->form, choice->form.smoothed || options.smoothing);
     if (options.long_edges) filling.report.model += "; with points on long edges";
     if (run.stop.stop_requested()) return interrupted();
     return filling;
@@ -304,8 +245,7 @@ Status validate_options(const RbfOptions& o) {
     const auto length_or_zero = [](double x) { return x >= 0 && std::isfinite(x); };
     if (!length_or_zero(o.reach)) return bad("the reach of the data is no number of radii");
     if (o.most_centres < 10 || o.most_centres > 2000) return bad("centres: 10 to 2000");
-    if (!length_or_zero(o.offset) || !length_or_zero(o.tolerance) || !length_or_zero(o.size))
-        return bad("offset, tolerance and size are lengths");
+    if (!length_or_zero(o.size)) return bad("the size is a length");
     if (o.degree > 8) return bad("the degree of the polynomial is 1 to 8, or 0 for the best");
     if (o.smoothing && !length_or_zero(*o.smoothing)) return bad("smoothing is a length");
     if (o.most_vertices < 1) return bad("at least one vertex");
@@ -313,20 +253,15 @@ Status validate_options(const RbfOptions& o) {
 }
 
 Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
-                            const RbfOptions& options, RbfReport& report, const Run& run) {
+                            const RbfOptions& options, const Run& run, RbfReport* report) {
     return guarded("for the filling", "fill", [&]() -> Result<Filling> {
-        report = {};
+        RbfReport unused;
+        RbfReport& told = report != nullptr ? *report : unused;
+        told = {};
         if (const auto good = validate_options(options); !good) return good.error();
         if (auto sound = check_edge_length(loop, options.size); !sound) return sound.error();
-        return fill_valid(surface, loop, options, report, run);
+        return fill_valid(surface, loop, options, told, run);
     });
-}
-
-Result<Filling> fill_by_rbf(const Surface& surface, const BorderLoop& loop,
-                            const RbfOptions& options, const Run& run) {
-    const StandardArithmetic guard;
-    RbfReport report;
-    return fill_by_rbf(surface, loop, options, report, run);
 }
 
 std::vector<NamedConstant> rbf_constants() {

@@ -23,7 +23,7 @@ namespace {
 Result<FilledByRbf> try_once(const Surface& surface, const BorderLoop& loop,
                              const RbfOptions& options, const JoinOptions& join, const Run& run) {
     RbfReport report;
-    auto filling = fill_by_rbf(surface, loop, options, report, run);
+    auto filling = fill_by_rbf(surface, loop, options, run, &report);
     if (!filling) return filling.error();
     auto joined = join_filling(surface, loop, filling.value().surface, join, run);
     if (!joined) return joined.error();

@@ -18,7 +18,7 @@ struct KrigingConstants : Constants {
     /// With fewer data, no expected error can be told.
     std::size_t least_data = add("least_data", 20);
     /// Data of an estimate. Larger: nearer to rough data, n^3.
-    std::size_t most_at_once = add("most_at_once", 1000);
+    std::size_t most_at_once = add("most_at_once", 800);
     /// Data of a standard deviation where all of them would take more than `most_operations`
     /// multiplications.
     std::size_t most_deviations = add("most_deviations", 250);

@@ -12,8 +12,8 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/reconstruction/kriging/cloud.hpp>
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
-#include <terrane/algorithms/reconstruction/kriging/detail/flat_cloud.hpp>
 #include <terrane/kernel/predicates.hpp>
 
 namespace terrane::kriging::detail {
@@ -113,8 +113,8 @@ private:
 };
 
 /// Samples the borders at distances of at most half a mesh size.
-FlatCloud sampled(std::span<const Point3> points, std::span<const Polygon> borders, double size) {
-    FlatCloud cloud;
+Cloud sampled(std::span<const Point3> points, std::span<const Polygon> borders, double size) {
+    Cloud cloud;
     for (const Polygon& polygon : borders)
         for (std::size_t i = 0; i < polygon.size(); ++i) {
             const Point3 &a = points[polygon[i]], &b = points[polygon[(i + 1) % polygon.size()]];
@@ -123,7 +123,7 @@ FlatCloud sampled(std::span<const Point3> points, std::span<const Polygon> borde
                 std::clamp(std::ceil(constants.border_samples * length / size), 1.0, 1000.0);
             for (double k = 0; k < steps; ++k)
                 cloud.points.push_back(
-                    {a.x + (b.x - a.x) * k / steps, a.y + (b.y - a.y) * k / steps});
+                    {a.x + (b.x - a.x) * k / steps, a.y + (b.y - a.y) * k / steps, 0});
         }
     return cloud;
 }
@@ -235,8 +235,8 @@ private:
     std::span<const Point3> points_;
     const Polygon& outer_;
     double size_;
-    FlatCloud cloud_;
-    FlatTree tree_;
+    Cloud cloud_;
+    CloudTree<2> tree_;
     double x0_, y0_, y1_;
 };
 

@@ -10,7 +10,6 @@
 #include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 
 namespace terrane::kriging::detail {
-namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -22,7 +21,14 @@ VectorXd heights_of(std::span<const Point3> data) {
     return z;
 }
 
-} // namespace
+double flat_extent_of(std::span<const Point3> data) {
+    Point3 low = data[0], high = data[0];
+    for (const Point3& p : data) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), 0};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), 0};
+    }
+    return std::hypot(high.x - low.x, high.y - low.y);
+}
 
 TrendTerms::TrendTerms(std::span<const Point3> data, unsigned degree) {
     const auto n = static_cast<double>(data.size());
@@ -33,9 +39,10 @@ TrendTerms::TrendTerms(std::span<const Point3> data, unsigned degree) {
     for (const Point3& p : data)
         scale_ = std::max({scale_, std::abs(p.x - x0_), std::abs(p.y - y0_)});
     if (!(scale_ > 0)) scale_ = 1;
-    for (size_ = degree == 0 ? 1 : degree == 1 ? 3 : 6; size_ > 1; size_ = size_ == 6 ? 3 : 1) {
-        if (size_ >= static_cast<Index>(data.size())) continue;
-        if (Contrasts(matrix(data)).determined()) break;
+    for (;; --degree) {
+        size_ = terms_of(degree);
+        if (degree == 0) break;
+        if (size_ < static_cast<Index>(data.size()) && Contrasts(matrix(data)).determined()) break;
     }
 }
 
@@ -69,8 +76,7 @@ System::System(std::span<const Point3> data, const Variogram& model, unsigned de
     MatrixXd rotated = kernels();
     contrasts_.apply_twice(rotated);
     top_ = rotated.topRows(m);
-    const double scale = n > m ? rotated.diagonal().tail(n - m).mean() : 0;
-    if (!factorise(rotated.bottomRightCorner(n - m, n - m), scale, run)) return;
+    if (!factorise(rotated, run)) return;
     VectorXd z = heights_of(data);
     contrasts_.apply(z);
     MatrixXd solved = z.tail(n - m);
@@ -83,11 +89,13 @@ System::System(std::span<const Point3> data, const Variogram& model, unsigned de
     ready_ = true;
 }
 
-bool System::factorise(const MatrixXd& contrasts, double scale, const Run& run) {
+bool System::factorise(const MatrixXd& rotated, const Run& run) {
+    const Index m = rotated.rows() - terms_.size();
+    const double scale = m > 0 ? rotated.diagonal().tail(m).mean() : 0;
     const double unit = scale > 0 ? scale : 1;
     // In sills: first 1e-12, at most 1e-6, by which data are hardly smoothed.
     for (double addition = 1e-12; addition < 1e-5 && !run.stop.stop_requested(); addition *= 100) {
-        factor_ = contrasts;
+        factor_ = rotated.bottomRightCorner(m, m);
         factor_.diagonal().array() += addition * unit;
         if (cholesky(factor_, run)) return true;
     }
@@ -156,80 +164,79 @@ std::vector<Estimate> System::at(std::span<const Point3> places, bool deviations
 
 MatrixXd System::projection() const {
     const auto n = static_cast<Index>(places_.size()), m = terms_.size();
-    MatrixXd inverse = MatrixXd::Identity(n - m, n - m);
-    divide_by_factor(factor_, inverse);
     MatrixXd all = MatrixXd::Zero(n, n);
-    all.bottomRightCorner(n - m, n - m) = squared(inverse);
+    all.bottomRightCorner(n - m, n - m) = squared(inverse_of_factor(factor_));
     contrasts_.undo(all);
     all.transposeInPlace();
     contrasts_.undo(all);
     return all;
 }
 
-Likelihood::Likelihood(std::span<const Point3> data, unsigned degree) :
-    data_(data.begin(), data.end()), terms_(data, degree), basis_(terms_.matrix(data)),
-    degree_(degree) {
-    VectorXd z = heights_of(data);
-    const double largest = z.size() > 0 ? z.cwiseAbs().maxCoeff() : 0;
-    z.array() -= z.size() > 0 ? z.mean() : 0;
-    const double squares = 2 * std::numbers::pi * z.squaredNorm();
-    basis_.apply(z);
-    contrasts_ = z.tail(z.size() - terms_.size());
-    const auto count = static_cast<double>(contrasts_.size());
-    constant_ = -(count * (1 + std::log(2 * std::numbers::pi)) +
-                  static_cast<double>(terms_.size() - 1) * std::log(squares)) /
-                2;
-    trend_only_ = contrasts_.size() == 0 ||
-                  !(contrasts_.cwiseAbs().maxCoeff() > constants.trend_rounding * largest);
-    Point3 low = data[0], high = data[0];
-    for (const Point3& p : data) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), 0};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), 0};
+Likelihood::Likelihood(std::span<const Point3> data) :
+    data_(data.begin(), data.end()), terms_(data, highest_degree), basis_(terms_.matrix(data)),
+    numbers_(heights_of(data)), extent_(flat_extent_of(data)) {
+    rounding_ = constants.trend_rounding * numbers_.cwiseAbs().maxCoeff();
+    numbers_.array() -= numbers_.mean();
+    spread_ = std::log(2 * std::numbers::pi * numbers_.squaredNorm());
+    basis_.apply(numbers_);
+}
+
+Index Likelihood::left_by(unsigned degree) const {
+    return numbers_.size() - terms_of(degree);
+}
+
+double Likelihood::constant_of(unsigned degree) const {
+    return -(static_cast<double>(left_by(degree)) * (1 + std::log(2 * std::numbers::pi)) +
+             static_cast<double>(terms_of(degree) - 1) * spread_) /
+           2;
+}
+
+std::vector<Likely> Likelihood::of_noise() const {
+    std::vector<Likely> all;
+    for (unsigned degree = 0; terms_of(degree) <= terms_.size(); ++degree) {
+        const VectorXd left = numbers_.tail(left_by(degree));
+        const auto n = static_cast<double>(left.size());
+        Variogram noise;
+        noise.range = extent_ > 0 ? extent_ : 1;
+        if (left.size() == 0 || !(left.cwiseAbs().maxCoeff() > rounding_))
+            return {{HUGE_VAL, noise, degree}};
+        noise.nugget = left.squaredNorm() / n;
+        all.push_back({constant_of(degree) - n * std::log(noise.nugget) / 2, noise, degree});
     }
-    extent_ = std::hypot(high.x - low.x, high.y - low.y);
+    return all;
 }
 
-Likely Likelihood::of_noise() const {
-    const auto n = static_cast<double>(contrasts_.size());
-    Variogram noise;
-    noise.range = extent_ > 0 ? extent_ : 1;
-    noise.nugget = n > 0 ? contrasts_.squaredNorm() / n : 0;
-    if (trend_only_) noise.nugget = 0;
-    return {trend_only_ ? HUGE_VAL : constant_ - n * std::log(noise.nugget) / 2, noise, degree_};
-}
-
-Likely Likelihood::at(const Variogram& shape) const {
+std::vector<Likely> Likelihood::at(const Variogram& shape) const {
+    const unsigned least = least_degree(shape.model);
+    std::vector<Index> trends;
+    for (unsigned degree = least; terms_of(degree) <= terms_.size() && left_by(degree) > 1;
+         ++degree)
+        trends.push_back(terms_of(degree) - terms_of(least));
+    if (trends.empty()) return {};
     Variogram unit = shape;
     unit.nugget = 0;
     unit.sill = 1;
     const auto n = static_cast<Index>(data_.size());
-    const double angle = shape.angle * std::numbers::pi / 180, c = std::cos(angle),
-                 s = std::sin(angle);
-    const auto [x0, y0] = terms_.centre();
-    std::vector<std::array<double, 2>> places;
-    for (const Point3& p : data_) {
-        const double dx = p.x - x0, dy = p.y - y0;
-        places.push_back({c * dx + s * dy, (c * dy - s * dx) / shape.ratio});
-    }
     MatrixXd kernel = MatrixXd::Zero(n, n);
-    for (std::size_t j = 0; j < places.size(); ++j)
-        for (std::size_t i = 0; i < j; ++i) {
-            const double dx = places[i][0] - places[j][0], dy = places[i][1] - places[j][1];
-            const double h = std::sqrt(dx * dx + dy * dy);
-            const double value = h > 0 ? -unit.at(h) : 0;
-            kernel(static_cast<Index>(i), static_cast<Index>(j)) = value;
-            kernel(static_cast<Index>(j), static_cast<Index>(i)) = value;
+    for (Index j = 0; j < n; ++j)
+        for (Index i = 0; i < j; ++i) {
+            const Point3 &p = data_[static_cast<std::size_t>(i)],
+                         &q = data_[static_cast<std::size_t>(j)];
+            const double h = unit.distance(p.x - q.x, p.y - q.y);
+            kernel(i, j) = kernel(j, i) = h > 0 ? -unit.at(h) : 0;
         }
     basis_.apply_twice(kernel);
-    const Index m = n - terms_.size();
-    if (m < 2) return {};
-    const LikelyNugget found =
-        TridiagonalKernel(kernel.bottomRightCorner(m, m), contrasts_).most_likely();
-    if (!(found.sill > 0)) return {};
-    Likely best{constant_ + found.likelihood, unit, degree_};
-    best.variogram.sill = found.sill;
-    best.variogram.nugget = found.nugget;
-    return best;
+    const Index m = left_by(least);
+    const auto found =
+        TridiagonalKernel(kernel.bottomRightCorner(m, m), numbers_.tail(m), trends).most_likely();
+    std::vector<Likely> all;
+    for (unsigned t = 0; t < found.size(); ++t) {
+        if (!(found[t].sill > 0)) continue;
+        all.push_back({constant_of(least + t) + found[t].likelihood, unit, least + t});
+        all.back().variogram.sill = found[t].sill;
+        all.back().variogram.nugget = found[t].nugget;
+    }
+    return all;
 }
 
 } // namespace terrane::kriging::detail

@@ -21,7 +21,14 @@
 
 namespace terrane::kriging::detail {
 
-/// The terms of a polynomial in x and y, which are shifted and scaled to [-1, 1].
+inline constexpr unsigned highest_degree = 2;
+
+/// Number of terms of a polynomial in x and y.
+constexpr Eigen::Index terms_of(unsigned degree) {
+    return (static_cast<Eigen::Index>(degree) + 1) * (static_cast<Eigen::Index>(degree) + 2) / 2;
+}
+
+/// The terms of a polynomial in x and y, those of lower degree first, which are shifted and scaled to [-1, 1].
 class TrendTerms {
 public:
     /// The degree, at most 2, is lowered until the data determine the polynomial.
@@ -37,6 +44,12 @@ private:
     double x0_ = 0, y0_ = 0, scale_ = 0;
     Eigen::Index size_ = 1;
 };
+
+/// The heights of data.
+Eigen::VectorXd heights_of(std::span<const Point3> data);
+
+/// The diagonal of the bounding box of data in x and y.
+double flat_extent_of(std::span<const Point3> data);
 
 /// A height and its standard deviation.
 struct Estimate {
@@ -65,7 +78,7 @@ private:
     [[nodiscard]] Place place(double x, double y) const;
     [[nodiscard]] double kernel(const Place& p, const Place& q) const;
     [[nodiscard]] Eigen::MatrixXd kernels() const;
-    bool factorise(const Eigen::MatrixXd& contrasts, double scale, const Run& run);
+    bool factorise(const Eigen::MatrixXd& rotated, const Run& run);
 
     Variogram model_;
     double cosine_ = 1, sine_ = 0;
@@ -86,32 +99,37 @@ struct Likely {
     unsigned degree = 0;           ///< of the trend
 };
 
-/// Likelihood of variograms for given data and a trend of one degree, whose factors, but for that of
-/// degree 0, are spread over the variance of the heights. So trends of several degrees compare.
+/// Likelihood of variograms for given data and trends of each degree that the data determine. Factors
+/// of a trend, but for that of degree 0, are spread over the variance of the heights. So trends of
+/// several degrees compare.
 class Likelihood {
 public:
-    Likelihood(std::span<const Point3> data, unsigned degree);
+    explicit Likelihood(std::span<const Point3> data);
 
     /// Finds nugget and sill of this shape (its model, range, exponent, angle and ratio) that are
-    /// most likely. Cost: 4/3 n^3, by a tridiagonal form that serves all ratios of nugget and sill.
-    [[nodiscard]] Likely at(const Variogram& shape) const;
-    /// The likelihood of noise about the trend, and no field.
-    [[nodiscard]] Likely of_noise() const;
+    /// most likely, with each trend that the model allows. Cost: 4/3 n^3, by a tridiagonal form that
+    /// serves all ratios of nugget and sill, and all trends.
+    [[nodiscard]] std::vector<Likely> at(const Variogram& shape) const;
+    /// The likelihood of noise about each trend, and no field. Of data that are a trend up to
+    /// rounding, this one alone, without noise.
+    [[nodiscard]] std::vector<Likely> of_noise() const;
 
-    /// Tells whether the data are the trend up to rounding.
-    [[nodiscard]] bool trend_only() const { return trend_only_; }
     /// Extent of the data: the diagonal of their bounding box.
     [[nodiscard]] double extent() const { return extent_; }
 
 private:
+    /// Number of contrasts that the trend of a degree leaves.
+    [[nodiscard]] Eigen::Index left_by(unsigned degree) const;
+    /// The part of all logarithms that does not depend on the model.
+    [[nodiscard]] double constant_of(unsigned degree) const;
+
     std::vector<Point3> data_;
-    TrendTerms terms_;
+    TrendTerms terms_; ///< of the highest degree; those of lower ones come first
     Contrasts basis_;
-    unsigned degree_;
-    Eigen::VectorXd contrasts_;
+    Eigen::VectorXd numbers_; ///< the heights in the basis
     double extent_ = 0;
-    double constant_ = 0; ///< of all logarithms
-    bool trend_only_ = false;
+    double spread_ = 0;   ///< logarithm of 2 pi times the sum of squared heights
+    double rounding_ = 0; ///< contrasts up to this are rounding
 };
 
 } // namespace terrane::kriging::detail

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,29 +22,21 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr unsigned highest_degree = 2;
-
-/// A model, and the least degree of a trend that makes its covariance positive definite.
-struct Shape {
-    Variogram variogram;
-    unsigned least_degree = 0;
-};
-
 /// Lists the shapes that are wanted, without ranges.
-std::vector<Shape> shapes(const KrigingOptions& options) {
+std::vector<Variogram> shapes(const KrigingOptions& options) {
     using enum VariogramModel;
     const auto shape = [](VariogramModel model, double exponent = 1) {
         Variogram v;
         v.model = model;
         v.exponent = exponent;
-        return Shape{v, model == thin_plate || model == cubic ? 1U : 0U};
+        return v;
     };
-    std::vector<Shape> all{shape(power),       shape(thin_plate),  shape(cubic),
-                           shape(exponential), shape(matern, 1.5), shape(matern, 2.5),
-                           shape(gaussian)};
+    std::vector<Variogram> all{shape(power),       shape(thin_plate),  shape(cubic),
+                               shape(exponential), shape(matern, 1.5), shape(matern, 2.5),
+                               shape(gaussian)};
     if (!options.model) return all;
     if (*options.model == spherical) return {shape(spherical)};
-    std::erase_if(all, [&](const Shape& s) { return s.variogram.model != *options.model; });
+    std::erase_if(all, [&](const Variogram& v) { return v.model != *options.model; });
     return all;
 }
 
@@ -51,67 +44,70 @@ std::vector<Shape> shapes(const KrigingOptions& options) {
 class Search {
 public:
     Search(std::span<const Point3> data, const KrigingOptions& options, const Run& run) :
-        options_(options), run_(run) {
-        const auto pairs =
-            well_spread_pairs(data, constants.most_fitted, constants.most_fitted / 2);
-        const auto points = selected(data, pairs.chosen);
-        for (unsigned degree = 0; degree <= highest_degree; ++degree)
-            likelihoods_.emplace_back(points, degree);
-        least_range_ = std::max(constants.least_range * likelihoods_[0].extent(),
-                                constants.gaps_per_range * pairs.gap);
-    }
+        Search(data, well_spread_pairs(data, constants.most_fitted, constants.most_fitted / 2),
+               options, run) {}
 
     /// Returns models, the likeliest first; only the trend of least degree that is the data.
     std::vector<Likely> operator()() {
-        for (const Likelihood& of : likelihoods_) {
-            if (of.trend_only()) return {of.of_noise()};
-            found_.push_back(of.of_noise());
+        found_ = likelihood_.of_noise();
+        if (found_[0].likelihood == HUGE_VAL) return std::move(found_);
+        std::vector<Variogram> all;
+        for (const Variogram& shape : shapes(options_))
+            for (const Variogram& v : ranged(shape)) all.push_back(v);
+        add(of(all, {}));
+        // A smooth field without noise is likely only near its very range.
+        for (const Variogram& shape : shapes(options_)) {
+            const auto best = std::find_if(found_.begin(), found_.end(), [&](const Likely& l) {
+                return l.variogram.sill > 0 && l.variogram.model == shape.model &&
+                       l.variogram.exponent == shape.exponent;
+            });
+            if (best == found_.end()) continue;
+            for (const double part : {2.0, 4.0, 8.0, 16.0}) climb(*best, part);
         }
-        std::vector<Variogram> first, others;
-        for (const Shape& s : shapes(options_))
-            for (const Variogram& v : ranged(s.variogram)) {
-                first.push_back(v);
-                if (s.least_degree == 0) others.push_back(v);
-            }
-        add(first, 1);
-        add(first, 2);
-        add(others, 0);
-        sort();
-        for (const double part : {2.0, 4.0}) {
-            refine(found_[0], part);
-            sort();
-        }
-        if (options_.anisotropy && found_[0].variogram.sill > 0) turn(found_[0]);
-        sort();
+        add({});
+        for (const double part : {32.0, 64.0}) climb(found_[0], part);
+        for (const double part : {2.0, 4.0}) add(beside(found_[0], part));
+        if (options_.anisotropy && found_[0].variogram.sill > 0) add(turned(found_[0]));
         return std::move(found_);
     }
 
 private:
-    void sort() {
+    Search(std::span<const Point3> data, const SpreadPairs& pairs, const KrigingOptions& options,
+           const Run& run) :
+        options_(options),
+        run_(run), likelihood_(selected(data, pairs.chosen)),
+        least_range_(std::max(constants.least_range * likelihood_.extent(),
+                              constants.gaps_per_range * pairs.gap)) {}
+
+    /// Adds models, and sorts all.
+    void add(const std::vector<Likely>& more) {
+        found_.insert(found_.end(), more.begin(), more.end());
         std::stable_sort(found_.begin(), found_.end(), [](const Likely& a, const Likely& b) {
             return a.likelihood > b.likelihood;
         });
     }
 
-    /// Adds these shapes with a trend of this degree.
-    void add(std::span<const Variogram> all, unsigned degree, double prior = 0) {
-        if (run_.stop.stop_requested()) return;
-        std::vector<Likely> found(all.size());
+    /// Finds nugget and sill of these shapes, with the trend of this degree or with all.
+    [[nodiscard]] std::vector<Likely> of(std::span<const Variogram> all,
+                                         std::optional<unsigned> degree) const {
+        if (run_.stop.stop_requested()) return {};
+        std::vector<std::vector<Likely>> found(all.size());
         if (run_.progress) run_.progress("variogram", 0);
         const auto one = [&](std::size_t i) {
-            if (!run_.stop.stop_requested()) found[i] = likelihoods_[degree].at(all[i]);
+            if (!run_.stop.stop_requested()) found[i] = likelihood_.at(all[i]);
         };
         with_threads(run_, [&] { for_each_index(all.size(), one); });
-        for (Likely& f : found) {
-            f.likelihood -= prior;
-            if (f.variogram.sill > 0) found_.push_back(f);
-        }
+        std::vector<Likely> result;
+        for (const auto& of_shape : found)
+            for (const Likely& likely : of_shape)
+                if (likely.degree == degree.value_or(likely.degree)) result.push_back(likely);
+        return result;
     }
 
     /// Gives a shape ranges at equal ratios.
     [[nodiscard]] std::vector<Variogram> ranged(Variogram shape) const {
         using enum VariogramModel;
-        const double extent = std::max(likelihoods_[0].extent(), 1e-300);
+        const double extent = std::max(likelihood_.extent(), 1e-300);
         shape.range = extent;
         if (shape.model == power || shape.model == thin_plate || shape.model == cubic)
             return {shape}; // a mere unit
@@ -126,35 +122,42 @@ private:
         return all;
     }
 
-    /// Adds ranges a part of a step from that of a model.
-    void refine(Likely likely, double part) {
+    /// Finds models whose ranges are a part of a step from that of a model.
+    [[nodiscard]] std::vector<Likely> beside(const Likely& likely, double part) const {
         const auto all = ranged(likely.variogram);
-        if (all.size() < 2 || !(likely.variogram.sill > 0)) return;
+        if (all.size() < 2 || !(likely.variogram.sill > 0)) return {};
         const double ratio = std::pow(all[1].range / all[0].range, 1 / part);
         std::vector<Variogram> between{likely.variogram, likely.variogram};
         between[0].range *= ratio;
         between[1].range /= ratio;
-        add(between, likely.degree);
+        return of(between, likely.degree);
     }
 
-    /// Adds anisotropy to a model. It changes neither the area nor the shape near h = 0. All
+    /// Replaces a model by a likelier one beside it.
+    void climb(Likely& likely, double part) const {
+        for (const Likely& other : beside(likely, part))
+            if (other.likelihood > likely.likelihood) likely = other;
+    }
+
+    /// Gives a model anisotropy, which changes neither the area nor the shape near h = 0. All
     /// directions together count as one model.
-    void turn(Likely plain) {
+    [[nodiscard]] std::vector<Likely> turned(const Likely& plain) const {
         constexpr int directions = 6;
-        std::vector<Variogram> turned;
+        std::vector<Variogram> all(directions, plain.variogram);
         for (int d = 0; d < directions; ++d) {
-            Variogram v = plain.variogram;
+            Variogram& v = all[static_cast<std::size_t>(d)];
             v.angle = 180.0 * d / directions;
             v.ratio = constants.turned_ratio;
             v.range /= std::sqrt(v.ratio);
-            turned.push_back(v);
         }
-        add(turned, plain.degree, std::log(directions));
+        auto found = of(all, plain.degree);
+        for (Likely& likely : found) likely.likelihood -= std::log(directions);
+        return found;
     }
 
     const KrigingOptions& options_;
     const Run& run_;
-    std::vector<Likelihood> likelihoods_; ///< by degree
+    Likelihood likelihood_;
     double least_range_ = 0;
     std::vector<Likely> found_;
 };
@@ -230,10 +233,12 @@ std::vector<Missed> missed_by(const System& system, const MatrixXd& projection,
                               std::span<const std::vector<Index>> all) {
     std::vector<Missed> result;
     for (const auto& some : all) {
-        const MatrixXd covariance = inverse_of(projection(some, some));
-        if (covariance.size() == 0) return {};
-        result.push_back(
-            {covariance * system.weights()(some), covariance.diagonal().cwiseMax(1e-300)});
+        MatrixXd factor = projection(some, some);
+        if (!cholesky(factor, {})) return {};
+        const MatrixXd inverse = inverse_of_factor(factor);
+        const VectorXd half = inverse * system.weights()(some);
+        result.push_back({inverse.transpose() * half,
+                          inverse.colwise().squaredNorm().transpose().cwiseMax(1e-300)});
     }
     return result;
 }
@@ -343,7 +348,9 @@ std::string description(const WeighedModel& model) {
 ModelAverage weigh_models(const DataAroundHole& around, const KrigingOptions& options,
                           const Run& run) {
     ModelAverage average;
-    average.determined = around.data.size() >= constants.least_data;
+    if (around.data.size() < constants.least_data) average.unknown = "too few data";
+    if (std::ranges::all_of(around.data, [](const Point3& p) { return p.z == 0; }))
+        average.unknown = "all heights are 0, which has no unit";
     auto likely = Search(around.data, options, run)();
     likely = chosen(likely);
     if (options.noise)

@@ -45,7 +45,7 @@ std::string description(const WeighedModel& model);
 /// Models with weights, and how they foretell blocks of data that are left out.
 struct ModelAverage {
     std::vector<WeighedModel> models; ///< the likeliest first
-    bool determined = true;           ///< whether there are enough data to tell an expected error
+    std::string unknown{};            ///< why no expected error can be told; empty: it can
     std::size_t blocks = 0;           ///< that could be left out
     double ratio = std::numeric_limits<double>::quiet_NaN(); ///< root mean square over blocks of
                                                              ///< error / expected error
@@ -81,7 +81,8 @@ std::vector<Point3> selected(std::span<const Point3> data, std::span<const std::
 ///       radius: where they are missed by more, the surface becomes rougher or steeper towards the
 ///       hole, and may do so again within it. So `factor` is the square of that ratio, if that is more.
 /// Stops early if the run is stopped; the result is of no use then.
-/// Cost: 4/3 n^3 for n = 144 and each of about 80 models; n^3 for n = 200 and each of 12.
+/// Cost: 4/3 n^3 for n = 144 and each of about 80 shapes, with all trends; n^3 for n = 200 and each of
+/// 12 models.
 ModelAverage weigh_models(const DataAroundHole& around, const KrigingOptions& options,
                           const Run& run);
 

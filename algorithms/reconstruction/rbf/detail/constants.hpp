@@ -31,27 +31,15 @@ struct RbfConstants : Constants {
     double least_distance = add("least_distance", 0.95);
     /// Distances that are tried for an offset constraint.
     unsigned offset_halvings = add("offset_halvings", 3);
-    /// Data that determine a smoothed function. Larger: less noise, more time.
-    std::size_t most_smoothed_data = add("most_smoothed_data", 6000);
-    /// Data that suffice to find where centres are needed.
-    std::size_t enough_data = add("enough_data", 20'000);
+    /// Error at a datum, in median border edges, that is left to it.
+    double tolerance = add("tolerance", 0.001);
+    /// Distance from the data at which what is left of them has faded, in median border edges.
+    double rest_reach = add("rest_reach", 6);
     /// Data left out at which a form is judged.
     std::size_t most_judged = add("most_judged", 1000);
-    /// Data of the power function, n^3.
-    std::size_t most_error_points = add("most_error_points", 160);
     /// By how much the hole is widened for validation, in its radii. Larger: a more
     /// pessimistic expected error.
     double left_out_width = add("left_out_width", 0.25);
-    /// Weight of a degree of freedom in cross-validation (Kim and Gu 2004). Larger:
-    /// smoother.
-    double freedom_weight = add("freedom_weight", 1.4);
-    /// Ratio of diagonal entries, in a unit box, below which a polynomial vanishes at all
-    /// points.
-    double singular = add("singular", 1e-10);
-    /// Points of a cell of the partition of unity.
-    std::size_t most_in_cell = add("most_in_cell", 48);
-    /// Radius of a ball, in radii of its cell. Larger: smoother blending, more work.
-    double ball_ratio = add("ball_ratio", 1.5);
     /// Step of the lattice, in target edge lengths; with `thinning` it gives edges of the
     /// target length on average.
     double lattice_step = add("lattice_step", 0.72);
@@ -89,11 +77,6 @@ struct RbfConstants : Constants {
     std::size_t least_start = add("least_start", 10);
     /// The start has one in this many of the centres that are allowed.
     std::size_t start_part = add("start_part", 4);
-    /// Largest growth of the number of centres in a round.
-    std::size_t centre_growth = add("centre_growth", 2);
-    /// Least distance between new centres, in spacings of the round before. Larger: fewer
-    /// centres per round.
-    double crowded = add("crowded", 0.5);
     /// Distance of offset constraints: the radius of the hole divided by this, if that is more
     /// than by offset_edges.
     double offset_part = add("offset_part", 20);
@@ -107,32 +90,12 @@ struct RbfConstants : Constants {
     double left_out_edges = add("left_out_edges", 1.5);
     /// With fewer data left, forms are not compared.
     std::size_t least_judged = add("least_judged", 10);
-    /// Centres of a trial fit.
-    std::size_t trial_centres = add("trial_centres", 800);
-    /// Centres of a trial fit with smoothing.
-    std::size_t trial_centres_smoothed = add("trial_centres_smoothed", 400);
-    /// Centres of a trial fit, at most, in centres that are allowed.
-    std::size_t trial_growth = add("trial_growth", 4);
     /// Least slope by which the value at a datum is divided for its distance from the level.
     double least_slope = add("least_slope", 0.1);
     /// Length of the mean border normal below which it is no axis.
     double least_mean_normal = add("least_mean_normal", 0.1);
     /// One normal in this many may lean farther than the steepness that is compared.
     std::size_t outlier_part = add("outlier_part", 20);
-    /// Least degree of smoothing that cross-validation tries: power of ten, in largest
-    /// eigenvalues.
-    double least_lambda = add("least_lambda", -13);
-    /// Largest degree of smoothing, likewise.
-    double most_lambda = add("most_lambda", 3);
-    /// Step between degrees of smoothing, in powers of ten.
-    double lambda_step = add("lambda_step", 0.25);
-    /// Eigenvalues below this share of the largest one count as 0.
-    double eigenvalue_noise = add("eigenvalue_noise", 1e-14);
-    /// The solution is refined until the residual shrinks to no less than this share.
-    double least_refinement = add("least_refinement", 0.5);
-    /// Half of the points of the power function are no farther from the border than this, in
-    /// radii of the hole, beyond the margin.
-    double error_near = add("error_near", 0.25);
     /// Room of the lattice around the border, in sizes of the border.
     double domain_share = add("domain_share", 0.5);
     /// Room of the lattice around the border, in lattice steps, in addition.

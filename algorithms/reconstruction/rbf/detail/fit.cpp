@@ -5,12 +5,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/reconstruction/holes/flatness.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/constants.hpp>
-#include <terrane/algorithms/reconstruction/rbf/detail/error.hpp>
 
 namespace terrane::rbf::detail {
 namespace {
@@ -26,40 +27,42 @@ std::size_t start_size(const RbfOptions& options) {
     return std::max(constants.least_start, options.most_centres / constants.start_part);
 }
 
+/// Selects up to `count` points, each as far as possible from those before it.
+std::vector<std::uint32_t> well_spread(const std::vector<Point3>& points, std::size_t count) {
+    std::vector<std::uint32_t> chosen{0};
+    std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
+    while (chosen.size() < count) {
+        for (std::uint32_t i = 0; i < points.size(); ++i) {
+            const Point3 d = minus(points[i], points[chosen.back()]);
+            distance[i] = std::min(distance[i], dot(d, d));
+        }
+        const auto farthest = std::max_element(distance.begin(), distance.end());
+        if (!(*farthest > 0)) break;
+        chosen.push_back(static_cast<std::uint32_t>(farthest - distance.begin()));
+    }
+    return chosen;
+}
+
 /// The data that all forms have in common.
 struct Start {
-    /// `tree`: of the data's triangles.
-    Start(const RbfData& data, const TriangleTree& tree, const RbfOptions& options) :
-        centres(well_spread(data.points, start_size(options),
-                            std::vector<bool>(data.points.size(), true))),
-        offset(options.offset > 0 ? options.offset
-                                  : std::max(data.radius / constants.offset_part,
-                                             constants.offset_edges * data.edge)),
-        surface(tree) {
-        for (const std::uint32_t i : centres) {
-            double least = std::numeric_limits<double>::infinity();
-            for (const std::uint32_t j : centres)
-                if (j != i) least = std::min(least, length(minus(data.points[i], data.points[j])));
-            spacing = std::max(spacing, least);
-        }
-    }
+    /// `tree`: of the data's triangles; `count`: of centres.
+    Start(const RbfData& data, const TriangleTree& tree, const RbfOptions& options,
+          std::size_t count) :
+        centres(well_spread(data.points, count)),
+        with_offset(std::min(start_size(options), centres.size())),
+        offset(std::max(data.radius / constants.offset_part, constants.offset_edges * data.edge)),
+        surface(tree) {}
 
-    std::vector<std::uint32_t> centres; ///< a well-spread quarter of those allowed
-    double spacing = 0;                 ///< largest distance of a centre from its nearest one
+    std::vector<std::uint32_t> centres; ///< well spread, each as far as possible from those before
+    std::size_t with_offset;            ///< number of the first centres with offset constraints
     double offset;                      ///< distance of offset constraints
     const TriangleTree& surface;
 };
 
-double tolerance_of(const RbfData& data, const RbfOptions& options) {
-    return options.tolerance > 0 ? options.tolerance : data.edge / 1000;
-}
-
-/// Computes the errors at each `step`th datum; 0 at the others.
-std::vector<double> errors_at_data(const Implicit& f, const RbfData& data, std::size_t step,
-                                   const Run& run) {
+std::vector<double> errors_at_data(const Implicit& f, const RbfData& data, const Run& run) {
     std::vector<double> errors(data.points.size(), 0);
-    for_ranges((errors.size() + step - 1) / step, run, [&](std::size_t a, std::size_t b) {
-        for (std::size_t i = a; i < b; ++i) errors[i * step] = f(data.points[i * step]);
+    for_ranges(errors.size(), run, [&](std::size_t a, std::size_t b) {
+        for (std::size_t i = a; i < b; ++i) errors[i] = f(data.points[i]);
     });
     return errors;
 }
@@ -74,76 +77,51 @@ void note_errors(const std::vector<double>& errors, RbfReport& report) {
     report.rms_error = std::sqrt(squares / static_cast<double>(errors.size()));
 }
 
+/// Step (4): adds what is left of the data, if any exceeds the tolerance. With options.smoothing,
+/// reports it only.
+void add_rest(Implicit& f, const RbfData& data, const RbfOptions& options, RbfReport& report,
+              const Run& run) {
+    auto errors = errors_at_data(f, data, run);
+    note_errors(errors, report);
+    report.missed = report.largest_error;
+    if (options.smoothing || !(report.missed > data.edge * constants.tolerance)) return;
+    for (double& e : errors) e = -e;
+    f.rest = std::make_shared<NearbyRest>(data.points, std::move(errors),
+                                          constants.rest_reach * data.edge);
+    note_errors(errors_at_data(f, data, run), report);
+}
+
+/// Steps (2) and (3).
 class Fitter {
 public:
     Fitter(const RbfData& data, const Start& start, const RbfForm& form, const RbfOptions& options,
-           RbfReport& report, const Run& run) :
+           RbfReport& report) :
         data_(data),
-        start_(start), form_(form), options_(options), report_(report), run_(run) {}
+        start_(start), form_(form), options_(options), report_(report) {}
 
-    /// Fits by steps (2) to (4); without step (4) unless `whole`.
-    Result<Implicit> operator()(bool whole) {
+    Result<Implicit> operator()(const Run& run) {
         report_.data = data_.points.size();
-        choose_start();
-        if (options_.smoothing || form_.smoothed) return smoothed(whole);
-        Implicit f;
-        for (;;) {
-            if (run_.stop.stop_requested())
-                return Error{ErrorCode::interrupted, "stopped on request", ""};
-            auto fit = fit_rbf(points_, values_, {form_.polynomial, 0}, run_);
-            if (!fit) return fit.error();
-            f.smooth = std::move(fit.value().function);
-            if (run_.progress)
-                run_.progress("rbf", 0.5 * static_cast<double>(centres_) /
-                                         static_cast<double>(options_.most_centres));
-            // With many data, a sample first tells where centres are needed.
-            if (add_missed(errors_of(f, some()))) continue;
-            if (!whole) return f;
-            fit = fit_rbf(points_, values_, {form_.polynomial}, run_);
-            if (!fit) return fit.error();
-            f.smooth = std::move(fit.value().function);
-            report_.solution = fit.value().solution;
-            report_.centres = centres_;
-            if (some() > 1 && add_missed(errors_of(f))) continue;
-            interpolate_rest(f, data_, options_, report_, run_);
-            return f;
+        report_.centres = start_.centres.size();
+        auto smoothing = options_.smoothing;
+        if (form_.smoothed && !smoothing) smoothing = 0;
+        for (const std::uint32_t i : start_.centres) {
+            points_.push_back(data_.points[i]);
+            values_.push_back(0);
         }
-    }
-
-    /// Fits without refinement and without step (4).
-    Result<Implicit> quick() {
-        choose_start();
-        if (options_.smoothing) return smoothed(false);
-        Implicit f;
-        auto fit = fit_rbf(points_, values_, {form_.polynomial, 0}, run_);
-        if (!fit) return fit.error();
-        f.smooth = std::move(fit.value().function);
-        return f;
+        // Near noisy data, offset constraints would be dominated by the noise.
+        report_.offset = form_.along_axis && smoothing
+                             ? std::max(start_.offset, constants.noisy_offset * data_.radius)
+                             : start_.offset;
+        for (std::size_t k = 0; k < start_.with_offset; ++k)
+            for (const double side : {-1.0, 1.0})
+                add_offset(start_.centres[k], side * report_.offset);
+        if (run.progress) run.progress("rbf", 0);
+        auto fitted = RbfFunction::fitted(points_, values_, form_.polynomial, smoothing, run);
+        if (!fitted) return fitted.error();
+        return Implicit{std::move(*fitted), {}};
     }
 
 private:
-    /// Step (2): sets centres and offset constraints.
-    void choose_start() {
-        is_centre_.assign(data_.points.size(), false);
-        for (const std::uint32_t i : start_.centres) add_centre(i);
-        // Near noisy data, offset constraints would be dominated by the noise.
-        const bool noisy = form_.along_axis && (form_.smoothed || options_.smoothing);
-        const double d = noisy && !(options_.offset > 0)
-                             ? std::max(start_.offset, constants.noisy_offset * data_.radius)
-                             : start_.offset;
-        report_.offset = d;
-        for (const std::uint32_t i : start_.centres)
-            for (const double side : {-1.0, 1.0}) add_offset(i, side * d);
-        spacing_ = start_.spacing;
-    }
-
-    void add_centre(std::uint32_t i) {
-        is_centre_[i] = true;
-        points_.push_back(data_.points[i]);
-        values_.push_back(0);
-        ++centres_;
-    }
-
     /// Adds the constraint f = d at distance d, if the surface is about as far from there as
     /// expected; otherwise tries shorter distances.
     void add_offset(std::uint32_t i, double d) {
@@ -162,78 +140,13 @@ private:
         }
     }
 
-    /// Steps (3) and (4) with smoothing: all data, or a sufficient sample, determine the weights of
-    /// the centres of step (2).
-    Result<Implicit> smoothed(bool whole) {
-        std::vector<Point3> points(points_.begin(), points_.end());
-        std::vector<double> values(values_.begin(), values_.end());
-        const std::size_t count = std::min(constants.most_smoothed_data, data_.points.size());
-        for (std::size_t k = 0; k < count; ++k) {
-            const std::size_t i = k * data_.points.size() / count;
-            if (is_centre_[i]) continue; // already contained
-            points.push_back(data_.points[i]);
-            values.push_back(0);
-        }
-        auto fit = smooth_rbf(points_, points, values, form_.polynomial,
-                              options_.smoothing.value_or(0), run_);
-        if (!fit) return fit.error();
-        Implicit f;
-        f.smooth = std::move(fit.value().function);
-        f.nugget = fit.value().nugget;
-        report_.centres = centres_;
-        report_.freedom = fit.value().freedom;
-        if (whole) interpolate_rest(f, data_, options_, report_, run_);
-        return f;
-    }
-
-    [[nodiscard]] std::vector<double> errors_of(const Implicit& f, std::size_t step = 1) const {
-        return errors_at_data(f, data_, step, run_);
-    }
-
-    /// Returns the step at which a sample of data suffices for a trial or for more centres.
-    [[nodiscard]] std::size_t some() const {
-        return std::max<std::size_t>(1, data_.points.size() / constants.enough_data);
-    }
-
-    /// Step (3): turns the data of largest error into centres, no two of them near each other.
-    /// Returns false if all errors are tolerable or the centres are used up.
-    bool add_missed(const std::vector<double>& errors) {
-        std::vector<std::uint32_t> missed;
-        for (std::uint32_t i = 0; i < errors.size(); ++i)
-            if (!is_centre_[i] && std::fabs(errors[i]) > tolerance_of(data_, options_))
-                missed.push_back(i);
-        if (missed.empty() || centres_ >= options_.most_centres) return false;
-        std::sort(missed.begin(), missed.end(), [&](std::uint32_t a, std::uint32_t b) {
-            const double x = std::fabs(errors[a]), y = std::fabs(errors[b]);
-            return x > y || (x == y && a < b);
-        });
-        const std::size_t most =
-            std::min(options_.most_centres, constants.centre_growth * centres_) - centres_;
-        std::vector<std::uint32_t> taken;
-        for (const std::uint32_t i : missed) {
-            if (taken.size() == most) break;
-            const bool crowded = std::any_of(taken.begin(), taken.end(), [&](std::uint32_t j) {
-                return length(minus(data_.points[i], data_.points[j])) <
-                       constants.crowded * spacing_;
-            });
-            if (!crowded) taken.push_back(i);
-        }
-        for (const std::uint32_t i : taken) add_centre(i);
-        spacing_ *= constants.crowded;
-        return true;
-    }
-
     const RbfData& data_;
     const Start& start_;
     const RbfForm& form_;
     const RbfOptions& options_;
     RbfReport& report_;
-    const Run& run_;
     std::vector<Point3> points_; ///< of the constraints
     std::vector<double> values_;
-    std::vector<bool> is_centre_; ///< per datum
-    std::size_t centres_ = 0;
-    double spacing_ = 0;
 };
 
 LeftOut leave_out(const RbfData& data) {
@@ -266,16 +179,9 @@ LeftOut leave_out(const RbfData& data) {
     return result;
 }
 
-double rms(const std::vector<double>& values) {
-    double squares = 0;
-    for (const double v : values) squares += v * v;
-    return std::sqrt(squares / static_cast<double>(values.size()));
-}
-
 /// The error of a form at the data left out.
 struct Trial {
-    double missed = no_number; ///< root mean square; NaN if the fit failed
-    double nugget = 0;
+    double missed = no_number;                     ///< root mean square; NaN if the fit failed
     std::vector<std::array<double, 2>> left_out{}; ///< FillReport::left_out
 };
 
@@ -283,32 +189,23 @@ struct Trial {
 struct Trials {
     Trials(const RbfData& all, const RbfOptions& given) :
         data(all), left(leave_out(all)), tree(left.kept.points, left.kept.triangles),
-        options(fewer(given)), start(left.kept, tree, options) {}
-
-    /// Limits the number of centres to what distinguishes forms.
-    static RbfOptions fewer(RbfOptions options) {
-        const std::size_t enough =
-            options.smoothing ? constants.trial_centres_smoothed : constants.trial_centres;
-        options.most_centres = std::min(constants.trial_growth * options.most_centres, enough);
-        return options;
-    }
+        options(given), start(left.kept, tree, options, start_size(options)) {}
 
     const RbfData& data;
     LeftOut left;
     TriangleTree tree; ///< of the remaining data
-    RbfOptions options;
+    const RbfOptions& options;
     Start start;
 };
 
-/// Fits a form and measures its error at the data left out. `quick`: without step (3).
-Result<Trial> try_form(const Trials& trials, const RbfForm& form, bool quick, const Run& run) {
+/// Fits a form and measures its error at the data left out.
+Result<Trial> try_form(const Trials& trials, const RbfForm& form, const Run& run) {
     RbfReport unused;
     const RbfData& data = trials.data;
-    Fitter fitter(trials.left.kept, trials.start, form, trials.options, unused, run);
-    const auto f = quick ? fitter.quick() : fitter(false);
+    const auto f = Fitter(trials.left.kept, trials.start, form, trials.options, unused)(run);
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
     if (!f) return Trial{};
-    Trial trial{no_number, f.value().nugget, {}};
+    Trial trial;
     const Point3 normal = axes_of(data)[2];
     const double up = normal.z < 0 ? -1 : 1;
     std::vector<double> missed;
@@ -319,7 +216,7 @@ Result<Trial> try_form(const Trials& trials, const RbfForm& form, bool quick, co
         const double height = dot(p, normal);
         trial.left_out.push_back({up * height, up * (height - missed.back())});
     }
-    trial.missed = rms(missed);
+    trial.missed = terrane::detail::root_mean_square(missed);
     return trial;
 }
 
@@ -390,45 +287,12 @@ double needed(const RbfPolynomial& form, const RbfPolynomial& other) {
 
 } // namespace
 
-std::vector<std::uint32_t> well_spread(const std::vector<Point3>& points, std::size_t count,
-                                       const std::vector<bool>& of) {
-    const auto first = std::find(of.begin(), of.end(), true);
-    if (first == of.end() || count == 0) return {};
-    std::vector<std::uint32_t> chosen{static_cast<std::uint32_t>(first - of.begin())};
-    std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
-    while (chosen.size() < count) {
-        std::uint32_t farthest = chosen[0];
-        for (std::uint32_t i = 0; i < points.size(); ++i) {
-            if (!of[i]) continue;
-            const Point3 d = minus(points[i], points[chosen.back()]);
-            distance[i] = std::min(distance[i], dot(d, d));
-            if (distance[i] > distance[farthest]) farthest = i;
-        }
-        if (!(distance[farthest] > 0)) break;
-        chosen.push_back(farthest);
-    }
-    return chosen;
-}
-
-void interpolate_rest(Implicit& f, const RbfData& data, const RbfOptions& options,
-                      RbfReport& report, const Run& run) {
-    auto errors = errors_at_data(f, data, 1, run);
-    note_errors(errors, report);
-    report.missed = report.largest_error;
-    if (options.smoothing || report.missed <= tolerance_of(data, options)) return;
-    auto wanted = errors;
-    for (double& e : wanted) e = -e;
-    f.rest = RbfPatches(data.points, wanted);
-    report.patches = f.rest.size();
-    for_ranges(errors.size(), run, [&](std::size_t a, std::size_t b) {
-        for (std::size_t i = a; i < b; ++i) errors[i] += f.rest(data.points[i]);
-    });
-    note_errors(errors, report);
-}
-
 Result<Implicit> fit_hole(const RbfData& data, const TriangleTree& tree, const RbfForm& form,
                           const RbfOptions& options, RbfReport& report, const Run& run) {
-    return Fitter(data, Start(data, tree, options), form, options, report, run)(true);
+    const Start start(data, tree, options, options.most_centres);
+    auto f = Fitter(data, start, form, options, report)(run);
+    if (f) add_rest(*f, data, options, report, run);
+    return f;
 }
 
 bool is_graph_along(const RbfData& data, const Point3& axis) {
@@ -436,45 +300,27 @@ bool is_graph_along(const RbfData& data, const Point3& axis) {
 }
 
 Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, const Run& run) {
-    const auto forms = forms_for(data, options);
-    RbfChoice best{forms[0], no_number, {}, no_number};
+    auto forms = forms_for(data, options);
+    RbfChoice best{forms[0], no_number, {}};
     const Trials trials(data, options);
-    const RbfData& kept = trials.left.kept;
-    if (kept.points.size() < constants.least_judged || trials.left.points.empty()) return best;
-    Trial least;
-    const auto consider = [&](const RbfForm& form, const Trial& trial, double share) {
-        if (!std::isfinite(trial.missed)) return;
-        if (std::isfinite(least.missed) && !(trial.missed < share * least.missed)) return;
-        best.form = form;
-        least = trial;
+    if (trials.left.kept.points.size() < constants.least_judged || trials.left.points.empty())
+        return best;
+    Status status = Done{};
+    const auto consider = [&](const RbfForm& form, double share) {
+        if (!status.ok() || best.validated < constants.exact * data.radius) return;
+        auto trial = try_form(trials, form, run);
+        if (!trial) status = trial.error();
+        if (!trial || !std::isfinite(trial->missed)) return;
+        if (std::isfinite(best.validated) && !(trial->missed < share * best.validated)) return;
+        best = {form, trial->missed, std::move(trial->left_out)};
     };
-    for (const RbfForm& form : forms) {
-        if (least.missed < constants.exact * data.radius) break;
-        const auto trial = try_form(trials, form, true, run);
-        if (!trial) return trial.error();
-        consider(form, trial.value(), needed(form.polynomial, best.form.polynomial));
+    for (const RbfForm& form : forms) consider(form, needed(form.polynomial, best.form.polynomial));
+    if (!options.smoothing) { // noise may be kept out of the hole
+        RbfForm smoothed = best.form;
+        smoothed.smoothed = true;
+        consider(smoothed, constants.worth_smoothing);
     }
-    if (!options.smoothing &&
-        !(least.missed <
-          constants.exact * data.radius)) { // with step (3), and with noise kept out of the
-                                            // hole
-        for (const bool smoothed : {false, true}) {
-            RbfForm form = best.form;
-            form.smoothed = smoothed;
-            const auto trial = try_form(trials, form, false, run);
-            if (!trial) return trial.error();
-            if (!smoothed) least = trial.value();
-            consider(form, trial.value(), constants.worth_smoothing);
-        }
-    }
-    best.validated = least.missed;
-    best.left_out = least.left_out;
-    if (!std::isfinite(best.validated)) return best;
-    std::vector<Point3> places;
-    for (const std::uint32_t i : trials.left.points) places.push_back(data.points[i]);
-    const RbfError error(kept, best.form.polynomial, trials.left.width, least.nugget);
-    const double foreseen = rms(error.at(places, least.nugget > 0, run));
-    if (foreseen > 0) best.expected = best.validated / foreseen;
+    if (!status) return status.error();
     return best;
 }
 

@@ -5,23 +5,23 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
+#include <terrane/algorithms/reconstruction/kriging/nearby_rest.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/data.hpp>
 #include <terrane/algorithms/reconstruction/rbf/detail/function.hpp>
-#include <terrane/algorithms/reconstruction/rbf/detail/patches.hpp>
 #include <terrane/algorithms/reconstruction/rbf/rbf.hpp>
 
 namespace terrane::rbf::detail {
 
 struct Implicit {
     RbfFunction smooth;
-    RbfPatches rest;
-    double nugget = 0; ///< of detail/error.hpp: variance of each datum if smoothed
+    std::shared_ptr<const NearbyRest> rest; ///< of step (4); none if it was not needed
 
     [[nodiscard]] double operator()(const Point3& p) const {
-        return rest.size() == 0 ? smooth(p) : smooth(p) + rest(p);
+        return rest ? smooth(p) + (*rest)(p) : smooth(p);
     }
 };
 
@@ -31,12 +31,12 @@ struct RbfForm {
     bool along_axis = false; ///< offset constraints are along the polynomial's third axis, not
                              ///< along normals: f is a height, of which the polynomial can take
                              ///< more than of a distance
-    bool smoothed = false;   ///< step (3) smooths by generalised cross-validation, so that noise of
-                             ///< the data is left to step (4) and does not enter the hole
+    bool smoothed = false; ///< step (3) smooths as is likeliest, so that noise of the data is left
+                           ///< to step (4) and does not enter the hole
 };
 
 /// Fits the function. `tree`: of the data's triangles; `report` describes the fit. Errors: those of
-/// fit_rbf(); interrupted.
+/// RbfFunction::fitted().
 Result<Implicit> fit_hole(const RbfData& data, const TriangleTree& tree, const RbfForm& form,
                           const RbfOptions& options, RbfReport& report, const Run& run);
 
@@ -53,8 +53,6 @@ struct RbfChoice {
     double validated = 0; ///< root mean square error at the data left out; NaN if none could be
                           ///< left out
     std::vector<std::array<double, 2>> left_out{}; ///< FillReport::left_out
-    double expected = 0; ///< factor of RbfError: error at the data left out / power function there;
-                         ///< NaN if none could be left out
 };
 
 /// Computes axes along and across the hole; the third is the mean normal of its border.
@@ -66,15 +64,5 @@ bool is_graph_along(const RbfData& data, const Point3& axis);
 /// Chooses the form with the least error at the data left out; a higher degree must be better by a
 /// tenth. Errors: interrupted.
 Result<RbfChoice> choose_form(const RbfData& data, const RbfOptions& options, const Run& run);
-
-/// Step (4): interpolates the errors that were left at the data, if any exceeds the tolerance;
-/// `fade` says how far they reach. With options.smoothing, reports them only.
-void interpolate_rest(Implicit& f, const RbfData& data, const RbfOptions& options,
-                      RbfReport& report, const Run& run);
-
-/// Selects up to `count` of the points marked in `of`, each as far as possible from those before
-/// it.
-std::vector<std::uint32_t> well_spread(const std::vector<Point3>& points, std::size_t count,
-                                       const std::vector<bool>& of);
 
 } // namespace terrane::rbf::detail

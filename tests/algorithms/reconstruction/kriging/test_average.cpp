@@ -299,12 +299,29 @@ TEST_CASE("kriging: with few data no expected error is told", "[kriging]") {
     Random random(34);
     Ring ring = ring_of(random);
     draw(random, ring);
-    const DataAroundHole few{std::span(ring.data).first(constants.least_data - 1), 8, hole_radius};
+    const DataAroundHole few{std::span(ring.data).first(19), 8, hole_radius};
     const auto average = weigh_models(few, {}, {});
-    CHECK(!average.determined);
+    CHECK(average.unknown == "too few data");
+    const DataAroundHole enough{std::span(ring.data).first(20), 8, hole_radius};
+    CHECK(weigh_models(enough, {}, {}).unknown.empty());
     const auto known = AveragedHeights(few, average, {}).at(ring.places, {});
     for (const double e : known.expected) CHECK(std::isnan(e));
     for (const double z : known.heights) CHECK(std::isfinite(z));
+}
+
+TEST_CASE("kriging: the expected error of equal heights is no less than their rounding",
+          "[kriging]") {
+    Random random(36);
+    Ring ring = ring_of(random);
+    for (const double height : {0.0, 7.0}) {
+        for (Point3& p : ring.data) p.z = height;
+        const auto average = weigh_models(ring.around(), {}, {});
+        CHECK(average.unknown.empty() == (height != 0));
+        const auto known = AveragedHeights(ring.around(), average, {}).at(ring.places, {});
+        for (const double e : known.expected)
+            CHECK((height == 0 ? std::isnan(e) : e >= std::nextafter(7.0, 8) - 7));
+        for (const double z : known.heights) CHECK(z == height);
+    }
 }
 
 TEST_CASE("kriging: next to long borders the filling meets data that are not taken", "[kriging]") {

@@ -49,10 +49,17 @@ TEST_CASE("kriging: contrasts are an orthogonal basis that the trend does not ch
         weights.head(m) = first;
         contrasts.undo(weights);
         CHECK((terms.transpose() * weights - place).norm() < 1e-11);
-        CHECK((inverse_of(kernel) * kernel - Eigen::MatrixXd::Identity(20, 20)).norm() < 1e-6);
         CHECK((squared(root) - root.transpose() * root).norm() < 1e-11);
     }
-    CHECK(inverse_of(-Eigen::MatrixXd::Identity(3, 3)).size() == 0);
+    const Eigen::MatrixXd root =
+        Eigen::MatrixXd::Random(70, 70) + 9 * Eigen::MatrixXd::Identity(70, 70);
+    Eigen::MatrixXd factor = root * root.transpose();
+    CHECK(cholesky(factor, {}));
+    factor.triangularView<Eigen::StrictlyUpper>().setZero();
+    CHECK((factor * factor.transpose() - root * root.transpose()).norm() < 1e-9);
+    CHECK((inverse_of_factor(factor) * factor - Eigen::MatrixXd::Identity(70, 70)).norm() < 1e-9);
+    Eigen::MatrixXd negative = -Eigen::MatrixXd::Identity(3, 3);
+    CHECK_FALSE(cholesky(negative, {}));
     Eigen::MatrixXd line = Eigen::MatrixXd::Random(20, 3);
     line.col(2) = 2 * line.col(1);
     CHECK_FALSE(Contrasts(line).determined());
@@ -64,18 +71,23 @@ TEST_CASE("kriging: the most likely nugget is that of a search with dense algebr
     const Eigen::MatrixXd kernel = root * root.transpose();
     const Eigen::VectorXd values =
         root * Eigen::VectorXd::Random(30) + 2 * Eigen::VectorXd::Random(30);
-    const auto likelihood = [&](double nugget) {
-        Eigen::MatrixXd system = kernel;
-        system.diagonal().array() += nugget;
-        const double sill = values.dot(system.ldlt().solve(values)) / 30;
-        const Eigen::VectorXd pivots = system.ldlt().vectorD();
-        return -(30 * std::log(sill) + pivots.array().log().sum()) / 2;
-    };
-    const TridiagonalKernel form(kernel, values);
-    const auto found = form.most_likely();
-    CHECK(found.likelihood == Approx(likelihood(found.nugget / found.sill)));
-    for (double factor = 1e-4; factor < 1e4; factor *= 1.3)
-        CHECK(found.likelihood > likelihood(factor * kernel.diagonal().mean()) - 0.01);
+    const std::vector<Eigen::Index> trends{0, 2, 5};
+    const auto found = TridiagonalKernel(kernel, values, trends).most_likely();
+    REQUIRE(found.size() == trends.size());
+    for (std::size_t t = 0; t < trends.size(); ++t) {
+        const Eigen::Index n = 30 - trends[t];
+        const auto likelihood = [&](double nugget) {
+            Eigen::MatrixXd system = kernel.bottomRightCorner(n, n);
+            system.diagonal().array() += nugget;
+            const auto count = static_cast<double>(n);
+            const double sill = values.tail(n).dot(system.ldlt().solve(values.tail(n))) / count;
+            const Eigen::VectorXd pivots = system.ldlt().vectorD();
+            return -(count * std::log(sill) + pivots.array().log().sum()) / 2;
+        };
+        CHECK(found[t].likelihood == Approx(likelihood(found[t].nugget / found[t].sill)));
+        for (double factor = 1e-4; factor < 1e4; factor *= 1.3)
+            CHECK(found[t].likelihood > likelihood(factor * kernel.diagonal().mean()) - 0.01);
+    }
 }
 
 TEST_CASE("kriging: neighbours of well-spread points are as near as any, in any order",

@@ -14,6 +14,7 @@
 #include "support/points.hpp"
 #include "support/shapes.hpp"
 #include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/reconstruction/kriging/flat_hole.hpp>
 
 using namespace terrane;
 using namespace test_support;
@@ -239,6 +240,22 @@ TEST_CASE("fill by kriging: a fold is refused, with the place", "[kriging]") {
     const auto refused = fill_by_kriging(upright, first_hole(loops_of(upright)));
     REQUIRE(!refused);
     CHECK(refused.error().code == ErrorCode::unsupported);
+}
+
+TEST_CASE("fill by kriging: data reach as far as the hole is wide, or are enough", "[kriging]") {
+    const auto data_of = [](int n, int radius) {
+        const Surface s = sheet(n, n, 10, without_disc(n / 2, n / 2, radius), wave);
+        const auto loops = loops_of(s);
+        const auto hole = FlatHole::of(s, first_hole(loops), loops, 1);
+        REQUIRE(hole);
+        return static_cast<double>(hole->data().size());
+    };
+    const double few = data_of(60, 8) / (8 * 8 * M_PI); // per vertex that was taken out
+    CHECK(few > 2.2);
+    CHECK(few < 4.4);
+    const double many = data_of(140, 24);
+    CHECK(many > 3800);
+    CHECK(many < 4600);
 }
 
 TEST_CASE("fill by kriging: invalid options are refused, and a stop request is obeyed",

@@ -176,23 +176,30 @@ TEST_CASE("kriging: likelihoods of trends of several degrees compare", "[kriging
         for (Point3& p : data)
             p.z =
                 (truth > 0 ? 0.1 * p.x : 0) + (truth > 1 ? 0.004 * p.x * p.y : 0) + normal(random);
-        double best = -HUGE_VAL;
-        unsigned found = 3;
-        for (unsigned degree = 0; degree < 3; ++degree)
-            if (const auto likely = Likelihood(data, degree).of_noise(); likely.likelihood > best) {
-                best = likely.likelihood;
-                found = degree;
-                CHECK(likely.degree == degree);
-                if (degree == truth) CHECK(likely.variogram.nugget == Approx(1).epsilon(0.4));
-            }
-        CHECK(found == truth);
+        const auto all = Likelihood(data).of_noise();
+        REQUIRE(all.size() == 3);
+        for (unsigned degree = 0; degree < 3; ++degree) {
+            CHECK(all[degree].degree == degree);
+            CHECK((degree == truth || all[degree].likelihood < all[truth].likelihood));
+        }
+        CHECK(all[truth].variogram.nugget == Approx(1).epsilon(0.4));
     }
     // Noise alone is the limit of a field that is mostly noise.
     auto data = scattered(random, 120, 100);
     for (Point3& p : data) p.z = normal(random);
-    const Likelihood likelihood(data, 1);
+    const Likelihood likelihood(data);
     const auto with = likelihood.at({VariogramModel::exponential, 0, 1, 50}),
                none = likelihood.of_noise();
-    CHECK(with.likelihood > none.likelihood - 0.1);
-    CHECK(with.likelihood < none.likelihood + 5);
+    REQUIRE(with.size() == 3);
+    for (std::size_t degree = 0; degree < 3; ++degree) {
+        CHECK(with[degree].degree == degree);
+        CHECK(with[degree].likelihood > none[degree].likelihood - 0.1);
+        CHECK(with[degree].likelihood < none[degree].likelihood + 5);
+    }
+    CHECK(likelihood.at({VariogramModel::cubic, 0, 1, 50}).size() == 2); // needs a trend
+    for (Point3& p : data) p.z = 2 * p.x;
+    const auto plane = Likelihood(data).of_noise();
+    REQUIRE(plane.size() == 1);
+    CHECK(plane[0].degree == 1);
+    CHECK(plane[0].variogram.nugget == 0);
 }

@@ -7,11 +7,11 @@
 
 #include <nanoflann.hpp>
 
-namespace terrane::kriging::detail {
+namespace terrane {
 
-/// Points of the plane in the form that nanoflann reads.
-struct FlatCloud {
-    std::vector<std::array<double, 2>> points;
+/// Points in the form that nanoflann reads.
+struct Cloud {
+    std::vector<std::array<double, 3>> points;
 
     [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
     [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
@@ -23,9 +23,9 @@ struct FlatCloud {
     }
 };
 
-/// Search tree for the nearest points.
-using FlatTree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, FlatCloud>, FlatCloud,
-                                        2>;
+/// Search tree for the nearest points in the plane (2) or in space (3).
+template <int dimension>
+using CloudTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>,
+                                                      Cloud, dimension>;
 
-} // namespace terrane::kriging::detail
+} // namespace terrane
