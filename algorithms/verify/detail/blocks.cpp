@@ -203,7 +203,6 @@ std::vector<mpz_class> six_volumes(const ExactMesh& mesh, const Blocks& blocks) 
 }
 
 double nearest_double(const mpq_class& number) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr double largest = std::numeric_limits<double>::max();
     const mpq_class size = abs(number);
     const double sign = sgn(number) < 0 ? -1 : 1;

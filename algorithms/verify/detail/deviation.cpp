@@ -3,7 +3,6 @@
 // check_distances of rounded_parts.hpp.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -83,7 +82,6 @@ public:
     /// of an input triangle.
     [[nodiscard]] Triangles near(std::uint32_t input) const {
         if (!tree_) tree_ = tree_of_mesh();
-        constexpr double infinity = std::numeric_limits<double>::infinity();
         const double reach = parts_.rounded.deviation / 4;
         Box box = box_of(parts_.inputs.triangles[input], parts_.inputs.vertices);
         for (std::size_t i = 0; i < 3; ++i) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 
@@ -41,7 +40,6 @@ const Kind& find_kind(CertificateKind kind) {
 }
 
 double default_max_change(std::span<const Surface> surfaces) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     std::array<double, 3> low{infinity, infinity, infinity};
     std::array<double, 3> high{-infinity, -infinity, -infinity};
     for (const Surface& surface : surfaces)

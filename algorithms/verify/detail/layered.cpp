@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,8 +18,6 @@
 namespace terrane::verifier {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class LayeredChecker {
 public:

@@ -131,7 +131,6 @@ ScaledPoints scale_to_integers(std::span<const Point3> points) {
 
 Box enclose(const Vector4& point, const mpz_class& scale) {
     look_for_stop();
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr double largest = std::numeric_limits<double>::max();
     const mpz_class denominator = point[3] * scale;
     Box box{};

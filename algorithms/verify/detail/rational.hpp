@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,6 +15,8 @@
 #include <terrane/kernel/point.hpp>
 
 namespace terrane::verifier {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Homogeneous coordinates of a point or a plane.
 /// A point (x, y, z, w) with w > 0 is (x/w, y/w, z/w), in the unit of its model over `scale`.
