@@ -282,11 +282,11 @@ TEST_CASE("filled certificates: a filling is a disc, and faces a side of the bor
             std::vector<FilledRecord>{{&surface, points, given, interpolated, deviation}}));
         return judged(s);
     };
-    const std::vector<Triangle> both{{4, 5, 6}, {4, 6, 7}, {12, 14, 13}, {12, 15, 14}};
-    CHECK(judged_with(rings, both, {1, 1, 2, 2}) == "");
-    CHECK(judged_with(rings, both, {7, 7, 3, 3}) == "");
-    CHECK(judged_with(rings, both, {1, 1, 1, 1}) == "R28");
-    CHECK(judged_with(rings, both, {1, 2, 3, 3}) == "R28");
+    const std::vector<Triangle> two_fillings{{4, 5, 6}, {4, 6, 7}, {12, 14, 13}, {12, 15, 14}};
+    CHECK(judged_with(rings, two_fillings, {1, 1, 2, 2}) == "");
+    CHECK(judged_with(rings, two_fillings, {7, 7, 3, 3}) == "");
+    CHECK(judged_with(rings, two_fillings, {1, 1, 1, 1}) == "R28");
+    CHECK(judged_with(rings, two_fillings, {1, 2, 3, 3}) == "R28");
     // The border around a ring instead of the hole in it, or both.
     std::vector<Triangle> cone;
     for (std::uint32_t k = 0; k < 4; ++k) cone.push_back({(k + 1) % 4, k, 16});

@@ -183,11 +183,10 @@ TEST_CASE("verifier: tetrahedra that fill their box twice are refused by its vol
         for (const double y : {0, 1})
             for (const double x : {0, 1}) claim.vertices.push_back({x, y, z});
     const auto volume = [&](const Four& t) {
-        const auto& [a, b, c, d] = t;
-        const auto from_a = [&](std::uint32_t v) {
-            return minus(claim.vertices[v], claim.vertices[a]);
+        const auto from_first = [&](std::size_t k) {
+            return minus(claim.vertices[t[k]], claim.vertices[t[0]]);
         };
-        return dot(cross(from_a(b), from_a(c)), from_a(d));
+        return dot(cross(from_first(1), from_first(2)), from_first(3));
     };
     const auto on_side = [](const Triangle& t) {
         const std::uint32_t all = t[0] & t[1] & t[2], any = t[0] | t[1] | t[2];
