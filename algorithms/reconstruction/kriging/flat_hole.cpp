@@ -24,8 +24,6 @@ using namespace kriging::detail;
 
 namespace {
 
-using kriging::detail::constants;
-
 Error stopped() {
     return {ErrorCode::interrupted, "interrupted", ""};
 }

@@ -14,6 +14,7 @@
 
 #include <terrane/algorithms/verify/detail/box_tree.hpp>
 #include <terrane/algorithms/verify/detail/contacts.hpp>
+#include <terrane/algorithms/verify/detail/distance.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/joined_sets.hpp>
 #include <terrane/algorithms/verify/detail/output.hpp>

@@ -124,7 +124,7 @@ void AveragedHeights::add_rest(const DataAroundHole& around) {
     if (!(squares > noise)) return;
     for (double& r : rest) r *= 1 - noise / squares;
     for (Point3& p : border) p.z = 0;
-    const double spacing = length / static_cast<double>(constants.most_at_once / 2);
+    const double spacing = 2 * length / static_cast<double>(constants.most_at_once);
     beside_border_ = std::make_unique<NearbyRest>(border, std::move(rest), spacing);
 }
 
