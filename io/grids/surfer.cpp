@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/grids/surfer.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -59,7 +60,7 @@ public:
 
     template <class T>
     T next() {
-        if (contents_.size() - at_ < sizeof(T)) {
+        if (left() < sizeof(T)) {
             is_short_ = true;
             return {};
         }
@@ -107,10 +108,15 @@ public:
     }
 
 private:
+    /// The number of bytes that were not passed over.
+    [[nodiscard]] std::size_t left() const {
+        return contents_.size() - std::min(at_, contents_.size());
+    }
+
     template <class T>
     MaybeError read_heights(Grid& grid, double blank) {
         const std::uint64_t count = std::uint64_t{grid.nx} * grid.ny;
-        if (is_short_ || count == 0 || count > (contents_.size() - at_) / sizeof(T))
+        if (is_short_ || count == 0 || count > left() / sizeof(T))
             return error(
                 ErrorCode::bad_syntax,
                 fmt::format("the file is too short for {} x {} heights", grid.nx, grid.ny));

@@ -178,6 +178,17 @@ void check_same(const Result<Grid>& read, const Grid& g, double rounding = 0) {
 
 } // namespace
 
+TEST_CASE("grids: a part of a Surfer grid is an error, wherever it ends", "[io][grid]") {
+    const Grid g = sample(3, 2, 1);
+    for (const int version : {0, 6, 7}) {
+        const std::string whole = surfer_file(g, version);
+        const std::size_t end =
+            whole.size() - (version == 0 ? 3 : 1); // behind the last height's first digit
+        for (std::size_t size = 4; size < end; ++size)
+            CHECK_FALSE(read_surfer(std::string_view(whole).substr(0, size), "a", "top"));
+    }
+}
+
 TEST_CASE("grids: each format gives back what was written in it", "[io][grid]") {
     for (unsigned seed = 0; seed < 5; ++seed) {
         Grid g = sample(3 + seed, 9 - seed, seed);
