@@ -169,7 +169,8 @@ Result<Attempted> MovedWhole::attempt(const std::vector<Surface>& surfaces) {
     rounded->report.rounds += rounds_;
     if (task_.spare != nullptr) {
         auto ill_joined = parents_ill_joined(arrangement_, *rounded);
-        if (!ill_joined.all.empty() || are_parted(arrangement_, *rounded)) {
+        const bool is_worse = *task_.spare && rounded->mesh->triangles.empty();
+        if (is_worse || !ill_joined.all.empty() || are_parted(arrangement_, *rounded)) {
             last_ = std::move(ill_joined);
             if (!*task_.spare) *task_.spare = std::move(rounded);
             return Attempted::in_contact;
