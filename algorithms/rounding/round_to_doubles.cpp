@@ -169,10 +169,11 @@ Result<Attempted> MovedWhole::attempt(const std::vector<Surface>& surfaces) {
     rounded->report.rounds += rounds_;
     if (task_.spare != nullptr) {
         auto ill_joined = parents_ill_joined(arrangement_, *rounded);
-        const bool is_worse = *task_.spare && rounded->mesh->triangles.empty();
+        const bool is_worse =
+            rounded->mesh->triangles.empty() && (*task_.spare || first_.report.clean);
         if (is_worse || !ill_joined.all.empty() || are_parted(arrangement_, *rounded)) {
             last_ = std::move(ill_joined);
-            if (!*task_.spare) *task_.spare = std::move(rounded);
+            if (!*task_.spare && !is_worse) *task_.spare = std::move(rounded);
             return Attempted::in_contact;
         }
     }
