@@ -26,6 +26,7 @@ WITHIN = {
     "arranging_of": "build",
     "cell_centres": "parse_surfaces, grdecl",
     "check_edge_length": "fill_by_kriging",
+    "check_sides": "fill_by_kriging",
     "check_improvable": "build",
     "check_new_folder": "check_pvtp",
     "count_work": "arrange_in_tiles",
