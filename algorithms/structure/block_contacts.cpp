@@ -103,13 +103,15 @@ void add_contacts(const Mesh& mesh, std::span<const std::array<std::uint32_t, 2>
 
 void BlockSides::add(const Mesh& mesh, std::span<const std::array<std::uint32_t, 2>> of_sides) {
     std::vector<EdgeSum> numbers; // of the vertices
+    std::array<std::uint32_t, 2> last{};
     for (const Point3& p : mesh.vertices) numbers.push_back(number_of(p));
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto [front, back] = of_sides[t];
         if (front == back) continue; // it dangles
         const auto surfaces = mesh.surfaces_of[t];
-        crossings_.try_emplace({std::min(front, back), std::max(front, back)}, surfaces.begin(),
-                               surfaces.end());
+        const std::array<std::uint32_t, 2> blocks{std::min(front, back), std::max(front, back)};
+        if (blocks != last) crossings_.try_emplace(blocks, surfaces.begin(), surfaces.end());
+        last = blocks; // neighbouring triangles mostly follow each other
         EdgeSum sum{};
         for (std::size_t i = 0; i < 3; ++i) {
             const EdgeSum &a = numbers[mesh.triangles[t][i]],

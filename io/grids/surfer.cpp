@@ -37,7 +37,8 @@ MaybeError read_surfer_text(LineParser& in, Grid& grid) {
         if (auto trouble = text.number("the header", *number)) return trouble;
     const auto is_count = [](double n) { return n >= 1 && n < 2147483648.0 && n == std::floor(n); };
     if (!is_count(nx) || !is_count(ny))
-        return in.error(ErrorCode::bad_syntax, "the numbers of columns and rows are none");
+        return in.error(ErrorCode::bad_syntax,
+                        "the second line needs the numbers of columns and rows, from 1 on");
     grid.nx = static_cast<std::uint32_t>(nx);
     grid.ny = static_cast<std::uint32_t>(ny);
     span_grid(grid, last_x, last_y);

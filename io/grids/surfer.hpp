@@ -10,8 +10,9 @@
 
 namespace terrane {
 
-/// Reads a grid called `name`. Rows are listed from the lowest y up. Heights of 1.70141e38 and more, or of the
-/// file's own number for no data, are none. Source: Golden Software, "Surfer Grid File Formats".
+/// Reads a grid called `name`. Rows are listed from the lowest y up. A node whose height is 1.70141e38
+/// or more, or the file's own number for no data, has no height. Source: Golden Software, "Surfer
+/// Grid File Formats".
 /// Errors: bad_syntax, bad_number with "source:line", or "source, byte n" where the grid is binary;
 /// unsupported (another file with the extension .grd, for instance a NetCDF grid of GMT).
 Result<Grid> read_surfer(std::string_view contents, std::string_view source, std::string_view name);

@@ -52,7 +52,7 @@ public:
     }
 
 private:
-    /// Returns the contents with points in place of decimal commas; nothing if there are none.
+    /// Replaces decimal commas by points; returns nothing where commas separate columns.
     [[nodiscard]] std::string with_points(std::string_view contents) const {
         std::string text;
         if (commas_ != Commas::decimal) return text;

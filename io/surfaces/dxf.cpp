@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/mesh/validation.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/io/surfaces/detail/point_numbering.hpp>
 #include <terrane/io/surfaces/parts.hpp>
 #include <terrane/io/text/text.hpp>
@@ -87,23 +88,19 @@ struct Placement {
     }
 };
 
-Point3 cross_product(const Point3& a, const Point3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 Point3 unit_vector(const Point3& p) {
-    const double size = std::hypot(p.x, p.y, p.z);
+    const double size = length(p);
     return {p.x / size, p.y / size, p.z / size};
 }
 
-/// The axes of an entity with this direction of extrusion. Source: the DXF Reference's arbitrary
-/// axis algorithm.
+/// Returns the axes in which an entity with this direction of extrusion states its coordinates.
+/// Source: Autodesk, DXF Reference, arbitrary axis algorithm.
 std::array<Point3, 3> axes_along(const Point3& extrusion) {
     if (extrusion == Point3{0, 0, 1}) return Placement{}.axes;
     const Point3 z = unit_vector(extrusion);
     const bool steep = std::fabs(z.x) < 1.0 / 64 && std::fabs(z.y) < 1.0 / 64;
-    const Point3 x = unit_vector(cross_product(steep ? Point3{0, 1, 0} : Point3{0, 0, 1}, z));
-    return {x, cross_product(z, x), z};
+    const Point3 x = unit_vector(cross(steep ? Point3{0, 1, 0} : Point3{0, 0, 1}, z));
+    return {x, cross(z, x), z};
 }
 
 /// Cosine and sine, exact for multiples of 90 degrees.

@@ -9,7 +9,7 @@ namespace terrane::verifier {
 
 namespace {
 
-constexpr std::size_t few = 32; ///< so many children need no tree
+constexpr std::size_t few = 32; ///< children; for fewer a tree takes longer
 // How many children are looked at: at first, and for each child.
 constexpr std::size_t first_looks = 100'000, looks_per_child = 64;
 

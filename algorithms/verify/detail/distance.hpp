@@ -79,7 +79,7 @@ public:
 
 private:
     struct Segment;
-    static constexpr std::size_t few = 16; ///< so many need no tree
+    static constexpr std::size_t few = 16; ///< triangles; for fewer a tree takes longer
 
     [[nodiscard]] bool is_near(const Vector4& point, std::uint32_t t) const;
     /// Returns the triangles that may be near a segment.

@@ -94,7 +94,7 @@ KnownHeights AveragedHeights::average_at(std::span<const Point3> places,
     return known;
 }
 
-/// Drops models whose systems have no solution, as long as there are others.
+/// Drops models whose systems of equations have no solution, and keeps at least one.
 void AveragedHeights::drop_unsolved() {
     for (std::size_t m = systems_.size(); m-- > 0 && systems_.size() > 1;) {
         if (systems_[m].ready()) continue;
