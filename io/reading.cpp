@@ -2,6 +2,14 @@
 #include <terrane/io/reading.hpp>
 
 #include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/detail/recognition.hpp>
+#include <terrane/io/text/utf8.hpp>
 
 namespace terrane {
 namespace {
@@ -17,7 +25,42 @@ bool has_depths(std::optional<Format> format) {
            format == Format::sticks;
 }
 
+constexpr std::array<std::pair<Format, std::string_view>, 19> titles{{
+    {Format::gocad, "GOCAD"},
+    {Format::obj, "Wavefront OBJ"},
+    {Format::off, "OFF"},
+    {Format::stl, "STL"},
+    {Format::ply, "PLY"},
+    {Format::vtp, "VTK PolyData"},
+    {Format::vtu, "VTK UnstructuredGrid"},
+    {Format::msh, "Gmsh MSH"},
+    {Format::vtk, "legacy VTK"},
+    {Format::irap, "Irap grid"},
+    {Format::zmap, "ZMAP+ grid"},
+    {Format::cps3, "CPS-3 grid"},
+    {Format::esri, "ESRI ASCII grid"},
+    {Format::surfer, "Surfer grid"},
+    {Format::xyz, "points in columns"},
+    {Format::vset, "GOCAD points"},
+    {Format::dxf, "DXF"},
+    {Format::grdecl, "corner-point grid"},
+    {Format::sticks, "fault sticks"},
+}};
+
 } // namespace
+
+std::string format_in(const std::filesystem::path& path, std::optional<Format> format) {
+    if (!format) format = format_of(path);
+    if (format == Format::pline) format = Format::vset;
+    if (format == Format::xyz && path != "-")
+        if (const auto contents = read_file(path)) {
+            const std::string utf8 = detail::utf8_of_utf16(*contents);
+            format = detail::format_seen_in(utf8.empty() ? *contents : utf8).value_or(Format::xyz);
+        }
+    const auto* const title =
+        std::ranges::find(titles, format, &decltype(titles)::value_type::first);
+    return std::string(title == titles.end() ? "unknown" : title->second);
+}
 
 Status check_reading(const std::vector<std::optional<Format>>& files, const ReadOptions& options,
                      const std::array<const char*, 2>& option_names) {

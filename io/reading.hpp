@@ -15,6 +15,10 @@ namespace terrane {
 /// Reads a GOCAD model with its parts and regions. Errors: those of read_surfaces.
 Result<GocadModel> read_model(const std::filesystem::path& path);
 
+/// Returns what people call the format of a file that was read. Text with columns of numbers is named by its
+/// first lines, whatever its extension. `format`: as stated, if it was.
+std::string format_in(const std::filesystem::path& path, std::optional<Format> format);
+
 /// Refuses what a caller says of files of these formats if it is about none of them: `depth` of files that are neither
 /// grids nor points, `max_edge` of files that are not points. `option_names` are those two options, as the caller knows them.
 /// Errors: bad_option.

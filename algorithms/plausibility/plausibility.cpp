@@ -92,6 +92,8 @@ std::string_view name_of(Doubt doubt) {
         return "no_base";
     case Doubt::float32:
         return "float32";
+    case Doubt::values_left_out:
+        return "values_left_out";
     case Doubt::flawed_faces:
         return "flawed_faces";
     case Doubt::duplicate_surface:
@@ -117,6 +119,7 @@ std::vector<PlausibilityWarning> find_doubts(std::span<const Surface> surfaces,
     check_volume(examination);
     check_top_and_base(examination);
     check_float32(examination);
+    check_values(examination);
     check_faces(examination);
     check_duplicates(examination);
     return summed_up(std::move(examination.warnings));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
@@ -52,7 +53,10 @@ Result<std::vector<SurfaceGap>> find_gaps(const Arrangement& arrangement, double
         for (const BorderEdge& edge : open_border_edges(arrangement)) {
             if (run.stop.stop_requested())
                 return Error{ErrorCode::interrupted, "stopped on request", ""};
-            if (const auto gap = distances.gap_at(edge); gap && gap->largest > 0)
+            auto gap = distances.gap_at(edge);
+            if (auto own = distances.own_gap_at(edge); own && (!gap || own->largest < gap->largest))
+                gap = std::move(own);
+            if (gap && gap->largest > 0)
                 gaps.push_back(
                     {edge.surface, SurfaceId(gap->to), gap->length, gap->largest, gap->place});
         }

@@ -125,16 +125,16 @@ Result<Sealed> seal(std::vector<Surface> surfaces, const SealOptions& options, c
 /// Lists the constants that decide the result and are not options.
 std::vector<NamedConstant> seal_constants();
 
-// Lists the gaps between free borders and other surfaces, and where their widths have natural
+// Lists the gaps between free borders and other surfaces, or parts of the same, and where their widths have natural
 // breaks: widths that next to no gap has, between the gaps that are errors of the data and those
 // that are meant.
 
-/// The free part of an edge of a border that ends near another surface.
+/// The free part of an edge of a border that ends near another surface, or another part of its own.
 struct SurfaceGap {
     SurfaceId from{};  ///< the surface that ends
-    SurfaceId to{};    ///< the surface nearest to `place`
+    SurfaceId to{};    ///< the surface nearest to `place`; `from`: another part of it
     double length = 0; ///< of the free part, unit of the input
-    double width = 0;  ///< largest distance from the nearest other surface
+    double width = 0;  ///< largest distance from it
     Point3 place{};    ///< where that is
 };
 

@@ -24,7 +24,7 @@ namespace terrane {
 /// of magnitude, so that borders that stop a little short are separated from those that end far
 /// away.
 struct BorderGap {
-    SurfaceId surface{}; ///< the nearest surface that the border does not belong to
+    SurfaceId surface{}; ///< the nearest one; of its own surface only other parts count
     int decade = 0;      ///< distances are in [10^decade, 10^(decade + 1)); INT_MIN: they are 0
     double length = 0;   ///< of this part of the border
     double least = 0;    ///< smallest distance of an edge, at its farther end
@@ -45,7 +45,7 @@ struct FreeBorder {
 /// magnitude.
 struct Leak {
     SurfaceId from{};        ///< the surface that ends
-    SurfaceId to{};          ///< the surface nearest to it
+    SurfaceId to{};          ///< the surface nearest to it; `from`: another part of it
     int decade = 0;          ///< as in BorderGap
     std::size_t borders = 0; ///< parts of borders
     double length = 0;       ///< of these parts

@@ -19,6 +19,7 @@ struct Command {
 Command arrange_command(CLI::App& program);
 Command build_command(CLI::App& program);
 Command check_command(CLI::App& program);
+Command info_command(CLI::App& program);
 Command completion_command(CLI::App& program);
 Command convert_command(CLI::App& program);
 Command ensemble_command(CLI::App& program);

@@ -37,11 +37,6 @@ Format format_of_output(const FileOptions& options, const std::string& path) {
     refuse(ErrorCode::unknown_format, "no format that can be written has this extension", path);
 }
 
-std::optional<Format> format_of_input(const FileOptions& options, const std::string& path) {
-    if (!options.input_format.empty()) return format_named(options.input_format);
-    return path == "-" ? format_named(options.format) : std::nullopt;
-}
-
 bool fits(Format format, OutputKind kind) {
     if (kind == OutputKind::tetrahedra) return holds_tetrahedra(format);
     return holds_surfaces(format) || holds_outlines(format);
@@ -109,6 +104,11 @@ void check_folder(const std::string& path) {
     const bool beside = there == fs::file_type::not_found || there == fs::file_type::regular;
     if (beside && access(folder.c_str(), W_OK) != 0) // the new file is made in the same folder
         return refused("nothing can be written in this folder");
+}
+
+std::optional<Format> format_of_input(const FileOptions& options, const std::string& path) {
+    if (!options.input_format.empty()) return format_named(options.input_format);
+    return path == "-" ? format_named(options.format) : std::nullopt;
 }
 
 void add_inputs(CLI::App& command, FileOptions& options) {

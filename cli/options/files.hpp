@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -68,6 +69,9 @@ std::vector<Output> plan_outputs(const FileOptions& options, OutputKind kind);
 /// Returns cannot_open if the file can't be written: its folder is missing or not writable, or it
 /// is a folder.
 void check_folder(const std::string& path);
+
+/// Returns the format that the user states for an input, if any.
+std::optional<Format> format_of_input(const FileOptions& options, const std::string& path);
 
 struct Inputs {
     std::vector<Surface> surfaces;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <terrane/io/surfaces/parts.hpp>
+#include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
 
 namespace terrane {
@@ -38,7 +39,7 @@ public:
         if (auto trouble = read_format()) return *trouble;
         while (next())
             if (auto trouble = read_section(std::string(word_))) return *trouble;
-        auto surfaces = surfaces_of_parts(vertices_, parts());
+        auto surfaces = surfaces_of_parts(vertices_, parts(), values_);
         if (surfaces.empty())
             return in_.file_error(ErrorCode::nothing_to_do, "there is no triangle");
         return surfaces;
@@ -121,8 +122,12 @@ private:
             if (auto trouble = version_ == 2 ? read_elements22() : read_elements()) return trouble;
         } else if (section.starts_with("$")) {
             const auto end = "$End" + section.substr(1);
-            while (word_ != end)
+            for (std::size_t line = 0; word_ != end; ++line) {
+                const auto text = trimmed(in_.line());
+                if (line == 2 && section.ends_with("Data") && text.size() > 2) // after their number
+                    note_values(text.substr(1, text.size() - 2), values_);
                 if (auto trouble = need_line(section)) return trouble;
+            }
             return std::nullopt;
         } else {
             return in_.error(ErrorCode::bad_syntax,
@@ -339,6 +344,7 @@ private:
     std::map<std::int64_t, std::vector<std::int64_t>> physical_of_; ///< per surface entity
     std::unordered_map<std::int64_t, std::uint32_t> node_of_;       ///< by tag
     std::vector<Point3> vertices_;
+    std::vector<std::string> values_; ///< see Surface
     std::map<Key, FilePart> parts_;
 };
 

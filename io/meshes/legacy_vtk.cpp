@@ -46,7 +46,7 @@ public:
         }
         if (auto trouble = read_names(section)) return *trouble;
         if (auto trouble = make_triangles()) return *trouble;
-        auto surfaces = surfaces_of_parts(vertices_, std::move(parts_));
+        auto surfaces = surfaces_of_parts(vertices_, std::move(parts_), values_);
         if (surfaces.empty()) return no_triangle_among(other_cells_, in_.source());
         return surfaces;
     }
@@ -198,6 +198,7 @@ private:
                 return in_.error(ErrorCode::bad_syntax, "the array is longer than the file");
             std::vector<double> values;
             if (auto trouble = read_array(components * tuples, values)) return trouble;
+            if (&arrays != &fields_) note_values(name, values_);
             if (name.starts_with("surface")) arrays[name] = std::move(values);
         }
         return std::nullopt;
@@ -235,6 +236,7 @@ private:
             } else if (section == "metadata") {
                 in_.skip_paragraph();
             } else {
+                note_values(in_.token(), values_); // of vectors, normals and the like
                 return std::nullopt;
             }
             section = lower(in_.token());
@@ -245,6 +247,7 @@ private:
     /// Reads "SCALARS name type [components]", "LOOKUP_TABLE name" and the values.
     MaybeError read_scalars(std::size_t count, Arrays& arrays) {
         const std::string name(in_.token());
+        note_values(name, values_);
         LegacyType type{};
         if (auto trouble = in_.read_type(type)) return trouble;
         std::size_t components = 1;
@@ -286,6 +289,7 @@ private:
         }
         if (parts_.empty()) {
             parts_.push_back({std::string(name_)});
+            (void)read_attributes(section); // for the names of values; the geometry is complete
             return std::nullopt;
         }
         has_lists_ = fields_.contains("surfaces") || fields_.contains("surfaces_offset");
@@ -409,6 +413,7 @@ private:
     LegacyVtkScanner in_;
     std::string_view name_;
     bool is_grid_ = false;
+    std::vector<std::string> values_; ///< see Surface
     std::vector<Point3> vertices_;
     std::vector<LegacyCells> polygons_, strips_; ///< of a grid: all cells, and none
     std::vector<CellKind> kinds_;                ///< of the cells of a grid

@@ -62,7 +62,7 @@ public:
         if (parts_.empty()) parts_.push_back({std::string(name_)});
         for (const pugi::xml_node piece : data.children("Piece"))
             if (auto trouble = read_piece(data, piece)) return *trouble;
-        auto surfaces = surfaces_of_parts(vertices_, std::move(parts_));
+        auto surfaces = surfaces_of_parts(vertices_, std::move(parts_), values_);
         if (surfaces.empty()) return no_triangle_among(other_cells_, source_);
         return surfaces;
     }
@@ -337,6 +337,9 @@ private:
         std::size_t points = 0;
         Ownership of;
         if (auto trouble = read_points(piece, points)) return trouble;
+        for (const auto* data_of : {"PointData", "CellData"})
+            for (const pugi::xml_node array : piece.child(data_of).children())
+                note_values(array.attribute("Name").value(), values_);
         if (type_ == "UnstructuredGrid") return read_grid_cells(data, piece, points);
         if (auto trouble = read_ownership(data, piece, of)) return trouble;
         const auto polygon = [&](std::size_t k, const Corners& corners) {
@@ -402,6 +405,7 @@ private:
     std::size_t used_ = 0; ///< bytes of the file that arrays have read
     std::vector<Point3> vertices_;
     std::vector<FilePart> parts_;
+    std::vector<std::string> values_; ///< see Surface
     bool has_names_ = false;
 };
 

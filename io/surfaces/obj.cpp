@@ -35,6 +35,7 @@ private:
 
     std::string_view whole_line();
     MaybeError read_line(std::string_view line);
+    MaybeError read_vertex(Tokens tokens);
     MaybeError read_face(Tokens tokens);
     MaybeError read_corner(std::string_view token, std::uint32_t& vertex);
     MaybeError begin_groups(Tokens tokens);
@@ -54,6 +55,7 @@ private:
     std::vector<std::uint32_t> with_faces_; ///< groups in order of their first face
     std::vector<std::uint32_t> corners_;
     std::vector<Ahead> ahead_;
+    std::vector<std::string> values_; ///< see Surface
 };
 
 std::string_view ObjReader::whole_line() {
@@ -114,6 +116,16 @@ MaybeError ObjReader::read_corner(std::string_view token, std::uint32_t& vertex)
     return std::nullopt;
 }
 
+/// Reads a vertex. Three numbers after its coordinates are a colour.
+MaybeError ObjReader::read_vertex(Tokens tokens) {
+    auto trouble = in_.read_point(tokens, "v", vertices_.emplace_back());
+    if (trouble || vertices_.size() > 1) return trouble;
+    std::size_t more = 0;
+    for (auto token = tokens.next(); !token.empty() && token != "#"; token = tokens.next()) ++more;
+    if (more >= 3) note_values("colours", values_);
+    return std::nullopt;
+}
+
 MaybeError ObjReader::read_face(Tokens tokens) {
     corners_.clear();
     for (auto token = tokens.next(); !token.empty(); token = tokens.next()) {
@@ -134,7 +146,8 @@ MaybeError ObjReader::read_face(Tokens tokens) {
 MaybeError ObjReader::read_line(std::string_view line) {
     Tokens tokens(line);
     const auto keyword = tokens.next();
-    if (keyword == "v") return in_.read_point(tokens, "v", vertices_.emplace_back());
+    if (keyword == "v") return read_vertex(tokens);
+    if (keyword == "vt") note_values("texture coordinates", values_);
     if (keyword == "f" || keyword == "fo") return read_face(tokens);
     if (keyword == "g") return begin_groups(tokens);
     if (keyword == "o") begin_group(trimmed(tokens.rest().substr(0, tokens.rest().find(" # "))));
@@ -154,7 +167,7 @@ MaybeError ObjReader::check_ahead() const {
 std::vector<Surface> ObjReader::surfaces() {
     std::vector<FilePart> parts;
     for (const auto index : with_faces_) parts.push_back(std::move(groups_[index]));
-    return surfaces_of_parts(vertices_, std::move(parts));
+    return surfaces_of_parts(vertices_, std::move(parts), values_);
 }
 
 Result<std::vector<Surface>> ObjReader::read() {

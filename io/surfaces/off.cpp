@@ -37,6 +37,7 @@ private:
     std::vector<std::uint32_t> corners_; ///< of the current face
     std::int64_t vertex_count_ = 0;
     std::int64_t face_count_ = 0;
+    bool has_colours_ = false;
 };
 
 /// Goes to the next line that is not blank.
@@ -69,6 +70,7 @@ MaybeError OffReader::read_header() {
     const auto keyword = tokens.next();
     if (!keyword.ends_with("OFF")) return read_counts(Tokens(line_)); // the keyword is optional
     if (auto trouble = check_keyword(keyword)) return trouble;
+    has_colours_ = keyword.find('C') != std::string_view::npos;
     if (tokens.rest().starts_with("BINARY"))
         return in_.error(ErrorCode::unsupported, "binary OFF is not read");
     if (!tokens.rest().empty()) return read_counts(tokens);
@@ -144,6 +146,7 @@ MaybeError OffReader::read(Surface& surface) {
     FilePart part;
     if (auto trouble = read_faces(part)) return trouble;
     surface.flawed_faces = divide_faces(surface.vertices, part);
+    if (has_colours_) surface.values.emplace_back("colours");
     surface.triangles = std::move(part.triangles);
     if (surface.triangles.empty())
         return in_.file_error(ErrorCode::nothing_to_do, "there is no face");

@@ -44,9 +44,11 @@ inline void append_strip(std::span<const std::uint32_t> corners, std::vector<Tri
 /// Divides the faces of a part into triangles, and returns the flawed ones.
 FlawedFaces divide_faces(std::span<const Point3> vertices, FilePart& part);
 
-/// Makes a surface of each part that has triangles, with the vertices that they use.
+/// Makes a surface of each part that has triangles, with the vertices that they use. `values`: see
+/// Surface.
 inline std::vector<Surface> surfaces_of_parts(std::span<const Point3> vertices,
-                                              std::vector<FilePart> parts) {
+                                              std::vector<FilePart> parts,
+                                              const std::vector<std::string>& values = {}) {
     std::vector<Surface> surfaces;
     Submesh subset(vertices);
     for (FilePart& part : parts) {
@@ -55,6 +57,7 @@ inline std::vector<Surface> surfaces_of_parts(std::span<const Point3> vertices,
         surface.flawed_faces = divide_faces(vertices, part);
         surface.name = std::move(part.name);
         surface.role = part.role;
+        surface.values = values;
         surface.triangles = std::move(part.triangles);
         surface.vertices = subset.cut(surface.triangles);
     }

@@ -87,6 +87,7 @@ struct Header {
     std::endian order = std::endian::little;
     std::vector<Element> elements;
     std::vector<SurfaceInfo> surfaces; ///< from the comments of to_ply
+    std::vector<std::string> values;   ///< names of other properties of vertices and faces
 
     [[nodiscard]] const Element* find(std::string_view name) const {
         const auto named = [&](const Element& element) { return element.name == name; };
@@ -160,8 +161,12 @@ private:
         const auto type = type_named(word);
         if (!type) return in_.error(ErrorCode::bad_syntax, shown(word) + " is not a type of PLY");
         property.type = *type;
-        property.use = use_of(tokens.next(), property.count_type.has_value());
-        header_.elements.back().properties.push_back(property);
+        const auto name = tokens.next();
+        property.use = use_of(name, property.count_type.has_value());
+        Element& element = header_.elements.back();
+        element.properties.push_back(property);
+        if (property.use == Use::none && (element.name == "vertex" || element.name == "face"))
+            note_values(name, header_.values);
         return std::nullopt;
     }
 
@@ -373,6 +378,7 @@ private:
             Surface& surface = result[s];
             surface.flawed_faces = divide_faces(vertices_, parts_[s]);
             surface.triangles = std::move(parts_[s].triangles);
+            surface.values = header_.values;
             if (header_.surfaces.empty()) {
                 surface.name = name;
                 continue;

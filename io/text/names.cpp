@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/text/names.hpp>
 
+#include <algorithm>
+
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/io/text/text.hpp>
 #include <terrane/io/text/utf8.hpp>
@@ -74,6 +76,19 @@ std::vector<std::string> quotable_names(const std::vector<SurfaceInfo>& surfaces
 
 std::vector<std::string> label_names(const std::vector<SurfaceInfo>& surfaces) {
     return unique_names(surfaces, label);
+}
+
+void note_values(std::string_view name, std::vector<std::string>& names) {
+    constexpr std::array<std::string_view, 17> known{
+        "x",           "y",         "z",     "surface",  "surfaces",         "surface_count",
+        "region",      "parent",    "block", "twin",     "cut_side",         "volume_front",
+        "volume_back", "interface", "patch", "triangle", "vtkValidPointMask"};
+    constexpr std::size_t most = 64;
+    const std::string noted = one_line(trimmed(name));
+    if (noted.empty() || names.size() == most) return;
+    const auto is_it = [&](std::string_view other) { return same_ignoring_case(noted, other); };
+    if (std::ranges::any_of(known, is_it) || std::ranges::any_of(names, is_it)) return;
+    names.push_back(noted);
 }
 
 std::string one_line(std::string_view name) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <terrane/algorithms/model/model_doubts.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/pipeline/build.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
@@ -41,6 +43,7 @@ namespace {
 
 ModelPointer made(std::vector<Surface> surfaces, std::vector<Surface> boundary,
                   const Project& project, const Run& run) {
+    auto doubts = find_doubts(surfaces, {.boundary = boundary, .blocks = true});
     auto built = build(project, {std::move(surfaces), std::move(boundary)}, run);
     if (!built && built.error().place.starts_with("seal_of."))
         refuse(built.error().code, built.error().sentence, "seal");
@@ -49,6 +52,12 @@ ModelPointer made(std::vector<Surface> surfaces, std::vector<Surface> boundary,
     model->exact = std::make_shared<const Arrangement>(std::move(built->arranged.exact));
     model->rounded = built->arranged.rounded.conforming;
     model->column = project.column;
+    const bool is_open = std::ranges::any_of(doubts, [](const PlausibilityWarning& w) {
+        return w.doubt == Doubt::no_top || w.doubt == Doubt::no_base;
+    });
+    for (PlausibilityWarning& w : find_model_doubts(model->model, !is_open))
+        doubts.push_back(std::move(w));
+    model->doubts = std::move(doubts);
     return model;
 }
 
@@ -183,6 +192,7 @@ void bind_model(py::module_& module) {
         .def_property_readonly("made", [](const M& m) { return m.model.made; })
         .def_property_readonly("leaks", &leaks)
         .def_property_readonly("borders", &borders)
+        .def_property_readonly("doubts", [](const M& m) { return to_list(m.doubts); })
         .def_property_readonly("relations", &relations)
         .def_property_readonly("juxtapositions", &juxtapositions)
         .def_property_readonly("rounding",

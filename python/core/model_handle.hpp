@@ -3,12 +3,14 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <pybind11/pybind11.h>
 
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/pipeline/build.hpp>
+#include <terrane/algorithms/plausibility/plausibility.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>
 
 namespace terrane::python {
@@ -27,6 +29,7 @@ struct ModelHandle {
     std::shared_ptr<const Arrangement> exact{}; ///< what was rounded; nullptr: not kept
     std::optional<ConformingMesh> rounded{};    ///< its mesh, before any improvement; with `exact`
     StratigraphicColumn column{};               ///< by which blocks are named
+    std::vector<PlausibilityWarning> doubts{};  ///< about the surfaces and the model
 };
 using ModelPointer = std::shared_ptr<ModelHandle>;
 

@@ -115,6 +115,15 @@ py::list to_list(const std::vector<SurfaceInfo>& surfaces) {
                 [](const SurfaceInfo& s) { return std::string(name_of(s.role)); });
 }
 
+py::list to_list(const std::vector<PlausibilityWarning>& doubts) {
+    return rows(
+        doubts, [](const PlausibilityWarning& w) { return std::string(name_of(w.doubt)); },
+        [](const PlausibilityWarning& w) {
+            return std::vector<std::uint32_t>(w.surfaces.begin(), w.surfaces.end());
+        },
+        &PlausibilityWarning::seen, &PlausibilityWarning::why, &PlausibilityWarning::answer);
+}
+
 std::vector<SurfaceInfo> to_infos(const py::sequence& list) {
     std::vector<SurfaceInfo> infos;
     for (const py::handle item : list) {
@@ -133,6 +142,10 @@ void bind_surface(py::module_& module) {
     arrays_of(bound, std::identity())
         .add("vertices", &Surface::vertices)
         .add("triangles", &Surface::triangles);
+    module.def(
+        "doubts",
+        [](const py::sequence& surfaces) { return to_list(find_doubts(to_surfaces(surfaces))); },
+        "surfaces"_a);
 }
 
 } // namespace terrane::python

@@ -10,6 +10,7 @@
 #include <pybind11/pybind11.h>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/plausibility/plausibility.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 
 namespace terrane::python {
@@ -30,6 +31,8 @@ void bind_surface(py::module_& module);
 
 /// A list of (name, role).
 py::list to_list(const std::vector<SurfaceInfo>& surfaces);
+/// A list of (about, numbers of surfaces, seen, why, answer).
+py::list to_list(const std::vector<PlausibilityWarning>& doubts);
 std::vector<SurfaceInfo> to_infos(const py::sequence& list);
 
 } // namespace terrane::python

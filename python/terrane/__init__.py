@@ -22,7 +22,7 @@ from ._blocks import (NO_INDEX, BlockParts, Corner, InterfaceParts, Line, Patch,
                       structure, volumes)
 from ._ensemble import Ensemble, ensemble
 from ._ensemble_results import BlockOutcome, Failure, Juxtaposed
-from ._errors import ERROR_CODES, Error, OutOfMemory
+from ._errors import ERROR_CODES, Doubt, Error, OutOfMemory
 from ._examples import complete as _complete
 from ._files import read, save
 from ._holes import BorderLoop, Filled, FilledHole, FillReport, fill, holes
@@ -54,7 +54,7 @@ __version__: str = _core.version
 
 __all__ = [
     "Arrangement", "Block", "BlockOutcome", "BlockParts", "BlockVolume", "Blocks", "BorderLoop", "Built", "CheckReport", "ClosedGap",
-    "Contact", "Corner", "ERROR_CODES", "Ensemble", "Error", "Failure", "FillReport", "Filled", "FilledHole", "Frame",
+    "Contact", "Corner", "Doubt", "ERROR_CODES", "Ensemble", "Error", "Failure", "FillReport", "Filled", "FilledHole", "Frame",
     "HAS_REPORTS", "Improved", "IndexLists", "Interface", "InterfaceParts", "Juxtaposed", "Juxtaposition", "LayerReport", "Layered",
     "Leak", "Line", "Mesh", "Model", "NO_INDEX", "OpenBorder", "OpenGap", "OutOfMemory", "OutOfOrder",
     "Patch", "ROLES", "Region", "Regions", "Relation", "RoundedMesh", "RoundingReport",

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import warnings
 from fractions import Fraction
 from typing import Any, Callable, Dict, List, Optional, Tuple
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from . import _core
 from ._arrays import Float64Array, IndexLists, Path, SurfaceInfo, UInt32Array, as_count, as_flag, as_number, as_word
+from ._errors import doubts_of
 from ._interop import polydata
 from ._mesh import CheckReport, Mesh, OnMesh, Region, Regions, mesh_of, require_conforming
 from ._report import facts
@@ -283,6 +285,11 @@ def arrange(surfaces: Any, *, search: str = "auto", threads: Optional[int] = Non
     -------
     Arrangement
 
+    Warns
+    -----
+    terrane.Doubt
+        For each likely mistake in the surfaces.
+
     Examples
     --------
     >>> import terrane
@@ -291,7 +298,11 @@ def arrange(surfaces: Any, *, search: str = "auto", threads: Optional[int] = Non
     >>> terrane.arrange([flat, wall])
     <Arrangement: 2 surfaces, 8 vertices, 8 triangles, 1 intersection edge>
     """
-    return _arranged(as_surfaces(surfaces), as_word(search, "search"), threads, progress)
+    given = as_surfaces(surfaces)
+    made = _arranged(given, as_word(search, "search"), threads, progress)
+    for doubt in doubts_of(_core.doubts(parts_of_surfaces(given)), _core.unique_labels([(s.name, s.role) for s in given])):
+        warnings.warn(doubt, stacklevel=2)
+    return made
 
 
 def round(arrangement: Any, *, max_rounds: int = 8, max_move: Optional[float] = None,

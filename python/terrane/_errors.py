@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Tuple
+from typing import Any, List, Sequence, Tuple
 
 #: The codes of `Error.code`, in the order of the library's ``ErrorCode``.
 ERROR_CODES: Tuple[str, ...] = (
@@ -54,6 +54,42 @@ class OutOfMemory(Error, MemoryError):
     >>> issubclass(terrane.OutOfMemory, MemoryError)
     True
     """
+
+
+class Doubt(UserWarning):
+    """A likely mistake in what was passed; nothing was changed.
+
+    `model` and `arrange` warn of it, and `Model.doubts` lists it. ``warnings.simplefilter("error", terrane.Doubt)`` stops
+    at the first, as ``--strict`` of the program does.
+
+    Attributes
+    ----------
+    about : str
+        The kind: ``"heights_mixed"``, ``"no_base"``, ...; docs/explanation/plausibility.md lists them.
+    surfaces : list of str
+        The labels of the surfaces concerned.
+    seen, why, answer : str
+        The finding, what follows if it is a mistake, and what to do.
+
+    Examples
+    --------
+    >>> import terrane
+    >>> terrane.Doubt("no_base", ["top"], "the model is open at its base", "no block is closed", "add a base").about
+    'no_base'
+    """
+
+    def __init__(self, about: str, surfaces: List[str], seen: str, why: str, answer: str) -> None:
+        super().__init__(f"{seen}. {why}. {answer}")
+        self.about = about
+        self.surfaces = surfaces
+        self.seen = seen
+        self.why = why
+        self.answer = answer
+
+
+def doubts_of(rows: List[Any], labels: Sequence[str]) -> List[Doubt]:
+    """Return the doubts in rows of the library, with the labels of surfaces in place of their numbers."""
+    return [Doubt(about, [labels[s] for s in surfaces], *texts) for about, surfaces, *texts in rows]
 
 
 def exception_of(code: int, sentence: str, place: str) -> Error:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrangement import as_move
 from ._arrays import Path, as_count, as_flag, as_list, as_number, as_pair, as_text, as_word
-from ._errors import bad_option
+from ._errors import Doubt, bad_option, doubts_of
 from ._interop import meshio_mesh, package
 from ._parts import Parts
 from ._picture import card
@@ -49,6 +50,11 @@ class Model(Parts):
             if verdict != "separates" or not separating:
                 made.append(self._leak(leak, verdict))
         return made
+
+    @property
+    def doubts(self) -> List[Doubt]:
+        """Likely mistakes in the surfaces, of which `model` warned."""
+        return doubts_of(self._core.doubts, self.labels)
 
     @property
     def relations(self) -> List[Relation]:
@@ -357,6 +363,11 @@ def model(surfaces: Any, box: Any = None, seal: Union[None, float, str, Mapping[
     -------
     Model
 
+    Warns
+    -----
+    terrane.Doubt
+        For each likely mistake in the surfaces, and where they enclose no block.
+
     Raises
     ------
     terrane.Error
@@ -378,4 +389,7 @@ def model(surfaces: Any, box: Any = None, seal: Union[None, float, str, Mapping[
                "tolerance": None if tolerance is None else as_number(tolerance, "tolerance", positive=True), "seal": distance,
                "seal_automatic": automatic, "seal_of": of, "extend": as_number(extend, "extend", least=0),
                "min_volume": least, "min_volume_automatic": small, "column": column_of(column)}
-    return _made(as_surfaces(surfaces), as_boundary(box), options, threads, progress)
+    made = _made(as_surfaces(surfaces), as_boundary(box), options, threads, progress)
+    for doubt in made.doubts:
+        warnings.warn(doubt, stacklevel=2)
+    return made

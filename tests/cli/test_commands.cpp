@@ -220,6 +220,43 @@ TEST_CASE("cli: check locates what it finds", "[cli]") {
     CHECK(json["improper_contacts"][0]["place"][0] == 1.0);
 }
 
+TEST_CASE("cli: info says what files contain", "[cli]") {
+    const Folder folder;
+    const auto ts = folder.input(
+        "top.ts", "GOCAD TSurf 1\nHEADER {\nname:top\n}\nGEOLOGICAL_TYPE top\nPROPERTIES Poro\n"
+                  "GOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME UTM31\nAXIS_UNIT m m m\nZPOSITIVE Depth\n"
+                  "END_ORIGINAL_COORDINATE_SYSTEM\nTFACE\nPVRTX 1 0 0 5 .2\nPVRTX 2 4 0 5 .2\n"
+                  "PVRTX 3 0 4 6 .2\nTRGL 1 2 3\nEND\n");
+    const auto grid = folder.input("g.dat", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\n"
+                                            "cellsize 9\n-5.5 -5.5\n-5.5 -5.5\n");
+    const auto text = folder.run("info " + ts + " " + grid);
+    CHECK(text.status == 0);
+    CHECK(contains(text.out, "top.ts: GOCAD, 1 surface\n"));
+    CHECK(contains(text.out, "  top      horizon          1         3      1  open, 3 border edges\n"));
+    CHECK(contains(text.out, "  from (0, 0, -6) to (4, 4, -5)\n"));
+    CHECK(contains(text.out, "  states: x and y in m; z in m; z is a depth, which was turned over; "
+                             "coordinate system UTM31\n"));
+    CHECK(contains(text.out, "  values, which are not read: Poro\n"));
+    CHECK(contains(text.out, "g.dat: ESRI ASCII grid, 1 surface\n"));
+    CHECK(contains(text.out, "1 pair of triangles of different surfaces cross, touch or overlap\n"));
+    CHECK(contains(text.err, "top has values on points or triangles: Poro"));
+
+    const auto r = folder.run("info --json " + ts + " " + grid);
+    CHECK(r.status == 0);
+    const auto json = Json::parse(r.out);
+    const auto& top = json["files"][0]["surfaces"][0];
+    CHECK(top["vertical_axis"] == "depths");
+    CHECK(top["free_border_edges"] == 3);
+    CHECK(top["high"] == Json::parse("[4.0, 4.0, -5.0]"));
+    CHECK(top["values"] == Json::parse(R"(["Poro"])"));
+    CHECK(json["files"][1]["surfaces"][0]["triangles"] == 2);
+    CHECK(json["contacts_of_surfaces"] == 1);
+    CHECK(json["warnings"][0]["about"] == "values_left_out");
+    CHECK(folder.run("info --strict " + ts).status == 2);
+    CHECK(folder.run("info none.ts").status == 2);
+    CHECK(folder.run("info " + folder.input("solid.obj", cube)).status == 0);
+}
+
 TEST_CASE("cli: check lists all only when asked", "[cli][once]") {
     const Folder folder;
     const auto some = folder.run("check " + real_model);

@@ -104,6 +104,29 @@ void check_float32(Examination& e) {
         "gaps");
 }
 
+void check_values(Examination& e) {
+    std::vector<std::uint32_t> about;
+    std::vector<std::string> values;
+    for (const auto s : e.used) {
+        const auto& more = e.surfaces[s].values;
+        if (!more.empty()) about.push_back(s);
+        for (const std::string& value : more)
+            if (std::ranges::find(values, value) == values.end()) values.push_back(value);
+    }
+    if (about.empty()) return;
+    constexpr std::size_t most = 6;
+    const std::size_t told = std::min(values.size(), most);
+    const auto first = std::span(values).first(told);
+    e.warn(
+        Doubt::values_left_out, about,
+        fmt::format("{} {} values on points or triangles: {}{}", e.names(about),
+                    about.size() == 1 ? "has" : "have", fmt::join(first, ", "),
+                    values.size() > told ? fmt::format(" and {} more", values.size() - told) : ""),
+        "They are not read, and no output has them",
+        "Keep the input: the array parent of .vtp tells from which of its triangles each "
+        "triangle is");
+}
+
 void check_faces(Examination& e) {
     for (const auto s : e.used) {
         const auto& [crossing, bent, first] = e.surfaces[s].flawed_faces;

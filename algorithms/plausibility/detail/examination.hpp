@@ -44,6 +44,7 @@ void check_systems(Examination& examination);
 bool in_degrees(const Extent& extent);
 // copies.cpp
 void check_float32(Examination& examination);
+void check_values(Examination& examination);
 void check_faces(Examination& examination);
 void check_duplicates(Examination& examination);
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/gocad/gocad_objects.hpp>
 
+#include <algorithm>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
+#include <terrane/io/text/names.hpp>
 #include <terrane/io/text/units.hpp>
 
 namespace terrane::detail {
@@ -86,6 +88,7 @@ private:
     [[nodiscard]] Error no_vertex(std::size_t line, std::int64_t id) const;
     void read_names();
     void read_units(Tokens tokens);
+    void read_properties(std::string_view names);
     void read_system(std::string_view keyword, std::string_view value);
     void turn_z_up();
 
@@ -140,6 +143,7 @@ MaybeError TsurfReader::read_attribute(std::string_view keyword, const Tokens& t
     if (keyword == "GEOLOGICAL_TYPE") object_.surface.role = role_of_feature(tokens.rest());
     if (keyword == "ZPOSITIVE") return read_zpositive(tokens.rest());
     if (keyword == "AXIS_UNIT") read_units(tokens);
+    if (keyword == "PROPERTIES") read_properties(tokens.rest());
     read_system(keyword, tokens.rest());
     return std::nullopt;
 }
@@ -154,6 +158,17 @@ void TsurfReader::read_units(Tokens tokens) {
     CoordinateFrame& frame = object_.surface.frame;
     if (!units.empty()) frame.horizontal_unit = unit_named(units[0]);
     if (units.size() > 2) frame.vertical_unit = unit_named(units[2]);
+}
+
+/// Notes the names of values, which may be quoted and then have blanks.
+void TsurfReader::read_properties(std::string_view names) {
+    while (!names.empty()) {
+        const bool quoted = names.front() == '"';
+        if (quoted) names.remove_prefix(1);
+        const auto end = std::min(names.find_first_of(quoted ? "\"" : " \t"), names.size());
+        note_values(names.substr(0, end), object_.surface.values);
+        names = trimmed(names.substr(std::min(end + 1, names.size())));
+    }
 }
 
 /// Takes NAME, PROJECTION and DATUM within the coordinate system, unless they say nothing.
