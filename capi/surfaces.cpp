@@ -66,18 +66,20 @@ const Surface* surface_at(const terrane_surfaces* surfaces, std::size_t index) n
 }
 
 /// The members of terrane_read_options that check_reading names.
-constexpr std::array<const char*, 2> reading_names{"options.depth", "options.max_edge"};
+constexpr std::array<const char*, 3> reading_names{"options.depth", "options.max_edge",
+                                                   "options.columns"};
 
 } // namespace
 
 terrane_read_options default_reading() noexcept {
-    return {sizeof(terrane_read_options), nullptr, 0, 0, 0, nullptr};
+    return {sizeof(terrane_read_options), nullptr, 0, 0, 0, nullptr, nullptr};
 }
 
 Reading reading_of(const terrane_read_options* given) {
     const auto options = options_of(given, default_reading());
     return {named_format(options.format),
-            {options.depth != 0, options.max_edge, options.unit ? options.unit : ""}};
+            {options.depth != 0, options.max_edge, options.unit ? options.unit : "",
+             options.columns ? options.columns : ""}};
 }
 
 WriteOptions writing_of(const terrane_write_options* given) {
@@ -138,7 +140,7 @@ terrane_code terrane_surfaces_read(terrane_surfaces* surfaces, const char* path,
     return call(error, [&] {
         auto& list = needed(surfaces, "surfaces").list;
         const auto [format, reading] = reading_of(options);
-        const auto chosen = format ? format : terrane::format_of(needed_file(path));
+        const auto chosen = format ? format : terrane::format_to_read(needed_file(path));
         must(check_reading({chosen}, reading, reading_names));
         auto read = must(terrane::read_surfaces(needed_file(path), format, reading));
         append(list, std::move(read));

@@ -32,6 +32,9 @@ typedef struct terrane_read_options {
     double max_edge;    ///< points: longest edge, in their unit; 0: twice the median edge
     const char* unit;   ///< unit to which coordinates with a stated unit are converted: "m", "km",
                         ///< "ft", "ftUS", "cm"; NULL: they stay
+    const char*
+        columns; ///< columns of numbers: those of x, y and z, by number from 1 or by name: "3,4,5"; NULL: as
+                 ///< the heading calls them
 } terrane_read_options;
 
 /// How files are written.

@@ -63,7 +63,8 @@ std::unique_ptr<terrane_verdict> judge_file(const char* path, const terrane_veri
         .reading = {reading.format,
                     reading.options,
                     "options.inputs",
-                    {"options.reading.depth", "options.reading.max_edge"}},
+                    {"options.reading.depth", "options.reading.max_edge",
+                     "options.reading.columns"}},
         .options = {number_or_default(options.max_deviation, "options.max_deviation"),
                     number_or_default(options.max_change, "options.max_change")},
         .limits = {options.time, options.memory}};

@@ -42,6 +42,7 @@
 #include <terrane/io/surfaces/off.hpp>
 #include <terrane/io/surfaces/ply.hpp>
 #include <terrane/io/surfaces/stl.hpp>
+#include <terrane/io/text/gzip.hpp>
 #include <terrane/io/text/text.hpp>
 #include <terrane/io/text/units.hpp>
 #include <terrane/io/text/utf8.hpp>
@@ -74,6 +75,18 @@ constexpr std::array<std::pair<std::string_view, Format>, 45> names{{
     {"ogs", Format::ogs},     {"geos", Format::geos},     {"pylith", Format::pylith},
 }};
 
+fs::path without_gz(const fs::path& path) {
+    return same_ignoring_case(path.extension().string(), ".gz") ? path.parent_path() / path.stem()
+                                                                : path;
+}
+
+/// Reads a file, and what gzip has compressed.
+Result<std::string> plain_file(const fs::path& path, const std::string& place) {
+    auto contents = read_file(path);
+    if (!contents || !is_gzip(*contents)) return contents;
+    return gunzipped(*contents, place);
+}
+
 std::string place_of(const fs::path& path, bool reading) {
     if (path != "-") return path.string();
     return reading ? "standard input" : "standard output";
@@ -97,7 +110,7 @@ Error unknown_format(const fs::path& path, bool reading) {
 }
 
 Result<Format> choose_format(const fs::path& path, std::optional<Format> wanted, bool reading) {
-    const auto format = wanted ? wanted : format_of(path);
+    const auto format = wanted ? wanted : reading ? format_to_read(path) : format_of(path);
     if (!format) return unknown_format(path, reading);
     return *format;
 }
@@ -105,7 +118,7 @@ Result<Format> choose_format(const fs::path& path, std::optional<Format> wanted,
 Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::string_view source,
                                              Format format, const ReadOptions& options) {
     const std::string place(source);
-    const auto name = fs::path(place).stem().string();
+    const auto name = without_gz(place).stem().string();
     if (contents.size() > max_bytes)
         return Error{ErrorCode::unsupported, "the file is larger than 12 GiB", place};
     switch (format) {
@@ -159,6 +172,12 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
 
 Result<std::vector<Surface>> parse(std::string_view contents, std::string_view source,
                                    Format format, const ReadOptions& options) {
+    std::string plain;
+    if (is_gzip(contents)) {
+        auto done = gunzipped(contents, source);
+        if (!done) return done.error();
+        contents = plain = std::move(*done);
+    }
     const std::string utf8 = utf8_of_utf16(contents);
     if (!utf8.empty()) contents = utf8;
     auto surfaces = parse_as_stated(contents, source, format, options);
@@ -362,6 +381,10 @@ std::optional<Format> format_of(const fs::path& path) {
     return extension.empty() ? std::nullopt : format_named(std::string_view(extension).substr(1));
 }
 
+std::optional<Format> format_to_read(const fs::path& path) {
+    return format_of(without_gz(path));
+}
+
 Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::string_view source,
                                             Format format, const ReadOptions& options) {
     return guard_memory(source, [&] { return parse(contents, source, format, options); });
@@ -380,19 +403,19 @@ Result<std::vector<Surface>> read_surfaces(const fs::path& path, std::optional<F
 
 Result<GocadModel> read_model(const fs::path& path) {
     return guard_file(path, true, [&](const std::string& place) -> Result<GocadModel> {
-        const auto contents = read_file(path);
+        const auto contents = plain_file(path, place);
         if (!contents) return contents.error();
-        return read_gocad_model(contents.value(), place, path.stem().string());
+        return read_gocad_model(contents.value(), place, without_gz(path).stem().string());
     });
 }
 
 std::vector<StatedBlock> read_stated_blocks(const fs::path& path, std::optional<Format> format) {
     const StandardArithmetic guard;
-    const auto chosen = format ? format : format_of(path);
+    const auto chosen = format ? format : format_to_read(path);
     if (path == "-" || chosen != Format::gocad) return {};
-    const auto contents = read_file(path);
+    const auto contents = plain_file(path, path.string());
     if (!contents || contents->find("Model3d") == std::string::npos) return {};
-    const auto model = read_gocad_model(*contents, path.string(), path.stem().string());
+    const auto model = read_gocad_model(*contents, path.string(), without_gz(path).stem().string());
     return model ? stated_blocks_of(*model) : std::vector<StatedBlock>();
 }
 

@@ -75,6 +75,9 @@ bool holds_outlines(Format format);
 /// Returns the format for the extension of a file name, in any case; none if it is unknown.
 std::optional<Format> format_of(const std::filesystem::path& path);
 
+/// Does the same for a file that is read: `top.ts.gz` is a GOCAD file that gzip has compressed.
+std::optional<Format> format_to_read(const std::filesystem::path& path);
+
 /// Returns the format with this name, an extension without its dot: "ts", "ml", "obj", ...
 std::optional<Format> format_named(std::string_view name);
 /// Returns all names of formats, which are the extensions of their files: "ts", "ml", ...

@@ -50,7 +50,7 @@ constexpr std::array<std::pair<Format, std::string_view>, 19> titles{{
 } // namespace
 
 std::string format_in(const std::filesystem::path& path, std::optional<Format> format) {
-    if (!format) format = format_of(path);
+    if (!format) format = format_to_read(path);
     if (format == Format::pline) format = Format::vset;
     if (format == Format::xyz && path != "-")
         if (const auto contents = read_file(path)) {
@@ -63,12 +63,24 @@ std::string format_in(const std::filesystem::path& path, std::optional<Format> f
 }
 
 Status check_reading(const std::vector<std::optional<Format>>& files, const ReadOptions& options,
-                     const std::array<const char*, 2>& option_names) {
+                     const std::array<const char*, 3>& option_names) {
     if (options.depth && std::none_of(files.begin(), files.end(), has_depths))
         return Error{ErrorCode::bad_option, "is for grids and points, and no file is one",
                      option_names[0]};
     if (options.max_edge != 0 && std::none_of(files.begin(), files.end(), has_points))
         return Error{ErrorCode::bad_option, "is for points, and no file has any", option_names[1]};
+    if (options.columns.empty()) return Done{};
+    const auto has_columns = [](std::optional<Format> format) {
+        return !format || format == Format::xyz;
+    };
+    if (std::none_of(files.begin(), files.end(), has_columns))
+        return Error{ErrorCode::bad_option, "is for columns of numbers, and no file has any",
+                     option_names[2]};
+    const std::string_view columns = options.columns;
+    if (std::ranges::count(columns, ',') != 2 || columns.starts_with(',') ||
+        columns.ends_with(',') || columns.find(",,") != std::string_view::npos)
+        return Error{ErrorCode::bad_option, "must name three columns: those of x, y and z",
+                     option_names[2]};
     return Done{};
 }
 

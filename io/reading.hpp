@@ -20,9 +20,9 @@ Result<GocadModel> read_model(const std::filesystem::path& path);
 std::string format_in(const std::filesystem::path& path, std::optional<Format> format);
 
 /// Refuses what a caller says of files of these formats if it is about none of them: `depth` of files that are neither
-/// grids nor points, `max_edge` of files that are not points. `option_names` are those two options, as the caller knows them.
-/// Errors: bad_option.
+/// grids nor points, `max_edge` of files that are not points, `columns` of files without columns of numbers, or if these are
+/// not three. `option_names` are those options, as the caller knows them. Errors: bad_option.
 Status check_reading(const std::vector<std::optional<Format>>& files, const ReadOptions& options,
-                     const std::array<const char*, 2>& option_names);
+                     const std::array<const char*, 3>& option_names);
 
 } // namespace terrane

@@ -24,7 +24,7 @@ constexpr auto verify_footer =
     R"(A certificate says how a mesh follows from its input files. It is judged with rational
 arithmetic, by code that shares nothing with what made it. IN are the input files in the order of
 the certificate; without IN they are looked for under the names that it gives. Each is read in the
-format of its own name. What changed how they were read (--depth, --max-edge, --input-format) must be
+format of its own name. What changed how they were read (--depth, --max-edge, --columns, --input-format) must be
 given here, too.
 
 The verifier makes the output files that the certificate names anew and compares them byte for byte;
@@ -67,7 +67,7 @@ ExitStatus verify_file(VerifyCommand command) {
     request.reading = {format_named(files.input_format),
                        files.read,
                        command.certificate.c_str(),
-                       {"--depth", "--max-edge"}};
+                       {"--depth", "--max-edge", "--columns"}};
     Session session(1); // of which only the interrupts and the progress line are wanted
     session.begin("verify", Phase::idle);
     const auto found = judge(request, session.run().stop);

@@ -130,6 +130,10 @@ void add_reading(CLI::App& command, FileOptions& options) {
     add_value(command, "--max-edge", options.read.max_edge, "LENGTH",
               "Points: triangles with longer edges are left out (default: twice the median)")
         ->check(CLI::PositiveNumber.description(""));
+    add_value(
+        command, "--columns", options.read.columns, "X,Y,Z",
+        "Columns of numbers: those of x, y and z, by number from 1 or as a heading calls them "
+        "(default: columns that are called x, easting, ...)");
     add_value(command, "--unit", options.read.unit, "UNIT",
               "Convert what has a stated unit: m, km, cm, ft, ftUS (default: as it is)")
         ->check(one_of({"m", "km", "cm", "ft", "ftUS"}));
@@ -228,9 +232,9 @@ Inputs read_inputs(const FileOptions& options, Session& session) {
     std::vector<std::optional<Format>> formats;
     for (const auto& path : options.inputs) {
         const auto named = format_of_input(options, path);
-        formats.push_back(named ? named : format_of(path));
+        formats.push_back(named ? named : format_to_read(path));
     }
-    must(check_reading(formats, options.read, {"--depth", "--max-edge"}));
+    must(check_reading(formats, options.read, {"--depth", "--max-edge", "--columns"}));
     Inputs all;
     session.begin("read", Phase::idle);
     for (const auto& path : options.inputs) {

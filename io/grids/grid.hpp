@@ -35,6 +35,9 @@ struct ReadOptions {
     /// Each is multiplied by the factor between the units and rounded once. If this is empty,
     /// coordinates stay as they are.
     std::string unit{};
+    /// Columns of numbers: those of x, y and z, by number from 1 or as a heading calls them, with commas between: "3,4,5",
+    /// "UTM_X,UTM_Y,Base". Empty: by what the heading calls them.
+    std::string columns{};
 };
 
 /// Returns the surface through the nodes that have a height, with its front up. No heights are

@@ -46,9 +46,9 @@ public:
                          reading.paths_name};
         std::vector<std::optional<Format>> formats;
         for (std::size_t i = 0; i < stated.size(); ++i)
-            formats.push_back(
-                reading.format ? reading.format
-                               : format_of(named ? request_.inputs[i] : fs::path(stated[i].name)));
+            formats.push_back(reading.format ? reading.format
+                                             : format_to_read(named ? request_.inputs[i]
+                                                                    : fs::path(stated[i].name)));
         if (const auto sound = check_reading(formats, reading.options, reading.option_names);
             !sound)
             return sound.error();

@@ -37,7 +37,7 @@ struct CertifiedReading {
     std::optional<Format> format{}; ///< none: that of each file's name
     ReadOptions options{};
     const char* paths_name = "";                  ///< of a wrong number of files
-    std::array<const char*, 2> option_names = {}; ///< see check_reading()
+    std::array<const char*, 3> option_names = {}; ///< see check_reading()
 };
 
 /// A certificate to judge.

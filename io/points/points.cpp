@@ -25,8 +25,9 @@ namespace {
 
 class PointReader {
 public:
-    PointReader(std::string_view contents, std::string_view source) :
-        commas_(meaning_of_commas(contents)), with_points_(with_points(contents)),
+    PointReader(std::string_view contents, std::string_view source, const ReadOptions& options) :
+        stated_(options.columns), commas_(meaning_of_commas(contents)),
+        with_points_(with_points(contents)),
         in_(commas_ == Commas::decimal ? std::string_view(with_points_) : contents, source) {}
 
     /// Reads one surface, or one for each text in front of the numbers, in file order.
@@ -90,19 +91,27 @@ private:
         if (chosen_) return;
         while (!line.empty() && std::string_view("#!@/ \t").find(line[0]) != std::string_view::npos)
             line.remove_prefix(1);
-        if (auto heading = read_heading(line)) heading_ = std::move(heading);
+        if (stated_.are_numbers()) return;
+        if (auto heading = read_heading(line, stated_)) heading_ = std::move(heading);
     }
 
     MaybeError read_line(std::string_view line, std::vector<Surface>& surfaces) {
         if (chosen_ && by_heading_) return read_cells(line, surfaces);
+        if (stated_.are_numbers()) {
+            heading_ = stated_.heading_of_cells(line);
+            if (!heading_) return std::nullopt; // a line before the points
+            by_heading_ = true;
+            chosen_ = heading_->xyz;
+            return read_cells(line, surfaces);
+        }
         auto columns = columns_of(line);
         const bool words = !columns.empty() && !is_number(columns[0]);
         if (!chosen_ && !fields_.empty() && std::ranges::any_of(columns, is_number)) {
-            heading_ = heading_of(fields_);
+            heading_ = heading_of(fields_, stated_);
             if (!heading_)
                 return in_.error(ErrorCode::bad_syntax,
                                  fmt::format("the header names the columns {}{}",
-                                             fmt::join(fields_, ", "), which_are_xyz));
+                                             fmt::join(fields_, ", "), which_are_xyz()));
             fields_.clear();
         }
         if (!chosen_ && fits_heading(line)) {
@@ -119,7 +128,9 @@ private:
             if (const auto named = unclear_columns(last_words_, line))
                 return in_.error(
                     ErrorCode::bad_syntax,
-                    fmt::format("the heading names the columns {}{}", *named, which_are_xyz));
+                    fmt::format("the heading names the columns {}{}", *named, which_are_xyz()));
+        if (!chosen_ && !heading_ && stated_.are_stated())
+            return in_.error(ErrorCode::bad_syntax, "no heading" + which_are_xyz());
         const auto first = std::find_if(columns.begin(), columns.end(), is_number);
         const auto name = words ? columns[0] : std::string_view();
         columns.erase(columns.begin(), first);
@@ -192,10 +203,15 @@ private:
         }
     }
 
-    static constexpr std::string_view which_are_xyz =
-        ", and not which of them are x, y and z: call them so, or easting, northing, elevation, "
-        "depth";
+    /// Ends a sentence about columns that are not found.
+    [[nodiscard]] std::string which_are_xyz() const {
+        if (stated_.are_stated())
+            return fmt::format(" that names {}", fmt::join(stated_.names(), ", "));
+        return ", and not which of them are x, y and z: state them (--columns 3,4,5 or their "
+               "names), or call them so, or easting, northing, elevation, depth";
+    }
 
+    const StatedColumns stated_;
     Commas commas_;
     std::string with_points_; ///< the contents, where commas are decimal points
     LineParser in_;
@@ -237,7 +253,8 @@ Result<std::vector<Surface>> connected(std::vector<Surface> surfaces, std::strin
 /// Reads the points of the VSet and PLine objects of a file.
 class GocadPointReader {
 public:
-    GocadPointReader(std::string_view contents, std::string_view source) : in_(contents, source) {}
+    GocadPointReader(std::string_view contents, std::string_view source, const ReadOptions&) :
+        in_(contents, source) {}
 
     MaybeError read(std::vector<Surface>& surfaces) {
         in_.allow_d_exponents();
@@ -321,7 +338,7 @@ template <class Reader>
 Result<std::vector<Surface>> read_by(std::string_view contents, std::string_view source,
                                      std::string_view name, const ReadOptions& options) {
     std::vector<Surface> surfaces;
-    if (auto trouble = Reader(contents, source).read(surfaces)) return *trouble;
+    if (auto trouble = Reader(contents, source, options).read(surfaces)) return *trouble;
     for (Surface& s : surfaces)
         if (s.name.empty()) s.name = name;
     return connected(std::move(surfaces), source, options);

@@ -24,9 +24,11 @@ std::optional<Format> to_format(const std::optional<std::string>& name) {
 }
 
 py::list read(const py::object& path, const std::optional<std::string>& format, bool depth,
-              double max_edge, const std::string& unit, const HowToRun& how) {
+              double max_edge, const std::string& unit, const std::string& columns,
+              const HowToRun& how) {
     const std::filesystem::path from = to_path(path);
-    const ReadOptions options{.depth = depth, .max_edge = max_edge, .unit = unit};
+    const ReadOptions options{
+        .depth = depth, .max_edge = max_edge, .unit = unit, .columns = columns};
     return from_surfaces(run_stage(how, [from, options, chosen = to_format(format)](const Run&) {
         return read_surfaces(from, chosen, options);
     }));
@@ -34,11 +36,12 @@ py::list read(const py::object& path, const std::optional<std::string>& format, 
 
 /// Refuses options of reading that no file makes use of.
 void check_all(const std::vector<std::string>& paths, const std::optional<std::string>& format,
-               bool depth, double max_edge) {
+               bool depth, double max_edge, const std::string& columns) {
     std::vector<std::optional<Format>> formats;
     for (const std::string& path : paths)
-        formats.push_back(format ? to_format(format) : format_of(path));
-    must(check_reading(formats, {.depth = depth, .max_edge = max_edge}, {"depth", "max_edge"}));
+        formats.push_back(format ? to_format(format) : format_to_read(path));
+    must(check_reading(formats, {.depth = depth, .max_edge = max_edge, .columns = columns},
+                       {"depth", "max_edge", "columns"}));
 }
 
 void write(const MeshPointer& mesh, const py::object& path,
@@ -57,10 +60,12 @@ void write(const MeshPointer& mesh, const py::object& path,
 } // namespace
 
 void bind_files(py::module_& module) {
-    module.def("read", &read, "path"_a, "format"_a, "depth"_a, "max_edge"_a, "unit"_a, "how"_a);
+    module.def("read", &read, "path"_a, "format"_a, "depth"_a, "max_edge"_a, "unit"_a, "columns"_a,
+               "how"_a);
     module.def("write_mesh", &write, "mesh"_a, "path"_a, "format"_a, "ascii"_a, "compress"_a,
                "how"_a);
-    module.def("check_reading", &check_all, "paths"_a, "format"_a, "depth"_a, "max_edge"_a);
+    module.def("check_reading", &check_all, "paths"_a, "format"_a, "depth"_a, "max_edge"_a,
+               "columns"_a);
 }
 
 } // namespace terrane::python

@@ -80,6 +80,16 @@ std::shared_ptr<Surface> judged_surface(const py::array& vertices, const py::arr
     return made;
 }
 
+/// A copy with the same triangles, and what its file says of them.
+std::shared_ptr<Surface> described_anew(const Surface& surface, const py::object& name,
+                                        const py::object& role, const py::tuple& frame) {
+    auto made = std::make_shared<Surface>(surface);
+    made->name = from_text(name);
+    made->role = role_named(role);
+    made->frame = to_frame(frame);
+    return made;
+}
+
 } // namespace
 
 std::string_view name_of(Role role) {
@@ -136,6 +146,7 @@ std::vector<SurfaceInfo> to_infos(const py::sequence& list) {
 void bind_surface(py::module_& module) {
     py::class_<Surface, std::shared_ptr<Surface>> bound(module, "Surface");
     bound.def(py::init(&judged_surface), "vertices"_a, "triangles"_a, "name"_a, "role"_a, "frame"_a)
+        .def("described_anew", &described_anew, "name"_a, "role"_a, "frame"_a)
         .def_property_readonly("name", [](const Surface& s) { return to_text(s.name); })
         .def_property_readonly("role", [](const Surface& s) { return to_text(name_of(s.role)); })
         .def_property_readonly("frame", [](const Surface& s) { return from_frame(s.frame); });

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import glob
 import os
-from typing import Any, Dict, List, Mapping, Optional
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
 
 from . import _core
-from ._arrays import Path, as_flag, as_format, as_mapping, as_number, as_word
+from ._arrays import Path, as_flag, as_format, as_list, as_mapping, as_number, as_word
 from ._errors import Error
 from ._mesh import mesh
 from ._run import how
@@ -28,8 +28,21 @@ def _paths(value: Any) -> List[str]:
     return found
 
 
+def _columns(value: Optional[Sequence[Union[int, str]]]) -> str:
+    """Return what the library takes for three columns."""
+    if value is None:
+        return ""
+    given = as_list(value, "columns")
+    for column in given:
+        if isinstance(column, bool) or not isinstance(column, (int, str)):
+            raise TypeError(f"columns are integers or names, not {type(column).__name__}")
+    if any("," in str(column) for column in given):
+        raise Error("bad_option", "a column whose name has a comma is stated by its number", "columns")
+    return ",".join(str(column) for column in given)
+
+
 def read(path: Any, *, format: Optional[str] = None, depth: bool = False, max_edge: float = 0,
-         unit: str = "", roles: Optional[Dict[str, str]] = None, threads: Optional[int] = None,
+         unit: str = "", columns: Optional[Sequence[Union[int, str]]] = None, roles: Optional[Dict[str, str]] = None, threads: Optional[int] = None,
          progress: Any = None) -> List[Surface]:
     """Read the surfaces of files.
 
@@ -45,6 +58,8 @@ def read(path: Any, *, format: Optional[str] = None, depth: bool = False, max_ed
         Points: longest edge of the triangles between them; 0: twice the median.
     unit : str, optional
         Unit to which coordinates with a stated unit are converted: "m", "km", "ft", "ftUS", "cm".
+    columns : three integers or names, optional
+        Columns of numbers: those of x, y and z, by number from 1 or as a heading calls them.
     roles : dict, optional
         Roles by the names of surfaces.
 
@@ -66,10 +81,10 @@ def read(path: Any, *, format: Optional[str] = None, depth: bool = False, max_ed
     [<Surface 'top': horizon, 3 vertices, 1 triangle>]
     """
     options = (as_format(format), as_flag(depth, "depth"), as_number(max_edge, "max_edge", least=0),
-               as_word(unit, "unit"))
+               as_word(unit, "unit"), _columns(columns))
     of = as_mapping(roles, "roles")
     names = [name for item in (path if isinstance(path, (list, tuple)) else [path]) for name in _paths(item)]
-    _core.check_reading([os.path.basename(name).encode(errors="replace").decode() for name in names], *options[:3])
+    _core.check_reading([os.path.basename(name).encode(errors="replace").decode() for name in names], *options[:3], options[4])
     surfaces = [surface_of_parts(parts) for name in names
                 for parts in _core.read(name, *options, how(threads, progress))]
     return with_roles(surfaces, of)

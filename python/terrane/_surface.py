@@ -38,6 +38,13 @@ class Frame(NamedTuple):
     column_of_depths: bool = False
 
 
+def as_role(value: Any) -> str:
+    """Return a role."""
+    if not isinstance(value, str) or value not in ROLES:
+        raise bad_option(f"no role is called {value!r}; there are {', '.join(ROLES)}", "role")
+    return value
+
+
 class Surface:
     """A triangulated surface. It may be open, cross itself, and have duplicate or flat triangles.
 
@@ -75,10 +82,8 @@ class Surface:
     def __init__(self, vertices: Any, triangles: Any, name: str = "", role: str = "unknown",
                  frame: Optional[Frame] = None) -> None:
         place = f"{name}: " if as_text(name, "name") else ""
-        if not isinstance(role, str) or role not in ROLES:
-            raise bad_option(f"no role is called {role!r}; there are {', '.join(ROLES)}", "role")
-        self._core = _core.Surface(as_points(vertices, place + "vertices"),
-                                   as_triangles(triangles, place + "triangles"), name, role, _as_frame(frame))
+        self._core = _core.Surface(as_points(vertices, place + "vertices"), as_triangles(triangles, place + "triangles"),
+                                   name, as_role(role), _as_frame(frame))
 
     @classmethod
     def _of(cls, core: _core.Surface) -> "Surface":
@@ -125,7 +130,10 @@ class Surface:
         if unknown:
             raise TypeError(f"a surface has no {', '.join(sorted(unknown))}")
         values.update(changes)
-        return Surface(**values)
+        if changes.keys() & {"vertices", "triangles"}:
+            return Surface(**values)
+        return Surface._of(self._core.described_anew(as_text(values["name"], "name"), as_role(values["role"]),
+                                                     _as_frame(values["frame"])))
 
     def save(self, path: Path, format: Optional[str] = None) -> None:
         """Write the surface to a file; the extension selects the format, or `format` does.

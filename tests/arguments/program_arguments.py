@@ -46,7 +46,7 @@ HOW = {"--threads", "--quiet", "--color", "--search", "--check", "--stats", "--s
        "--size-of", "--dissolve", "--resolution", "--min-volume", "--tolerance", "--time", "--expect-input", "--no-optimise", "--optimise"}
 #: A value that makes sense ("" for flags), and what it needs besides.
 SENSE = {
-    "--depth": ("", "IN=seabed.asc"), "--max-edge": ("90", "IN=points.csv"), "--box": (BOX[6:], ""),
+    "--depth": ("", "IN=seabed.asc"), "--max-edge": ("90", "IN=points.csv"), "--columns": ("1,3,2", "IN=points.csv"), "--box": (BOX[6:], ""),
     "--rotated-box": ("1000,700,-1200,800,600,500,20", ""), "--polygon": ("100,100,1500,100,100,1200", "--between=-1700,-700"),
     "--between": ("-1700,-700", "--polygon=100,100,1500,100,100,1200"), "--within": ("body.ts", ""), "--folder": ("/", ""), "--seal": ("60", ""),
     "--ascii": ("", ""), "--msh": ("2.2", "OUT=out.msh"), "--certificate": ("c.json", "OUT=out.obj"), "--exact": ("x.txt", ""),
@@ -64,11 +64,13 @@ SENSE = {
 #: The same option of another command.
 ALSO = {("ensemble", "--grid"): ("7", ""), ("layer", "--certificate"): ("c.json", "OUT=out.obj"),
         ("convert", "--msh"): ("2.2", "BASE=top.ts out.msh"), ("convert", "--depth"): ("", "BASE=seabed.asc out.stl"),
-        ("convert", "--max-edge"): ("90", "BASE=points.csv out.stl"), ("tetrahedralize", "--msh"): ("2.2", "OUT=out.msh"),
+        ("convert", "--max-edge"): ("90", "BASE=points.csv out.stl"), ("convert", "--columns"): ("1,3,2", "BASE=points.csv out.stl"),
+        ("tetrahedralize", "--msh"): ("2.2", "OUT=out.msh"),
         ("tetrahedralize", "--certificate"): ("c.json", ""), ("volume", "--certificate"): ("c.json", ""),
         ("fill", "--depth"): ("", "IN=seabed.asc"), ("improve", "--edge-length"): ("150", "BASE=top.ts fault.ts -o out.stl"),
         ("layer", "--min-thickness"): ("5", "BASE=salt.ts shale.ts -o out.stl --layer=shale=1 --layer=salt=2"),
-        ("layer", "--depth"): None, ("layer", "--max-edge"): None, ("verify", "--depth"): None, ("verify", "--max-edge"): None,
+        ("layer", "--depth"): None, ("layer", "--max-edge"): None, ("layer", "--columns"): None, ("verify", "--depth"): None,
+        ("verify", "--columns"): None, ("fill", "--columns"): None, ("verify", "--max-edge"): None,
         ("volume", "--seal-plot"): ("p.svg", f"BASE=top.ts base.ts fault.ts {BOX} --suggest-seal"),
         ("volume", "--grid"): ("grid.grdecl", "--cells=cells.grdecl"),
         ("fill", "--max-edge"): None, ("tetrahedralize", "--seal"): None, ("report", "--seal"): None, ("view", "--seal"): None,

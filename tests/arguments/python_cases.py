@@ -170,7 +170,7 @@ FUNCTIONS = {
         "folder": None, "seed": 2, "contacts": 0.5, "grid": 7, "workers": None, "scheduler": None, "retries": None,
         "keep": None}),
     "read": (lambda f: dict(path=str(f.files / "points.xyz")), {
-        "format": None, "depth": True, "max_edge": 1.5, "unit": None, "roles": {"points": "fault"}}),
+        "format": None, "depth": True, "max_edge": 1.5, "unit": None, "columns": [1, 3, 2], "roles": {"points": "fault"}}),
     "save": (lambda f: dict(surfaces=f.surfaces, path="saved.stl"), {"format": "obj", "ascii": True}),
     "as_surface": (lambda f: dict(value=f.surfaces[0]), {"name": "other", "role": "fault"}),
     "as_surfaces": (lambda f: dict(value=f.surfaces), {"place": None}),

@@ -106,7 +106,7 @@ std::vector<Stage> reading() {
     stages.push_back(stage(
         "check_reading",
         [] {
-            return check_reading({Format::xyz}, {.depth = true}, {"depth", "max_edge"});
+            return check_reading({Format::xyz}, {.depth = true}, {"depth", "max_edge", "columns"});
         },
         [](const Done&) { return std::string("sound"); }));
     stages.back().returns_errors = false; // its arguments are made here

@@ -131,12 +131,16 @@ std::vector<std::string_view> cells_of(std::string_view line, char delimiter) {
 
 namespace {
 
-std::optional<Heading> heading_of(const std::vector<Column>& columns, char delimiter) {
+std::optional<Heading> heading_of(const std::vector<Column>& columns, char delimiter,
+                                  const StatedColumns& stated) {
     Heading heading;
     heading.delimiter = delimiter;
-    const auto x = place_of(columns, names_of_x);
-    const auto y = place_of(columns, names_of_y);
-    const auto z = place_of(columns, names_of_z);
+    const auto place = [&](std::size_t i, std::span<const std::string_view> usual) {
+        if (!stated.are_stated()) return place_of(columns, usual);
+        const std::string name = column_called(stated.names()[i]).name;
+        return place_of(columns, std::array{std::string_view(name)});
+    };
+    const auto x = place(0, names_of_x), y = place(1, names_of_y), z = place(2, names_of_z);
     if (!x || !y || !z) return std::nullopt;
     heading.xyz = {*x, *y, *z};
     heading.columns = columns.size();
@@ -170,15 +174,42 @@ bool has_decimal_comma(std::string_view token, bool& like_thousands) {
 
 } // namespace
 
-std::optional<Heading> read_heading(std::string_view line) {
-    const char delimiter = delimiter_of(line);
-    return heading_of(named_columns(line, delimiter), delimiter);
+StatedColumns::StatedColumns(std::string_view text) {
+    if (text.empty()) return;
+    for (const auto name : cells_of(text, ',')) names_.emplace_back(name);
+    names_.resize(3); // check_reading() has refused others
+    std::array<std::size_t, 3> numbers{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::int64_t number = 0;
+        if (!parse_integer(names_[i], number) || number < 1 ||
+            number > static_cast<std::int64_t>(most_columns))
+            return;
+        numbers[i] = static_cast<std::size_t>(number) - 1;
+    }
+    numbers_ = numbers;
 }
 
-std::optional<Heading> heading_of(std::span<const std::string> names) {
+std::optional<Heading> StatedColumns::heading_of_cells(std::string_view line) const {
+    Heading heading;
+    heading.delimiter = delimiter_of(line);
+    const auto cells =
+        heading.delimiter == ' ' ? columns_of(line) : cells_of(line, heading.delimiter);
+    heading.xyz = *numbers_;
+    heading.columns = cells.size();
+    const auto has_number = [&](std::size_t i) { return i < cells.size() && is_number(cells[i]); };
+    if (!std::ranges::all_of(heading.xyz, has_number)) return std::nullopt;
+    return heading;
+}
+
+std::optional<Heading> read_heading(std::string_view line, const StatedColumns& stated) {
+    const char delimiter = delimiter_of(line);
+    return heading_of(named_columns(line, delimiter), delimiter, stated);
+}
+
+std::optional<Heading> heading_of(std::span<const std::string> names, const StatedColumns& stated) {
     std::vector<Column> columns;
     for (const std::string& name : names) columns.push_back(column_called(name));
-    return heading_of(columns, ' ');
+    return heading_of(columns, ' ', stated);
 }
 
 std::optional<std::string> unclear_columns(std::string_view line, std::string_view first_point) {

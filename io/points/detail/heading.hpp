@@ -31,11 +31,28 @@ struct Heading {
     CoordinateFrame frame{};   ///< units, and whether z is called depth
 };
 
-/// Reads a heading; none if it names no columns x, y and z.
-std::optional<Heading> read_heading(std::string_view line);
+/// The columns of x, y and z that a caller states (ReadOptions::columns).
+class StatedColumns {
+public:
+    StatedColumns() = default;
+    explicit StatedColumns(std::string_view text);
+
+    [[nodiscard]] bool are_stated() const { return !names_.empty(); }
+    [[nodiscard]] bool are_numbers() const { return numbers_.has_value(); }
+    [[nodiscard]] std::span<const std::string> names() const { return names_; }
+    /// Returns a heading of the cells of a line of numbers; none if the stated cells are no numbers.
+    [[nodiscard]] std::optional<Heading> heading_of_cells(std::string_view line) const;
+
+private:
+    std::vector<std::string> names_;                    ///< three, or none
+    std::optional<std::array<std::size_t, 3>> numbers_; ///< from 0
+};
+
+/// Reads a heading; none if it does not name the columns x, y and z, or those that are stated.
+std::optional<Heading> read_heading(std::string_view line, const StatedColumns& stated = {});
 
 /// Returns the heading of columns with these names, between blanks; none as read_heading.
-std::optional<Heading> heading_of(std::span<const std::string> names);
+std::optional<Heading> heading_of(std::span<const std::string> names, const StatedColumns& stated);
 
 /// Returns the names in a line that names columns, but not which are x, y and z: more than three,
 /// as many as the first line of points has, between commas, semicolons or tabs, or with the name of

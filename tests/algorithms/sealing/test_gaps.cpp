@@ -175,3 +175,24 @@ TEST_CASE("seal advice: nothing is sealed where there is no gap", "[seal]") {
     CHECK(automatic->rounded.mesh->triangles == plain->rounded.mesh->triangles);
     CHECK(automatic->growth.empty());
 }
+
+TEST_CASE("gaps: two parts of one surface have the gap that two surfaces have", "[seal]") {
+    auto surfaces = steps({0.125});
+    const auto two = find_gaps(*arrange(surfaces), 1);
+    Surface& all = surfaces[0];
+    const auto first = static_cast<std::uint32_t>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), surfaces[1].vertices.begin(),
+                        surfaces[1].vertices.end());
+    for (const auto& [i, j, k] : surfaces[1].triangles)
+        all.triangles.push_back({first + i, first + j, first + k});
+    surfaces.erase(surfaces.begin() + 1);
+    const auto one = find_gaps(*arrange(surfaces), 1);
+    REQUIRE(two);
+    REQUIRE(one);
+    REQUIRE(one->size() == two->size());
+    for (std::size_t g = 0; g < one->size(); ++g) {
+        CHECK((*one)[g].from == (*one)[g].to);
+        CHECK((*one)[g].width == (*two)[g].width);
+        CHECK((*one)[g].length == (*two)[g].length);
+    }
+}

@@ -110,3 +110,36 @@ TEST_CASE("free borders: one that lies on another surface has distance 0 and com
     CHECK(leaks[0].decade == INT_MIN);
     CHECK(leaks[0].length == 1);
 }
+
+TEST_CASE("free borders: parts of one surface are near each other as two surfaces are",
+          "[borders]") {
+    const auto joined = [](Surface a, const Surface& b) {
+        const auto first = static_cast<std::uint32_t>(a.vertices.size());
+        a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+        for (const auto& [i, j, k] : b.triangles)
+            a.triangles.push_back({first + i, first + j, first + k});
+        return a;
+    };
+    const Surface left = level(0, 0, 0, 2, 4, "a"), right = level(0, 2.25, 0, 4, 4, "b");
+    const auto two = borders_of({left, right});
+    const auto one = borders_of({joined(left, right)});
+    REQUIRE(one.size() == 2);
+    REQUIRE(two.size() == 2);
+    for (std::size_t b = 0; b < 2; ++b) {
+        REQUIRE(one[b].gaps.size() == two[b].gaps.size());
+        for (std::size_t g = 0; g < one[b].gaps.size(); ++g) {
+            CHECK(one[b].gaps[g].surface == 0);
+            CHECK(one[b].gaps[g].least == two[b].gaps[g].least);
+            CHECK(one[b].gaps[g].length == two[b].gaps[g].length);
+        }
+    }
+    const auto leaks = leaks_of(one);
+    REQUIRE_FALSE(leaks.empty());
+    CHECK(leaks[0].from == leaks[0].to);
+    CHECK(leaks[0].least == 0.25);
+    // Another surface between them is nearer, and parts that touch in a vertex are one.
+    const auto between = borders_of({joined(left, right), level(0, 2.0625, 0, 2.125, 4, "c")});
+    for (const Leak& leak : leaks_of(between))
+        if (leak.from == 0 && leak.decade < -1) CHECK(leak.to == 1);
+    CHECK(leaks_of(borders_of({joined(left, level(0, 2, 4, 4, 6, "b"))})).empty());
+}

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <terrane/io/files.hpp>
+#include <terrane/io/reading.hpp>
 
 namespace columns_test {
 
@@ -210,6 +211,58 @@ TEST_CASE("grids and GOCAD files under another extension are read as what they a
                                                             {gocad, Format::gocad}};
     for (const auto& [contents, format] : files)
         CHECK(points_of(contents) == points_of(contents, format));
+}
+
+TEST_CASE("columns: a caller states which they are, by number or by name") {
+    const auto stated = [](const std::string& contents, const std::string& columns) {
+        ReadOptions options;
+        options.columns = columns;
+        return parse_surfaces(contents, "a", Format::xyz, options);
+    };
+    const auto read_as = [&](const std::string& contents, const std::string& columns) {
+        const auto read = stated(contents, columns);
+        INFO(contents);
+        if (!read) FAIL(read.error().message());
+        REQUIRE(read->size() == 1);
+        return read->at(0).vertices;
+    };
+    const std::string rows = "7,0,0,1,-1000\n7,10,0,2,-999.5\n7,0,10,3,-998\n7,10,10,4,-997.25\n";
+    for (const std::string heading :
+         {"", "A,B,C,D,E\n", "# any text, with commas\n", "x,y,z,no,rl\n"})
+        CHECK(read_as(heading + rows, "2,3,5") == four);
+    for (const std::string names : {"B,C,E", "b,c,e"})
+        CHECK(read_as("A,B,C,D,E\n" + rows, names) == four);
+    CHECK(read_as("A,\"Easting (m)\",C,x,Depth [m]\n" + rows, "Easting,C,Depth") == four);
+    CHECK(read_as("z,x,y,no,base\n" + rows, "x,y,base") == four); // not the column called z
+    CHECK(read_as("# Field: 1 q meters\n# Field: 2 a\n# Field: 3 b\n# Field: 4 c\n# Field: 5 d\n"
+                  "7 0 0 1 -1000\n7 10 0 2 -999.5\n7 0 10 3 -998\n7 10 10 4 -997.25\n",
+                  "a,b,d") == four);
+    // Cells may be empty, and commas may be decimal points.
+    CHECK(read_as("a;b;;d\n;0;0;-1000\n1;10;0;-999,5\n;0;10;-998\n;10;10;-997,25\n", "2,3,4") ==
+          four);
+    const auto missing = stated("A,B,C,D,E\n" + rows, "B,C,depth");
+    REQUIRE_FALSE(missing);
+    CHECK(missing.error().message().find("B, C, depth") != std::string::npos);
+    CHECK_FALSE(stated(rows, "B,C,E"));  // there is no heading
+    CHECK_FALSE(stated(rows, "2,3,9"));  // no such column
+    CHECK_FALSE(stated(rows, "2,3,65")); // nor so many
+    CHECK_FALSE(stated(rows, "0,1,2"));
+}
+
+TEST_CASE("columns: what is stated is three columns of a file that has some") {
+    const auto check = [](Format format, const std::string& columns) {
+        ReadOptions options;
+        options.columns = columns;
+        return check_reading({format}, options, {"d", "m", "c"});
+    };
+    CHECK(check(Format::xyz, "1,2,3"));
+    for (const std::string wrong : {"1,2", "1,2,3,4", ",,", "1,,3", "1,2,", ",2,3"}) {
+        const auto refused = check(Format::xyz, wrong);
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().place == "c");
+    }
+    CHECK_FALSE(check(Format::gocad, "1,2,3"));
+    CHECK_FALSE(check(Format::vset, "1,2,3"));
 }
 
 } // namespace columns_test
