@@ -223,12 +223,8 @@ terrane_code terrane_model_to_json(const terrane_model* model, char** text, terr
     return call(error, [&] {
         const terrane::Model& m = needed(model, "model").model;
         need_array(text, 1, "text");
-        const std::string json = terrane::to_json(
-            m.mesh, m.structure, terrane::extras_of({m, std::nullopt, std::nullopt}));
-        auto* const copy = static_cast<char*>(std::malloc(json.size() + 1));
-        if (!copy) throw std::bad_alloc();
-        std::memcpy(copy, json.c_str(), json.size() + 1);
-        *text = copy;
+        *text = text_for_caller(terrane::to_json(
+            m.mesh, m.structure, terrane::extras_of({m, std::nullopt, std::nullopt})));
     });
 }
 

@@ -7,13 +7,16 @@
 #include <string>
 #include <utility>
 
+#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
+#include <terrane/algorithms/plausibility/plausibility.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/reading.hpp>
+#include <terrane/io/structure_json.hpp>
 
 namespace terrane::capi::detail {
 namespace {
@@ -184,6 +187,22 @@ const char* terrane_surfaces_name(const terrane_surfaces* surfaces, size_t surfa
 terrane_role terrane_surfaces_role(const terrane_surfaces* surfaces, size_t surface) {
     const auto* found = surface_at(surfaces, surface);
     return found ? static_cast<terrane_role>(found->role) : TERRANE_ROLE_UNKNOWN;
+}
+
+terrane_code terrane_surfaces_doubts(const terrane_surfaces* surfaces,
+                                     const terrane_surfaces* boundary, int32_t blocks, char** text,
+                                     terrane_error** error) {
+    if (text) *text = nullptr;
+    return call(error, [&] {
+        const auto& list = needed(surfaces, "surfaces").list;
+        need_array(text, 1, "text");
+        terrane::PlausibilityContext context;
+        if (boundary) context.boundary = needed(boundary, "boundary").list;
+        context.blocks = blocks != 0;
+        *text = text_for_caller(terrane::json_of(terrane::find_doubts(list, context),
+                                                 terrane::unique_labels(terrane::infos_of(list)))
+                                    .dump());
+    });
 }
 
 terrane_code terrane_surfaces_label(terrane_surfaces* surfaces, size_t surface, const char* name,

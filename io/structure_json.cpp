@@ -213,4 +213,19 @@ std::string to_json(const Mesh& mesh, const Structure& structure, const Structur
     return text_of(json);
 }
 
+detail::Json json_of(std::span<const PlausibilityWarning> warnings,
+                     std::span<const std::string> labels) {
+    detail::Json list = detail::Json::array();
+    for (const PlausibilityWarning& w : warnings) {
+        detail::Json surfaces = detail::Json::array();
+        for (const auto s : w.surfaces) surfaces.push_back(labels[s]);
+        list.push_back({{"about", std::string(name_of(w.doubt))},
+                        {"surfaces", std::move(surfaces)},
+                        {"seen", w.seen},
+                        {"why", w.why},
+                        {"answer", w.answer}});
+    }
+    return list;
+}
+
 } // namespace terrane

@@ -45,9 +45,11 @@
 
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/model/model.hpp>
+#include <terrane/algorithms/plausibility/plausibility.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
 #include <terrane/algorithms/structure/relations.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
+#include <terrane/io/text/json.hpp>
 
 namespace terrane {
 
@@ -70,5 +72,9 @@ std::string to_json(const Mesh& mesh, const Structure& structure, const Structur
 /// Returns what a certificate states of that text, since it does not follow from the mesh and its blocks
 /// (block_certificate.hpp): JSON with doubles as strings.
 std::string stated_json(const Structure& structure, const StructureExtras& extras);
+
+/// Returns what `warnings` of the statistics is: docs/reference/statistics.md. labels: of the surfaces.
+detail::Json json_of(std::span<const PlausibilityWarning> warnings,
+                     std::span<const std::string> labels);
 
 } // namespace terrane

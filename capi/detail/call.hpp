@@ -5,9 +5,12 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -89,6 +92,14 @@ Handle& needed(Handle* handle, const char* argument) {
     if (!handle) throw BadArgument{argument, "is null"};
     if (!known(handle)) throw BadArgument{argument, "is no handle of this type"};
     return *handle;
+}
+
+/// Returns a copy that terrane_text_free frees.
+inline char* text_for_caller(const std::string& text) {
+    auto* const copy = static_cast<char*>(std::malloc(text.size() + 1));
+    if (!copy) throw std::bad_alloc();
+    std::memcpy(copy, text.c_str(), text.size() + 1);
+    return copy;
 }
 
 /// Checks an array that may be null only if it is empty.

@@ -7,6 +7,7 @@
 
 #include <terrane/algorithms/model/model_doubts.hpp>
 #include <terrane/cli/session/console.hpp>
+#include <terrane/io/structure_json.hpp>
 
 namespace terrane::cli {
 
@@ -14,16 +15,9 @@ void report_doubts(const std::vector<PlausibilityWarning>& warnings,
                    const std::vector<std::string>& labels, bool strict, Json& statistics) {
     Json& list = statistics["warnings"];
     if (!list.is_array()) list = Json::array();
-    for (const PlausibilityWarning& w : warnings) {
-        warn(w.message());
-        Json surfaces = Json::array();
-        for (const auto s : w.surfaces) surfaces.push_back(labels[s]);
-        list.push_back({{"about", std::string(name_of(w.doubt))},
-                        {"surfaces", std::move(surfaces)},
-                        {"seen", w.seen},
-                        {"why", w.why},
-                        {"answer", w.answer}});
-    }
+    for (const PlausibilityWarning& w : warnings) warn(w.message());
+    const Json added = json_of(warnings, labels);
+    for (const Json& warning : added) list.push_back(warning);
     if (!strict || warnings.empty()) return;
     refuse(
         fmt::format("{} about the inputs; nothing was done", counted(warnings.size(), "warning")),

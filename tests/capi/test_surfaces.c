@@ -33,6 +33,26 @@ static void test_arrays(void) {
     terrane_surfaces_free(copy);
 }
 
+/// What the program warns of is a text.
+static void test_doubts(void) {
+    const double flat[] = {0, 0, 0, 4, 0, 0, 0, 4, 0};
+    const uint32_t triangle[] = {0, 1, 2};
+    terrane_surfaces* s = NULL;
+    char* text = NULL;
+    WORKS(terrane_surfaces_new(&s, &error));
+    WORKS(terrane_surfaces_add(s, "top", TERRANE_ROLE_HORIZON, flat, 3, triangle, 1, &error));
+    WORKS(terrane_surfaces_doubts(s, NULL, 0, &text, &error));
+    CHECK(same_text(text, "[]"));
+    terrane_text_free(text);
+    WORKS(terrane_surfaces_doubts(s, NULL, 1, &text, &error));
+    CHECK(strstr(text, "\"about\":\"no_top\",\"surfaces\":[\"top\"]") != NULL);
+    terrane_text_free(text);
+    FAILS(TERRANE_BAD_ARGUMENT, terrane_surfaces_doubts(NULL, NULL, 0, &text, &error));
+    CHECK(text == NULL);
+    FAILS(TERRANE_BAD_ARGUMENT, terrane_surfaces_doubts(s, NULL, 0, NULL, &error));
+    terrane_surfaces_free(s);
+}
+
 /// An array need not begin where a double may.
 static void test_unaligned(void) {
     const double vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 0.25};
@@ -152,6 +172,7 @@ static void test_check(void) {
 
 void test_surfaces(void) {
     test_arrays();
+    test_doubts();
     test_unaligned();
     test_files();
     test_boundaries();
