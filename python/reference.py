@@ -23,7 +23,7 @@ GROUPS = [
                 "SealChange ClosedGap OpenGap SealAdvice SealTrial Improved BorderLoop Filled FilledHole FillReport "
                 "Layered LayerReport OutOfOrder Tetrahedra BlockVolume Violation Verdict VerifiedFile RuleViolation "
                 "Built Ensemble BlockOutcome Juxtaposed Failure"),
-    ("Small things", "IndexLists SurfaceInfo NO_INDEX HAS_REPORTS keep_freed_memory Error OutOfMemory ERROR_CODES"),
+    ("Small things", "IndexLists SurfaceInfo NO_INDEX HAS_REPORTS keep_freed_memory Error OutOfMemory Doubt ERROR_CODES"),
 ]
 CONSTANTS = {"ROLES": "The roles that a surface can have: {}.", "ERROR_CODES": "The codes of `Error.code`: {}.",
              "HAS_REPORTS": "Whether this build can write report pages.",

@@ -79,12 +79,15 @@ class Doubt(UserWarning):
     """
 
     def __init__(self, about: str, surfaces: List[str], seen: str, why: str, answer: str) -> None:
-        super().__init__(f"{seen}. {why}. {answer}")
+        super().__init__(about, surfaces, seen, why, answer)
         self.about = about
         self.surfaces = surfaces
         self.seen = seen
         self.why = why
         self.answer = answer
+
+    def __str__(self) -> str:
+        return f"{self.seen}. {self.why}. {self.answer}"
 
 
 def doubts_of(rows: List[Any], labels: Sequence[str]) -> List[Doubt]:

@@ -184,7 +184,8 @@ def instances():
                   "Juxtaposition": made["Model"].juxtapositions[0], "SurfaceCut": made["VolumeOfInterest"].surfaces[0],
                   "SealAdvice": terrane.suggest_seal(stack()),
                   "Verdict": terrane.verify(made["Mesh"]), "Error": terrane.Error("bad_option", "no", "x"),
-                  "OutOfMemory": terrane.OutOfMemory("out_of_memory", "none")})
+                  "OutOfMemory": terrane.OutOfMemory("out_of_memory", "none"),
+                  "Doubt": terrane.Doubt("no_base", ["top"], "the model is open", "no block is closed", "add a base")})
     s = made["Structure"]
     found.update({"Corner": s.corners[0], "Line": s.lines[0], "Patch": s.patches[0], "InterfaceParts": s.interfaces[0],
                   "BlockParts": s.blocks[0], "SealTrial": found["SealAdvice"].trials[0]})
@@ -226,7 +227,7 @@ def test_copies_equal_their_originals(values, name):
     for other in (copy.copy(value), copy.deepcopy(value), pickle.loads(pickle.dumps(value))):
         assert type(other) is type(value)
         if isinstance(value, Exception):  # which are equal to themselves alone
-            assert (other.code, other.sentence, other.place) == (value.code, value.sentence, value.place)
+            assert other.args == value.args and vars(other) == vars(value)
             continue
         assert other == value and not other != value
         try:

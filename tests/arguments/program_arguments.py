@@ -31,7 +31,7 @@ BASES = {
     "arrange": "top.ts fault.ts -o out.stl", "volume": f"top.ts base.ts fault.ts -o out {BOX}",
     "tetrahedralize": f"top.ts -o out.vtu {BOX}", "improve": "top.ts fault.ts -o out.stl --edge-length=300",
     "build": "project.json -o out", "ensemble": "project.json -o out --realisations=2 --grid=5 --engine=serial",
-    "check": "top.ts fault.ts", "fill": "dish.obj -o out.stl", "layer": "--hard=salt.ts --soft=shale.ts --keep=upper -o out.stl",
+    "info": "top.ts fault.ts", "check": "top.ts fault.ts", "fill": "dish.obj -o out.stl", "layer": "--hard=salt.ts --soft=shale.ts --keep=upper -o out.stl",
     "report": f"top.ts fault.ts -o out.html {BOX}", "view": f"top.ts fault.ts {BOX}", "convert": "top.ts out.stl",
     "verify": "certificate.json", "completion": "bash", "manual": "arrange"}
 #: Commands that are not run, with the reason; their options are only refused.

@@ -220,4 +220,4 @@ METHODS = {
 #: Classes that functions return, made of the module's own objects: their constructors are nobody's.
 RETURNED = {"Arrangement", "RoundedMesh", "Mesh", "Regions", "CheckReport", "Volumes", "Structure", "Filled", "Layered", "Model",
             "Block", "Blocks", "Interface", "Tetrahedra", "Built", "Improved", "Sealed", "VolumeOfInterest", "Ensemble",
-            "OutOfMemory"}
+            "OutOfMemory", "Doubt"}

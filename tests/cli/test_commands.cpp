@@ -227,18 +227,20 @@ TEST_CASE("cli: info says what files contain", "[cli]") {
                   "GOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME UTM31\nAXIS_UNIT m m m\nZPOSITIVE Depth\n"
                   "END_ORIGINAL_COORDINATE_SYSTEM\nTFACE\nPVRTX 1 0 0 5 .2\nPVRTX 2 4 0 5 .2\n"
                   "PVRTX 3 0 4 6 .2\nTRGL 1 2 3\nEND\n");
-    const auto grid = folder.input("g.dat", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\n"
+    const auto grid = folder.input("g.dat", "ncols 2\nnrows 2\nxllcorner -4.5\nyllcorner -4.5\n"
                                             "cellsize 9\n-5.5 -5.5\n-5.5 -5.5\n");
     const auto text = folder.run("info " + ts + " " + grid);
     CHECK(text.status == 0);
     CHECK(contains(text.out, "top.ts: GOCAD, 1 surface\n"));
-    CHECK(contains(text.out, "  top      horizon          1         3      1  open, 3 border edges\n"));
+    CHECK(contains(text.out,
+                   "  top      horizon          1         3      1  open, 3 border edges  none\n"));
     CHECK(contains(text.out, "  from (0, 0, -6) to (4, 4, -5)\n"));
     CHECK(contains(text.out, "  states: x and y in m; z in m; z is a depth, which was turned over; "
                              "coordinate system UTM31\n"));
     CHECK(contains(text.out, "  values, which are not read: Poro\n"));
     CHECK(contains(text.out, "g.dat: ESRI ASCII grid, 1 surface\n"));
-    CHECK(contains(text.out, "1 pair of triangles of different surfaces cross, touch or overlap\n"));
+    CHECK(
+        contains(text.out, "2 pairs of triangles of different surfaces cross, touch or overlap\n"));
     CHECK(contains(text.err, "top has values on points or triangles: Poro"));
 
     const auto r = folder.run("info --json " + ts + " " + grid);
@@ -250,7 +252,7 @@ TEST_CASE("cli: info says what files contain", "[cli]") {
     CHECK(top["high"] == Json::parse("[4.0, 4.0, -5.0]"));
     CHECK(top["values"] == Json::parse(R"(["Poro"])"));
     CHECK(json["files"][1]["surfaces"][0]["triangles"] == 2);
-    CHECK(json["contacts_of_surfaces"] == 1);
+    CHECK(json["contacts_of_surfaces"] == 2);
     CHECK(json["warnings"][0]["about"] == "values_left_out");
     CHECK(folder.run("info --strict " + ts).status == 2);
     CHECK(folder.run("info none.ts").status == 2);

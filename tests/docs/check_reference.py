@@ -203,6 +203,7 @@ def write_json_files(program, folder):
     run("improve", *model, *box, "-o", "n.vtp", "--edge-length", "100", "--resolution", "20", "--stats", "resolution.json")
     run("fill", "fold.ts", "-o", "f.vtp", "--stats", "fill.json")
     run("fill", "fold.ts", "-o", "r.vtp", "--method", "rbf", "--stats", "rbf.json")
+    run("info", "top.ts", "fault.ts", "--json", out="info.json")
     run("check", "twice.obj", "--json", out="check.json")
     run("arrange", *model, "-o", "a.vtp", "--certificate", "certificate.json", "--stats", "arrange.json")
     run("arrange", *model, "-o", "a.stl", "--stats", "stl.json")
@@ -245,7 +246,7 @@ def write_json_files(program, folder):
         unpack_page(folder / "report.html"), unpack_page(folder / "filled.html")
     return {"report.md": sorted(str(p) for p in folder.glob("*.content.json")),
             "report.md, run": sorted(str(p) for p in folder.glob("*.run.json")), "statistics.md": statistics, "model.md": ["open/model.json", "sealed/model.json"],
-            "certificate.md": certificates, "check": ["check.json"],
+            "certificate.md": certificates, "check": ["check.json"], "info": ["info.json"],
             "verdict": ["valid.json", "blocks.json", "valid_improved.json", "refuted.json"]}
 
 
@@ -276,10 +277,11 @@ def check_json(program, findings):
         written = write_json_files(program, folder)
         true = {page: set().union(*(key_paths(json.loads((folder / f).read_text())) for f in files))
                 for page, files in written.items()}
-    pages = {"statistics.md": documented_keys("statistics.md", lambda a: a != "findings-of-check"),
+    pages = {"statistics.md": documented_keys("statistics.md", lambda a: a not in ("findings-of-check", "contents-of-files")),
              "model.md": documented_keys("model.md"),
              "certificate.md": documented_keys("certificate.md", lambda a: a != "verdict-of-verify"),
              "check": documented_keys("statistics.md", lambda a: a == "findings-of-check"),
+             "info": documented_keys("statistics.md", lambda a: a == "contents-of-files"),
              "verdict": documented_keys("certificate.md", lambda a: a == "verdict-of-verify")}
     if has_pages(program):
         pages["report.md"] = documented_keys("report.md", lambda a: a == "keys-of-terrane-data")

@@ -154,7 +154,8 @@ TEST_CASE("columns: a heading that does not say which are x, y and z is refused 
     CHECK(message_of("ID,Rechts,Hoch,Teufe\n0,0,0,1\n1,10,0,2\n2,0,10,3\n") ==
           "a:2: the heading names the columns id, rechts, hoch, teufe, and not which of them are "
           "x, y and z: "
-          "call them so, or easting, northing, elevation, depth");
+          "state them (--columns 3,4,5 or their names), or call them so, or easting, northing, "
+          "elevation, depth");
     CHECK(message_of(
               "BEGIN HEADER\nINT,Inline\nlat\nlon\nTWT\nEND HEADER\n0 0 0 1\n1 10 0 2\n2 0 10 3\n")
               .find("the header names the columns Inline, lat, lon, TWT, and not which") !=
