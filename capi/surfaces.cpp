@@ -189,19 +189,15 @@ terrane_role terrane_surfaces_role(const terrane_surfaces* surfaces, size_t surf
     return found ? static_cast<terrane_role>(found->role) : TERRANE_ROLE_UNKNOWN;
 }
 
-terrane_code terrane_surfaces_doubts(const terrane_surfaces* surfaces,
-                                     const terrane_surfaces* boundary, int32_t blocks, char** text,
+terrane_code terrane_surfaces_doubts(const terrane_surfaces* surfaces, int32_t blocks, char** text,
                                      terrane_error** error) {
     if (text) *text = nullptr;
     return call(error, [&] {
         const auto& list = needed(surfaces, "surfaces").list;
         need_array(text, 1, "text");
-        terrane::PlausibilityContext context;
-        if (boundary) context.boundary = needed(boundary, "boundary").list;
-        context.blocks = blocks != 0;
-        *text = text_for_caller(terrane::json_of(terrane::find_doubts(list, context),
-                                                 terrane::unique_labels(terrane::infos_of(list)))
-                                    .dump());
+        const auto doubts = terrane::find_doubts(list, {.boundary = {}, .blocks = blocks != 0});
+        const auto labels = terrane::unique_labels(terrane::infos_of(list));
+        *text = text_for_caller(terrane::json_of(doubts, labels).dump());
     });
 }
 

@@ -126,11 +126,11 @@ TERRANE_API const double* terrane_surfaces_vertices(const terrane_surfaces* surf
 TERRANE_API const uint32_t* terrane_surfaces_triangles(const terrane_surfaces* surfaces,
                                                        size_t surface, size_t* triangle_count);
 
-/// Returns likely mistakes in surfaces, of which the program warns, as JSON text: an array of objects with the keys of
-/// `warnings` in docs/reference/statistics.md. `boundary`: of a volume of interest, or NULL; `blocks`: not 0 if closed
-/// blocks are wanted. Free it with terrane_text_free. Errors: BAD_ARGUMENT, OUT_OF_MEMORY.
-TERRANE_API terrane_code terrane_surfaces_doubts(const terrane_surfaces* surfaces,
-                                                 const terrane_surfaces* boundary, int32_t blocks,
+/// Returns likely mistakes in surfaces, of which the program warns, as JSON text: an array of
+/// objects with the keys of `warnings` in docs/reference/statistics.md. `blocks`: not 0 if closed
+/// blocks are wanted without a volume of interest. Free it with terrane_text_free. Errors:
+/// BAD_ARGUMENT, OUT_OF_MEMORY.
+TERRANE_API terrane_code terrane_surfaces_doubts(const terrane_surfaces* surfaces, int32_t blocks,
                                                  char** text, terrane_error** error);
 
 /// Makes an axis-parallel box from its least and largest coordinates: six surfaces, "boundary top",

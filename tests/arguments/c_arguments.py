@@ -54,7 +54,6 @@ GOOD = {
     "terrane_surfaces_parse.size": lambda lib: 32,
     "terrane_surfaces_parse.source": lambda lib: lib.text("one.obj"),
     "terrane_surfaces_doubts.blocks": lambda lib: 1,
-    "terrane_surfaces_doubts.boundary": lambda lib: lib.handle("terrane_surfaces"),
     "terrane_surfaces_read.path": lambda lib: lib.text(str(DATA / "top.ts")),
     "terrane_surfaces_write.path": lambda lib: lib.text("written.stl"),
     "terrane_mesh_write.path": lambda lib: lib.text("written.vtp"),

@@ -41,15 +41,15 @@ static void test_doubts(void) {
     char* text = NULL;
     WORKS(terrane_surfaces_new(&s, &error));
     WORKS(terrane_surfaces_add(s, "top", TERRANE_ROLE_HORIZON, flat, 3, triangle, 1, &error));
-    WORKS(terrane_surfaces_doubts(s, NULL, 0, &text, &error));
+    WORKS(terrane_surfaces_doubts(s, 0, &text, &error));
     CHECK(same_text(text, "[]"));
     terrane_text_free(text);
-    WORKS(terrane_surfaces_doubts(s, NULL, 1, &text, &error));
+    WORKS(terrane_surfaces_doubts(s, 1, &text, &error));
     CHECK(strstr(text, "\"about\":\"no_top\",\"surfaces\":[\"top\"]") != NULL);
     terrane_text_free(text);
-    FAILS(TERRANE_BAD_ARGUMENT, terrane_surfaces_doubts(NULL, NULL, 0, &text, &error));
+    FAILS(TERRANE_BAD_ARGUMENT, terrane_surfaces_doubts(NULL, 0, &text, &error));
     CHECK(text == NULL);
-    FAILS(TERRANE_BAD_ARGUMENT, terrane_surfaces_doubts(s, NULL, 0, NULL, &error));
+    FAILS(TERRANE_BAD_ARGUMENT, terrane_surfaces_doubts(s, 0, NULL, &error));
     terrane_surfaces_free(s);
 }
 
