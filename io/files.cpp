@@ -26,6 +26,7 @@
 #include <terrane/io/meshes/gmsh.hpp>
 #include <terrane/io/meshes/gmsh22.hpp>
 #include <terrane/io/meshes/gmsh_reader.hpp>
+#include <terrane/io/meshes/leapfrog.hpp>
 #include <terrane/io/meshes/legacy_vtk.hpp>
 #include <terrane/io/meshes/medit.hpp>
 #include <terrane/io/meshes/opengeosys.hpp>
@@ -137,6 +138,7 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
     case Format::vtu:
         return read_vtu(contents, source, name);
     case Format::msh:
+        if (is_leapfrog(contents)) return read_leapfrog(contents, source, name);
         return read_msh(contents, source, name);
     case Format::vtk:
         return read_vtk(contents, source, name);

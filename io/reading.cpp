@@ -9,6 +9,7 @@
 
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/detail/recognition.hpp>
+#include <terrane/io/meshes/leapfrog.hpp>
 #include <terrane/io/text/utf8.hpp>
 
 namespace terrane {
@@ -52,10 +53,13 @@ constexpr std::array<std::pair<Format, std::string_view>, 19> titles{{
 std::string format_in(const std::filesystem::path& path, std::optional<Format> format) {
     if (!format) format = format_to_read(path);
     if (format == Format::pline) format = Format::vset;
-    if (format == Format::xyz && path != "-")
+    if ((format == Format::xyz || format == Format::msh) && path != "-")
         if (const auto contents = read_file(path)) {
             const std::string utf8 = detail::utf8_of_utf16(*contents);
-            format = detail::format_seen_in(utf8.empty() ? *contents : utf8).value_or(Format::xyz);
+            if (format == Format::xyz)
+                format = detail::format_seen_in(utf8.empty() ? *contents : utf8).value_or(*format);
+            else if (is_leapfrog(*contents))
+                return "Leapfrog mesh";
         }
     const auto* const title =
         std::ranges::find(titles, format, &decltype(titles)::value_type::first);
