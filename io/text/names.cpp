@@ -79,10 +79,27 @@ std::vector<std::string> label_names(const std::vector<SurfaceInfo>& surfaces) {
 }
 
 void note_values(std::string_view name, std::vector<std::string>& names) {
-    constexpr std::array<std::string_view, 17> known{
-        "x",           "y",         "z",     "surface",  "surfaces",         "surface_count",
-        "region",      "parent",    "block", "twin",     "cut_side",         "volume_front",
-        "volume_back", "interface", "patch", "triangle", "vtkValidPointMask"};
+    constexpr std::array<std::string_view, 21> known{"x",
+                                                     "y",
+                                                     "z",
+                                                     "nx",
+                                                     "ny",
+                                                     "nz",
+                                                     "normals",
+                                                     "surface",
+                                                     "surfaces",
+                                                     "surface_count",
+                                                     "region",
+                                                     "parent",
+                                                     "block",
+                                                     "twin",
+                                                     "cut_side",
+                                                     "volume_front",
+                                                     "volume_back",
+                                                     "interface",
+                                                     "patch",
+                                                     "triangle",
+                                                     "vtkValidPointMask"};
     constexpr std::size_t most = 64;
     const std::string noted = one_line(trimmed(name));
     if (noted.empty() || names.size() == most) return;

@@ -31,8 +31,8 @@ inline constexpr std::array<std::string_view, 4> role_names{"unknown", "horizon"
 /// Returns the name on one line: control characters become blanks.
 [[nodiscard]] std::string one_line(std::string_view name);
 
-/// Notes that a file has values with this name on points or triangles. Coordinates, the arrays of
-/// Terrane's own files, repetitions and more than 64 names are not noted.
+/// Notes that a file has values with this name on points or triangles. Coordinates, normals, the arrays
+/// of Terrane's own files, repetitions and more than 64 names are not noted.
 void note_values(std::string_view name, std::vector<std::string>& names);
 
 /// Makes names of one word, for input files of simulators and for names of files. Letters, digits,
