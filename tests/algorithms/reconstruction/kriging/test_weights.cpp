@@ -66,22 +66,23 @@ TEST_CASE("kriging: logarithms of likelihoods are halved", "[kriging]") {
                   Approx((likelihood_of(likelihood, m) - best) / 2).margin(1e-6));
 }
 
-TEST_CASE("kriging: the range of a smooth surface is the likeliest one within two percent",
+TEST_CASE("kriging: the range of a smooth surface is the likeliest one within 1.2 percent",
           "[kriging]") {
-    const auto data = lattice(9, smooth);
-    const Likelihood likelihood(data);
-    const auto models = models_of(data, {.model = VariogramModel::gaussian});
-    WeighedModel other = models[0];
-    const double found = likelihood_of(likelihood, other), range = other.variogram.range;
-    double best = -HUGE_VAL, at = 0;
-    for (other.variogram.range = 5; other.variogram.range < 300; other.variogram.range *= 1.002) {
-        const double l = likelihood_of(likelihood, other);
-        if (l <= best) continue;
-        best = l;
-        at = other.variogram.range;
+    for (const double scale : {1.0, 1.1, 1.25, 1.4}) {
+        const auto data =
+            lattice(9, [&](double x, double y) { return smooth(x / scale, y / scale); });
+        const Likelihood likelihood(data);
+        WeighedModel model = models_of(data, {.model = VariogramModel::gaussian})[0];
+        const double found = model.variogram.range;
+        double best = -HUGE_VAL, likeliest = 0;
+        for (double part = 0.9; part < 1.1; part += 0.001) {
+            model.variogram.range = found * part;
+            const double l = likelihood_of(likelihood, model);
+            if (l > best) likeliest = model.variogram.range;
+            best = std::max(best, l);
+        }
+        CHECK(found == Approx(likeliest).epsilon(0.012));
     }
-    CHECK(found > best - 1);
-    CHECK(range == Approx(at).epsilon(0.02));
 }
 
 TEST_CASE("kriging: a range is no less than three distances of neighbours", "[kriging]") {
@@ -109,6 +110,6 @@ TEST_CASE("kriging: a rim of half a radius is left out", "[kriging]") {
         border.insert(border.end(), others.begin(), others.end());
         return weigh_models({border, on_border, radius}, {}, {}).rim_ratio;
     };
-    CHECK(ratio_for(1.45) > 0);
-    WARN(ratio_for(1.45) << " " << ratio_for(1.8));
+    CHECK(ratio_for(1.45) > 5); // a wider rim would be missed by less, but for data that are flat
+    CHECK(ratio_for(1.8) > 5);  // a narrow one, too, since the foot goes on outside of it
 }
