@@ -72,7 +72,7 @@ class FillReport(NamedTuple):
     >>> holed = ...
     >>> report = terrane.fill(holed).holes[0].report
     >>> report.interpolated, report.model.split(';')[0]
-    (0, '13 models')
+    (0, '12 models')
     """
 
     data: int

@@ -12,8 +12,8 @@ shared with the program.
   tests/oracles/filled_fields.py --draws 2000 --jobs 2
 
 With --real, the surfaces of files are punched at random places instead, and the vertices that are taken out are the
-truth: the new triangles are compared with it. Holes and others are the same; the program converts the files, and a
-place where it says that the surface is no graph is left for another one.
+truth, up to the rounding of their coordinates: the new triangles are compared with it. Holes and others are the same;
+the program converts the files, and a place where it says that the surface is no graph is left for another one.
 
   tests/oracles/filled_fields.py --draws 200 --real horizons.ts seabed.irap
 
@@ -168,6 +168,10 @@ class Draw:
             exact = exact + across.T @ solve_triangular(self.factor, self.field, lower=True) + drawn
         return exact * self.amplitude
 
+    def unknowable(self, places):
+        """Returns the standard deviation of the part of the truth that no data tell: JITTER."""
+        return np.full(len(places), 3e-5 * self.amplitude * bool(self.covariances))
+
     def write(self, path):
         lines = [f"v {x!r} {y!r} {z!r}" for (x, y), z in zip(self.points.tolist(), self.z.tolist())]
         lines += [f"f {a} {b} {c}" for a, b, c in (self.triangles + 1).tolist()]
@@ -187,9 +191,26 @@ class Draw:
         return found
 
 
+def unit_of(numbers):
+    """Returns the decimal to which numbers are rounded; 0 if there is none."""
+    units = (10.0**-digits for digits in range(7))
+    return next((u for u in units if np.allclose(np.round(numbers / u) * u, numbers, rtol=1e-14, atol=0)), 0.0)
+
+
+def rounding_of(vertices, triangles):
+    """Returns the standard deviation that rounding of coordinates gives heights at vertices: on slopes, of x and y."""
+    units = np.array([unit_of(c) for c in vertices.T])
+    a, b, c = (vertices[triangles[:, i]] for i in range(3))
+    normal = np.cross(b - a, c - a)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        squares = np.nan_to_num((normal[:, :2] / normal[:, 2:] * units[:2]) ** 2, posinf=0).sum(1)  # of no walls
+    sums, count = (np.bincount(triangles.ravel(), w, len(vertices)) for w in (np.repeat(squares, 3), None))
+    return np.sqrt((sums / count + units[2] ** 2) / 12)
+
+
 @functools.lru_cache(maxsize=None)
 def surfaces_of(program, paths):
-    """Reads the surfaces of files with room for a hole: names, vertices and triangles."""
+    """Reads the surfaces of files with room for a hole: names, vertices, triangles and their rounding."""
     found = []
     for path in paths:
         with tempfile.TemporaryDirectory() as name:
@@ -208,7 +229,8 @@ def surfaces_of(program, paths):
             used, corners = np.unique(np.array(corners, int).reshape(-1, 3), return_inverse=True)
             if len(used) >= 150:
                 label = f"{Path(path).stem} {surface}".replace("+", "")
-                found.append((label, np.array(vertices)[used], corners.reshape(-1, 3)))
+                used, corners = np.array(vertices)[used], corners.reshape(-1, 3)
+                found.append((label, used, corners, rounding_of(used, corners)))
     return found
 
 
@@ -219,7 +241,7 @@ class Punched(Draw):
 
     def __init__(self, seed, surfaces, attempt):
         self.rng = np.random.default_rng([seed, attempt])
-        name, self.vertices, triangles = surfaces[seed % len(surfaces)]
+        name, self.vertices, triangles, self.rounding = surfaces[seed % len(surfaces)]
         self.parts = [name]
         for _ in range(200):
             if self.punch(triangles):
@@ -240,7 +262,8 @@ class Punched(Draw):
         used, corners = np.unique(near[~in_hole], return_inverse=True)
         if not in_hole.any() or len(used) < 100 or taken[edges[count == 1]].any():
             return False
-        self.lost = self.vertices[np.setdiff1d(near, used)]
+        lost = np.setdiff1d(near, used)
+        self.lost, self.lost_rounding = self.vertices[lost], self.rounding[lost]
         self.triangles = corners.reshape(-1, 3)
         self.points, self.z = flat[used], self.vertices[used, 2]
         if len(np.unique(self.points, axis=0)) < len(used):
@@ -250,7 +273,14 @@ class Punched(Draw):
 
     def truth(self, places):
         """Returns heights at places of vertices that were taken out."""
-        return self.lost[cdist(places, self.lost[:, :2]).argmin(1), 2]
+        return self.lost[self.nearest_lost(places), 2]
+
+    def unknowable(self, places):
+        """Returns what the rounding of coordinates makes of heights."""
+        return self.lost_rounding[self.nearest_lost(places)]
+
+    def nearest_lost(self, places):
+        return cdist(places, self.lost[:, :2]).argmin(1)
 
 
 def interpolated(vertices, triangles, places):
@@ -373,8 +403,7 @@ def measure(task):
     others = {name: max(least, rms(z - truth)) for name, z in draw.others(new[:, :2]).items()}
     optimum = others.pop("optimum", np.nan)
     own = max(least, rms(error))
-    # A part of the truth is JITTER, which nobody can tell.
-    expected = np.hypot(new[:, 3], 3e-5 * draw.amplitude * (len(draw.covariances) > 0))
+    expected = np.hypot(new[:, 3], draw.unknowable(new[:, :2]))
     return {"seed": seed, "truth": " + ".join(draw.parts), "hole": draw.hole, "share": draw.share,
             "noise": draw.share_of_noise, "vertices": len(draw.points), "new": len(new), "seconds": seconds,
             "error": rms(error), "expected": rms(expected), "ratio": rms(error / expected),

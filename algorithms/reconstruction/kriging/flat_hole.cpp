@@ -34,7 +34,9 @@ std::vector<const BorderLoop*> loops_within(const Surface& surface, const Border
     std::vector<const BorderLoop*> result{&loop};
     for (const BorderLoop& other : all) {
         if (other.kind != LoopKind::outer || other.part == loop.part) continue;
-        const Point3& p = surface.vertices[other.vertices[0]];
+        // The island may touch the hole's border in a vertex.
+        const Point3 p =
+            middle_of(surface.vertices[other.vertices[0]], surface.vertices[other.vertices[1]]);
         if (is_inside(surface.vertices, loop.vertices, p.x, p.y)) result.push_back(&other);
     }
     return result;

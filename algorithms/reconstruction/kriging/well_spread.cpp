@@ -64,23 +64,26 @@ SpreadPairs well_spread_pairs(std::span<const Point3> points, std::size_t count,
     double mean = 0;
     for (const Point3& p : points) mean += p.z / static_cast<double>(points.size());
     std::vector<double> gaps;
-    pairs = std::min(pairs, result.chosen.size());
+    // Where all points are taken, no order decides which of them have a say.
+    pairs = result.chosen.size() == points.size() ? points.size()
+                                                  : std::min(pairs, result.chosen.size());
     for (std::size_t k = 0; k < pairs; ++k) {
         const Point3 p = points[result.chosen[k]];
         constexpr double equal = 1 + 1e-9; // distances differ by more than rounding
-        double least = std::numeric_limits<double>::infinity();
+        double least = std::numeric_limits<double>::infinity(), gap = least;
         auto best = static_cast<std::uint32_t>(points.size());
         for (std::uint32_t i = 0; i < points.size(); ++i) {
             const double d = length_in_plane(points[i].x - p.x, points[i].y - p.y);
+            if (d > 0 && d < gap) gap = d;
             if (taken[i] || !(d > 0) || d > equal * least) continue;
             const bool better = best == points.size() || d * equal < least ||
                                 std::abs(points[i].z - mean) > std::abs(points[best].z - mean);
             least = std::min(least, d);
             if (better) best = i;
         }
+        if (std::isfinite(gap)) gaps.push_back(gap);
         if (best == points.size()) continue;
         taken[best] = true;
-        gaps.push_back(least);
         result.chosen.push_back(best);
     }
     if (gaps.empty()) return result;

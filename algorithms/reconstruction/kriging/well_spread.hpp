@@ -19,7 +19,7 @@ std::vector<std::uint32_t> well_spread_in_plane(std::span<const Point3> points, 
 /// Points from which a covariance can be told.
 struct SpreadPairs {
     std::vector<std::uint32_t> chosen; ///< well-spread points, then the neighbours of some
-    double gap = 0;                    ///< median distance of those neighbours; 0 if there are none
+    double gap = 0; ///< median distance of some and their nearest points; 0 if there are none
 };
 
 /// Selects `count` well-spread points and, for the first `pairs` of them, the nearest point that is

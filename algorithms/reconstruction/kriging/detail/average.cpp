@@ -74,13 +74,12 @@ KnownHeights AveragedHeights::average_at(std::span<const Point3> places,
         for (Index i = 0; i < count; ++i) {
             own[i] = estimates[static_cast<std::size_t>(i)].value;
             const double sd = deviations[static_cast<std::size_t>(i)].standard_deviation;
-            variance[i] += model.variance_of(sd * sd, 0);
+            variance[i] += model.weight * sd * sd;
         }
         mean += model.weight * own;
     }
     for (std::size_t m = 0; m < systems_.size(); ++m)
-        for (Index i = 0; i < count; ++i)
-            variance[i] += average_.models[m].variance_of(0, values[m][i] - mean[i]);
+        variance.array() += average_.models[m].weight * (values[m] - mean).array().square();
     KnownHeights known;
     for (Index i = 0; i < count; ++i) {
         const Point3& p = places[static_cast<std::size_t>(i)];

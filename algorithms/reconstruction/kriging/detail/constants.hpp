@@ -28,9 +28,8 @@ struct KrigingConstants : Constants {
     std::size_t most_fitted = add("most_fitted", 96);
     /// Ranges that are tried, at equal ratios.
     int range_steps = add("range_steps", 6);
-    /// Least range, in extents of the data, and in median distances of neighbours: a surface that is
-    /// rougher than that can't be told from noise.
-    double least_range = add("least_range", 0.03);
+    /// Least range, in median distances of neighbours: a surface that is rougher than that can't be
+    /// told from noise.
     double gaps_per_range = add("gaps_per_range", 3);
     /// Largest range, in extents of the data.
     double most_range = add("most_range", 8);
@@ -41,11 +40,6 @@ struct KrigingConstants : Constants {
     double turned_ratio = add("turned_ratio", 0.4);
     /// Logarithms of likelihoods are divided by this: no surface is a draw of any of the models.
     double temper = add("temper", 2);
-    /// Share of the variance in which the cubic model counts, whatever its weight: surfaces that look
-    /// smoother are believed up to that.
-    double doubt = add("doubt", 0.003);
-    /// Models whose blocks are left out.
-    std::size_t most_models = add("most_models", 12);
     /// Weight below which a model has no say.
     double least_weight = add("least_weight", 0.01);
     /// Blocks that are left out in turn.
@@ -70,10 +64,6 @@ struct KrigingConstants : Constants {
     double border_distance = add("border_distance", 0.7);
     /// Samples of a border per mesh size, for distances from it.
     double border_samples = add("border_samples", 2);
-    /// First growth that is tried if a filling has too many vertices: the spacing of vertices
-    /// grows to at most their distance from the border divided by the growth, which is halved
-    /// until they are few enough.
-    double first_growth = add("first_growth", 64);
 };
 
 inline constexpr KrigingConstants constants{};

@@ -321,8 +321,9 @@ std::vector<Point3> places_within(std::span<const Point3> points, std::span<cons
                                   double mesh_size, std::size_t most, const std::stop_token& stop) {
     const Placer placer(points, borders, mesh_size, stop);
     std::vector<Point3> places;
-    for (double growth = 1e9; growth > 1;
-         growth = growth > constants.first_growth ? constants.first_growth : growth / 2) {
+    // Where all places are within this distance of the border, in mesh sizes, the first spacing is
+    // that of all; a hole that is deeper has more than `most`.
+    for (double growth = std::sqrt(static_cast<double>(most)); growth > 1; growth /= 2) {
         places = placer.place(growth, most);
         if (places.size() <= most || stop.stop_requested()) break;
     }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -47,28 +46,22 @@ public:
         Search(data, well_spread_pairs(data, constants.most_fitted, constants.most_fitted / 2),
                options, run) {}
 
-    /// Returns models, the likeliest first; only the trend of least degree that is the data.
-    std::vector<Likely> operator()() {
-        found_ = likelihood_.of_noise();
-        if (found_[0].likelihood == HUGE_VAL) return std::move(found_);
-        std::vector<Variogram> all;
-        for (const Variogram& shape : shapes(options_))
-            for (const Variogram& v : ranged(shape)) all.push_back(v);
-        add(of(all, {}));
-        // A smooth field without noise is likely only near its very range.
-        for (const Variogram& shape : shapes(options_)) {
-            const auto best = std::find_if(found_.begin(), found_.end(), [&](const Likely& l) {
-                return l.variogram.sill > 0 && l.variogram.model == shape.model &&
-                       l.variogram.exponent == shape.exponent;
-            });
-            if (best == found_.end()) continue;
-            for (const double part : {2.0, 4.0, 8.0, 16.0}) climb(*best, part);
-        }
-        add({});
-        for (const double part : {32.0, 64.0}) climb(found_[0], part);
-        for (const double part : {2.0, 4.0}) add(beside(found_[0], part));
-        if (options_.anisotropy && found_[0].variogram.sill > 0) add(turned(found_[0]));
-        return std::move(found_);
+    /// Returns the likeliest model of each shape, of the two likeliest with anisotropy, and of noise;
+    /// the likeliest first. Returns only the trend of least degree that is the data.
+    std::vector<Likely> operator()() const {
+        const auto noise = likelihood_.of_noise();
+        if (noise[0].likelihood == HUGE_VAL) return noise;
+        std::vector<Likely> found;
+        for (const Variogram& shape : shapes(options_)) found.push_back(likeliest(ranged(shape)));
+        climb(found);
+        sort(found);
+        const auto plain = found.size();
+        for (std::size_t i = 0; options_.anisotropy && i < std::min<std::size_t>(2, plain); ++i)
+            for (const Likely& likely : turned(found[i])) found.push_back(likely);
+        found.push_back(*std::max_element(noise.begin(), noise.end(), less_likely));
+        sort(found);
+        std::erase_if(found, [](const Likely& l) { return l.likelihood == -HUGE_VAL; });
+        return found;
     }
 
 private:
@@ -76,32 +69,34 @@ private:
            const Run& run) :
         options_(options),
         run_(run), likelihood_(selected(data, pairs.chosen)),
-        least_range_(std::max(constants.least_range * likelihood_.extent(),
-                              constants.gaps_per_range * pairs.gap)) {}
+        least_range_(pairs.gap > 0 ? constants.gaps_per_range * pairs.gap : likelihood_.extent()) {}
 
-    /// Adds models, and sorts all.
-    void add(const std::vector<Likely>& more) {
-        found_.insert(found_.end(), more.begin(), more.end());
-        std::stable_sort(found_.begin(), found_.end(), [](const Likely& a, const Likely& b) {
-            return a.likelihood > b.likelihood;
-        });
+    static bool less_likely(const Likely& a, const Likely& b) {
+        return a.likelihood < b.likelihood;
     }
 
-    /// Finds nugget and sill of these shapes, with the trend of this degree or with all.
-    [[nodiscard]] std::vector<Likely> of(std::span<const Variogram> all,
-                                         std::optional<unsigned> degree) const {
-        if (run_.stop.stop_requested()) return {};
-        std::vector<std::vector<Likely>> found(all.size());
+    static void sort(std::vector<Likely>& models) {
+        std::stable_sort(models.begin(), models.end(),
+                         [](const Likely& a, const Likely& b) { return less_likely(b, a); });
+    }
+
+    /// Finds trend, nugget and sill of each shape.
+    [[nodiscard]] std::vector<Likely> of(std::span<const Variogram> all) const {
+        std::vector<Likely> found(all.size());
+        if (run_.stop.stop_requested()) return found;
         if (run_.progress) run_.progress("variogram", 0);
         const auto one = [&](std::size_t i) {
-            if (!run_.stop.stop_requested()) found[i] = likelihood_.at(all[i]);
+            if (run_.stop.stop_requested()) return;
+            for (const Likely& likely : likelihood_.at(all[i]))
+                if (less_likely(found[i], likely)) found[i] = likely;
         };
         with_threads(run_, [&] { for_each_index(all.size(), one); });
-        std::vector<Likely> result;
-        for (const auto& of_shape : found)
-            for (const Likely& likely : of_shape)
-                if (likely.degree == degree.value_or(likely.degree)) result.push_back(likely);
-        return result;
+        return found;
+    }
+
+    [[nodiscard]] Likely likeliest(std::span<const Variogram> all) const {
+        const auto found = of(all);
+        return *std::max_element(found.begin(), found.end(), less_likely);
     }
 
     /// Gives a shape ranges at equal ratios.
@@ -122,27 +117,39 @@ private:
         return all;
     }
 
-    /// Finds models whose ranges are a part of a step from that of a model.
-    [[nodiscard]] std::vector<Likely> beside(const Likely& likely, double part) const {
-        const auto all = ranged(likely.variogram);
-        if (all.size() < 2 || !(likely.variogram.sill > 0)) return {};
-        const double ratio = std::pow(all[1].range / all[0].range, 1 / part);
-        std::vector<Variogram> between{likely.variogram, likely.variogram};
-        between[0].range *= ratio;
-        between[1].range /= ratio;
-        return of(between, likely.degree);
-    }
-
-    /// Replaces a model by a likelier one beside it.
-    void climb(Likely& likely, double part) const {
-        for (const Likely& other : beside(likely, part))
-            if (other.likelihood > likely.likelihood) likely = other;
+    /// Climbs to the likeliest range of each model. A smooth field without noise is likely only near
+    /// its very range; other likelihoods hardly depend on it.
+    void climb(std::vector<Likely>& models) const {
+        std::vector<Likely*> open;
+        for (Likely& m : models)
+            if (m.variogram.sill > 0 && ranged(m.variogram).size() > 1) open.push_back(&m);
+        for (const double part : {2, 4, 8, 16, 32, 64}) {
+            std::vector<Variogram> beside;
+            for (const Likely* m : open) {
+                const auto all = ranged(m->variogram);
+                const double ratio = std::pow(all[1].range / all[0].range, 1 / part);
+                beside.insert(beside.end(), 2, m->variogram);
+                beside.end()[-2].range *= ratio;
+                beside.back().range = std::max(all[0].range, beside.back().range / ratio);
+            }
+            const auto found = of(beside);
+            std::vector<Likely*> still;
+            for (std::size_t i = 0; i < open.size(); ++i) {
+                const auto [low, high] = std::minmax(found[2 * i], found[2 * i + 1], less_likely);
+                const double now = open[i]->likelihood;
+                if (now - low.likelihood > 1 || high.likelihood - now > 1) still.push_back(open[i]);
+                if (high.likelihood > now) *open[i] = high;
+            }
+            open = std::move(still);
+        }
     }
 
     /// Gives a model anisotropy, which changes neither the area nor the shape near h = 0. All
-    /// directions together count as one model.
+    /// directions together count as one model. The two likeliest take part: the longest range may
+    /// be between them.
     [[nodiscard]] std::vector<Likely> turned(const Likely& plain) const {
-        constexpr int directions = 6;
+        constexpr int directions = 6, taken = 2;
+        if (!(plain.variogram.sill > 0)) return {};
         std::vector<Variogram> all(directions, plain.variogram);
         for (int d = 0; d < directions; ++d) {
             Variogram& v = all[static_cast<std::size_t>(d)];
@@ -150,16 +157,16 @@ private:
             v.ratio = constants.turned_ratio;
             v.range /= std::sqrt(v.ratio);
         }
-        auto found = of(all, plain.degree);
+        auto found = of(all);
         for (Likely& likely : found) likely.likelihood -= std::log(directions);
-        return found;
+        sort(found);
+        return {found.begin(), found.begin() + taken};
     }
 
     const KrigingOptions& options_;
     const Run& run_;
     Likelihood likelihood_;
     double least_range_ = 0;
-    std::vector<Likely> found_;
 };
 
 /// Data that are left out at a time, as indices.
@@ -214,20 +221,6 @@ struct Judged {
     double logarithm = -HUGE_VAL; ///< of the weight
 };
 
-bool is_cubic(const Likely& likely) {
-    return likely.variogram.model == VariogramModel::cubic && likely.variogram.sill > 0;
-}
-
-/// Keeps the likeliest models, and the likeliest cubic one.
-std::vector<Likely> chosen(std::vector<Likely> all) {
-    const auto most = std::min(constants.most_models, all.size());
-    auto kept = all.begin() + static_cast<std::ptrdiff_t>(most);
-    const auto cubic = std::find_if(all.begin(), all.end(), is_cubic);
-    if (cubic != all.end() && cubic >= kept) std::iter_swap(kept++, cubic);
-    all.erase(kept, all.end());
-    return all;
-}
-
 /// Finds by how much a system misses data that are left out; none if that can't be told.
 std::vector<Missed> missed_by(const System& system, const MatrixXd& projection,
                               std::span<const std::vector<Index>> all) {
@@ -246,7 +239,7 @@ std::vector<Missed> missed_by(const System& system, const MatrixXd& projection,
 Judged judged(const Likely& likely, std::span<const Point3> data, const LeftOut& left,
               const Run& run) {
     Judged result{
-        {likely.variogram, likely.degree, 0, 0}, {}, {}, likely.likelihood / constants.temper};
+        {likely.variogram, likely.degree, 0}, {}, {}, likely.likelihood / constants.temper};
     if (left.blocks.empty() && left.rims.empty()) return result;
     const System system(data, likely.variogram, likely.degree, run);
     if (!system.ready()) return {result.model};
@@ -262,7 +255,7 @@ Judged judged(const Likely& likely, std::span<const Point3> data, const LeftOut&
     return result;
 }
 
-/// Turns logarithms into weights, and drops models that have no say and no doubt.
+/// Turns logarithms into weights, and drops models that have no say.
 void weigh(std::vector<Judged>& all) {
     std::stable_sort(all.begin(), all.end(),
                      [](const Judged& a, const Judged& b) { return a.logarithm > b.logarithm; });
@@ -275,7 +268,7 @@ void weigh(std::vector<Judged>& all) {
         kept += j.model.weight *= counts ? 1 : 0;
     }
     for (Judged& j : all) j.model.weight /= kept;
-    std::erase_if(all, [](const Judged& j) { return j.model.weight + j.model.doubt == 0; });
+    std::erase_if(all, [](const Judged& j) { return j.model.weight == 0; });
 }
 
 /// Finds by how much the average misses data that are left out.
@@ -285,8 +278,8 @@ Missed averaged(std::span<const Judged> all, std::vector<Missed> Judged::*kind, 
     for (const Judged& j : all) missed.errors += j.model.weight * (j.*kind)[k].errors;
     for (const Judged& j : all) {
         const auto& [errors, variances] = (j.*kind)[k];
-        for (Index i = 0; i < size; ++i)
-            missed.variances[i] += j.model.variance_of(variances[i], errors[i] - missed.errors[i]);
+        missed.variances += j.model.weight * variances;
+        missed.variances.array() += j.model.weight * (errors - missed.errors).array().square();
     }
     return missed;
 }
@@ -314,20 +307,21 @@ void calibrate(std::span<const Judged> all, std::span<const Point3> data, const 
         const double counted = std::min(blocks, constants.most_counted);
         return (counted * ratio + constants.block_prior) / (counted + constants.block_prior);
     };
-    double square = 1;
+    double square = 0, worst = 0;
     average.blocks = left.blocks.size();
     if (average.blocks > 0) {
         average.error = std::sqrt(squares / count);
         average.ratio = std::sqrt(ratios / n);
-        square = std::max(square, trusted(ratios / n, n));
+        square = trusted(ratios / n, n);
     }
-    double worst = 0;
     for (std::size_t r = 0; r < left.rims.size(); ++r)
         worst = std::max(worst, square_ratio(averaged(all, &Judged::rims, r)));
-    if (!left.rims.empty()) average.rim_ratio = std::sqrt(worst);
     // What grows by a ratio from outside to the border may do so again to the middle of the hole.
-    square = std::max(square, std::pow(trusted(worst, constants.most_counted), 2));
-    average.factor = std::sqrt(square);
+    if (!left.rims.empty()) {
+        average.rim_ratio = std::sqrt(worst);
+        square = std::max(square, std::pow(trusted(worst, constants.most_counted), 2));
+    }
+    if (square > 0) average.factor = std::sqrt(square);
 }
 
 } // namespace
@@ -352,7 +346,6 @@ ModelAverage weigh_models(const DataAroundHole& around, const KrigingOptions& op
     if (std::ranges::all_of(around.data, [](const Point3& p) { return p.z == 0; }))
         average.unknown = "all heights are 0, which has no unit";
     auto likely = Search(around.data, options, run)();
-    likely = chosen(likely);
     if (options.noise)
         for (Likely& l : likely) l.variogram.nugget = *options.noise * *options.noise;
     const auto data =
@@ -362,14 +355,11 @@ ModelAverage weigh_models(const DataAroundHole& around, const KrigingOptions& op
     const auto one = [&](std::size_t i) { all[i] = judged(likely[i], data, left, run); };
     with_threads(run, [&] { for_each_index(all.size(), one); });
     if (run.stop.stop_requested()) return average;
-    const auto cubic = std::find_if(likely.begin(), likely.end(), is_cubic);
-    if (cubic != likely.end())
-        all[static_cast<std::size_t>(cubic - likely.begin())].model.doubt = constants.doubt;
     const auto is_complete = [&](const Judged& j) {
         return j.blocks.size() == left.blocks.size() && j.rims.size() == left.rims.size();
     };
     std::erase_if(all, [&](const Judged& j) { return !is_complete(j); });
-    if (all.empty()) all.push_back({{likely[0].variogram, likely[0].degree, 0, 0}});
+    if (all.empty()) all.push_back({{likely[0].variogram, likely[0].degree, 0}});
     weigh(all);
     if (is_complete(all[0])) calibrate(all, data, left, average);
     for (const Judged& j : all) average.models.push_back(j.model);

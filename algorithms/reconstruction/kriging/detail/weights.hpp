@@ -30,13 +30,6 @@ struct WeighedModel {
     Variogram variogram; ///< sill 0: the trend and noise alone
     unsigned degree = 1; ///< of the trend
     double weight = 0;   ///< all are 1 together
-    double doubt = 0;    ///< weight in the variance, at least
-
-    /// Its share in the variance of an average: the mean of the variances plus the variance of the
-    /// means. `off`: its distance from the average.
-    [[nodiscard]] double variance_of(double variance, double off) const {
-        return weight * variance + (weight > doubt ? weight : doubt) * off * off;
-    }
 };
 
 /// Describes a model: "trend of degree 1, matern model, range ..."
@@ -67,22 +60,23 @@ struct DataAroundHole {
 /// Selects data.
 std::vector<Point3> selected(std::span<const Point3> data, std::span<const std::uint32_t> chosen);
 
-/// Weighs the models of `options`:
+/// Weighs the likeliest model of each covariance of `options`, of the two likeliest with anisotropy,
+/// and of noise about a trend:
 ///   (1) likelihood of 96 well-spread data and the neighbours of 48 of them, after the trend has been
-///       taken out by contrasts, with the likeliest nugget and sill. A term of the trend costs what
-///       spreading its factor over the variance of the heights does. The logarithm is divided by 2;
+///       taken out by contrasts, with the likeliest range, nugget and sill. A term of the trend costs
+///       what spreading its factor over the variance of the heights does. The logarithm is divided
+///       by 2;
 ///   (2) blocks as wide as the hole, round places of its border, are left out in turn. The mean
 ///       logarithm of the density that a model expects of a datum in them counts as much as blocks
 ///       are, but at most 8 of them, since they overlap;
-///   (3) models below a hundredth have no say, but the likeliest cubic one counts in the variance, at
-///       least for .003: gaussian models, and trends, believe too much of what they foretell;
-///   (4) where the average misses the blocks by more than it expects, `factor` is above 1;
+///   (3) models below a hundredth have no say;
+///   (4) `factor` is the ratio of what the average misses of the blocks and what it expects;
 ///   (5) rims of data all round the hole are left out, as if it were wider by up to half of its
 ///       radius: where they are missed by more, the surface becomes rougher or steeper towards the
 ///       hole, and may do so again within it. So `factor` is the square of that ratio, if that is more.
 /// Stops early if the run is stopped; the result is of no use then.
-/// Cost: 4/3 n^3 for n = 144 and each of about 80 shapes, with all trends; n^3 for n = 200 and each of
-/// 12 models.
+/// Cost: 4/3 n^3 for n = 144 and each of 40 to 90 shapes, with all trends; n^3 for n = 200 and each of
+/// at most 12 models.
 ModelAverage weigh_models(const DataAroundHole& around, const KrigingOptions& options,
                           const Run& run);
 

@@ -131,20 +131,17 @@ TEST_CASE("kriging: models share the weight, and what parts them is expected as 
     draw(random, ring);
     const auto average = weigh_models(ring.around(), {}, {});
     REQUIRE(average.models.size() > 2);
-    CHECK(average.models.size() <= constants.most_models + 1);
+    CHECK(average.models.size() <= 12);
     CHECK(average.blocks > 3);
     CHECK(average.blocks <= constants.blocks);
-    CHECK(average.factor >= 1);
-    double sum = 0, doubt = 0;
+    CHECK(average.factor > 0.4);
+    double sum = 0;
     for (const WeighedModel& m : average.models) {
         sum += m.weight;
-        doubt += m.doubt;
-        CHECK((m.weight == 0 || m.weight >= constants.least_weight * 0.5));
-        if (m.doubt > 0) CHECK(m.variogram.model == VariogramModel::cubic);
+        CHECK(m.weight >= constants.least_weight * 0.5);
         CHECK(description(m).find("trend of degree") == 0);
     }
     CHECK(sum == Approx(1));
-    CHECK(doubt == constants.doubt);
     // The estimate is the weighted mean, and its variance has a part between the models.
     const AveragedHeights averaged(ring.around(), average, {});
     const Point3& place = ring.places[7];
@@ -152,11 +149,8 @@ TEST_CASE("kriging: models share the weight, and what parts them is expected as 
     const auto shares = averaged.shares_at(place);
     REQUIRE(shares.size() == average.models.size());
     for (const ModelShare& s : shares) mean += s.weight * s.height;
-    for (std::size_t m = 0; m < shares.size(); ++m) {
-        const ModelShare& s = shares[m];
-        variance += s.weight * s.deviation * s.deviation +
-                    std::max(s.weight, average.models[m].doubt) * std::pow(s.height - mean, 2);
-    }
+    for (const ModelShare& s : shares)
+        variance += s.weight * (s.deviation * s.deviation + std::pow(s.height - mean, 2));
     const auto known = averaged.at(std::span(&place, 1), {});
     CHECK(known.heights[0] == Approx(mean));
     CHECK(known.expected[0] == Approx(average.factor * std::sqrt(variance)));
@@ -169,8 +163,8 @@ TEST_CASE("kriging: expected errors grow where data that are left out are missed
             const double n = std::min(blocks, constants.most_counted);
             return (n * ratio * ratio + constants.block_prior) / (n + constants.block_prior);
         };
-        return std::sqrt(std::max({1.0, trusted(average.ratio, double(average.blocks)),
-                                   std::pow(trusted(average.rim_ratio, 100), 2)}));
+        return std::sqrt(std::max(trusted(average.ratio, double(average.blocks)),
+                                  std::pow(trusted(average.rim_ratio, 100), 2)));
     };
     // A step next to the hole is as likely for many models; its blocks are missed by more.
     Random random(39);

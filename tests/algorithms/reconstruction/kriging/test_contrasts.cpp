@@ -121,5 +121,5 @@ TEST_CASE("kriging: neighbours of well-spread points are as near as any, in any 
     const auto again = well_spread_pairs(mixed, 30, 10);
     CHECK(places(mixed, again) == places(points, pairs));
     CHECK(again.gap == pairs.gap);
-    CHECK(well_spread_pairs(points, 500, 10).gap == 0); // none is left
+    CHECK(well_spread_pairs(points, 500, 10).gap > 0); // all are taken // none is left
 }

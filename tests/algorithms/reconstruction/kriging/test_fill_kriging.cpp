@@ -2,7 +2,10 @@
 #include <terrane/algorithms/reconstruction/kriging/fill_kriging.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <stop_token>
 #include <vector>
@@ -192,6 +195,65 @@ TEST_CASE("fill by kriging: an island is kept and serves as data", "[kriging]") 
     const auto blind = fill_by_kriging(s, first_hole(loops));
     REQUIRE(blind);
     CHECK(blind.value().report.area > filling.value().report.area);
+}
+
+TEST_CASE("fill by kriging: islands that touch the border in a vertex are met", "[kriging]") {
+    const std::array<std::array<int, 2>, 4> sides{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+    for (const auto [x, y] : sides)
+        for (const int turn : {-1, 1}) {
+            // A cell at the border, and one that it has a corner in common with.
+            const std::array border{7 + 2 * x, 7 + 2 * y},
+                island{border[0] - x - turn * y, border[1] - y + turn * x};
+            const auto keep = [&](int i, int j) {
+                const std::array cell{i, j};
+                return std::max(std::abs(i - 7), std::abs(j - 7)) > 2 || cell == border ||
+                       cell == island;
+            };
+            Surface s = sheet(15, 15, 10, keep, wave);
+            // The corner becomes the first vertex of all borders that have it.
+            const double at_x = 10 * std::max(border[0], island[0]),
+                         at_y = 10 * std::max(border[1], island[1]);
+            const auto corner = std::find_if(s.vertices.begin(), s.vertices.end(),
+                                             [&](Point3 p) { return p.x == at_x && p.y == at_y; });
+            const auto number = static_cast<std::uint32_t>(corner - s.vertices.begin());
+            REQUIRE(number < s.vertices.size());
+            std::swap(s.vertices[0], s.vertices[number]);
+            for (Triangle& t : s.triangles)
+                for (auto& v : t)
+                    if (v == 0 || v == number) v = number - v;
+            const auto loops = loops_of(s);
+            REQUIRE(loops.size() == 3);
+            const auto filling = fill_by_kriging(s, first_hole(loops), {.loops = loops});
+            INFO((filling ? "filled" : filling.error().message()));
+            REQUIRE(filling);
+            check_joined(s, joined(s, *filling));
+        }
+}
+
+TEST_CASE("fill by kriging: the effort for a filling is bounded", "[kriging]") {
+    const Surface s = sheet(30, 30, 10, without_disc(15, 15, 9), wave);
+    const auto loops = loops_of(s);
+    for (const double size : {0.0, 1.0, 0.2}) {
+        auto hole = FlatHole::of(s, first_hole(loops), loops, 5);
+        REQUIRE(hole);
+        REQUIRE(hole->triangulate(size, {}));
+        std::vector<std::size_t> asked;
+        const auto filling = hole->filled(
+            [&](std::span<const Point3> places) {
+                asked.push_back(places.size());
+                // Large sags, small errors: it is refined as far as it may be.
+                KnownHeights known{{}, std::vector<double>(places.size(), 1e-3)};
+                for (const Point3& p : places) known.heights.push_back(wave(p.x, p.y));
+                return known;
+            },
+            {});
+        REQUIRE(filling);
+        CHECK(asked[0] <= 20'000);
+        if (size == 0.2) CHECK(asked[0] > 8'000);
+        CHECK(asked.size() == (size == 0 ? 5 : 1)); // two halvings
+        // Both are judged at the ends and the middles of as many edges.
+        if (size == 0) CHECK((asked[1] == 3 * 64 && asked[3] == 3 * 64));
+    }
 }
 
 TEST_CASE("fill by kriging: the front of the filling is that of the surface, up or down",
