@@ -68,6 +68,9 @@ public:
     [[nodiscard]] bool meet(const Numbers& inputs) const {
         return !shared(vertices_, inputs).empty();
     }
+    [[nodiscard]] bool meet_along_an_edge(const Numbers& inputs) const {
+        return !shared(edges_, inputs).empty();
+    }
 
     [[nodiscard]] Shape shape(const Common& of) const {
         JoinedSets sets(of.vertices.size());
@@ -130,21 +133,30 @@ private:
     IndexLists<Edge> edges_;
 };
 
-/// Returns the sets of input triangles that meet in vertices.
-std::set<Numbers> meetings_of(const Parts& parts, const Numbers& vanished) {
-    std::map<std::uint32_t, Numbers> at;
-    for (std::size_t t = 0; t < parts.triangles.size(); ++t)
-        for (const std::uint32_t v : parts.triangles[t])
-            at[v].insert(at[v].end(), parts.parents_of[t].begin(), parts.parents_of[t].end());
-    std::set<Numbers> sets;
-    for (auto& [v, all] : at) {
+/// Sets of input triangles that meet in vertices, and along edges. What has vanished is left out.
+struct Meetings {
+    std::set<Numbers> in_vertices, along_edges;
+
+    Meetings(const Parts& parts, const Numbers& vanished) {
+        std::map<std::uint32_t, Numbers> at;
+        std::map<Edge, Numbers> along;
+        for (std::size_t t = 0; t < parts.triangles.size(); ++t)
+            for (std::size_t side = 0; side < 3; ++side)
+                for (Numbers* all :
+                     {&at[parts.triangles[t][side]], &along[edge_of(parts.triangles[t], side)]})
+                    all->insert(all->end(), parts.parents_of[t].begin(), parts.parents_of[t].end());
+        for (auto& [v, all] : at) add(in_vertices, all, vanished);
+        for (auto& [edge, all] : along) add(along_edges, all, vanished);
+    }
+
+private:
+    static void add(std::set<Numbers>& sets, Numbers& all, const Numbers& vanished) {
         std::sort(all.begin(), all.end());
         all.erase(std::unique(all.begin(), all.end()), all.end());
         std::erase_if(all, [&](auto p) { return std::ranges::binary_search(vanished, p); });
         if (!all.empty()) sets.insert(std::move(all));
     }
-    return sets;
-}
+};
 
 class ImageChecks {
 public:
@@ -261,17 +273,24 @@ private:
         });
     }
 
+    /// Counts the meetings of a mesh that the images in the other one do not have.
+    static std::size_t missing(const Meetings& of, const Meetings& in, const Images& images) {
+        const auto count = [](const auto& sets, const auto& others, const auto& do_meet) {
+            return std::ranges::count_if(sets, [&](const Numbers& inputs) {
+                return !others.contains(inputs) && !do_meet(inputs);
+            });
+        };
+        return static_cast<std::size_t>(
+            count(of.in_vertices, in.in_vertices,
+                  [&](const Numbers& inputs) { return images.meet(inputs); }) +
+            count(of.along_edges, in.along_edges,
+                  [&](const Numbers& inputs) { return images.meet_along_an_edge(inputs); }));
+    }
+
     [[nodiscard]] Differences differences() const {
         const Numbers& vanished = parts_.rounded.vanished;
-        const auto before =
-            meetings_of({parts_.exact.triangles, parts_.exact.parents_of}, vanished);
-        const auto after =
-            meetings_of({parts_.rounded.triangles, parts_.rounded.parents_of}, vanished);
-        const auto missing = [](const auto& of, const auto& in, const Images& images) {
-            return static_cast<std::size_t>(std::ranges::count_if(of, [&](const Numbers& inputs) {
-                return !in.contains(inputs) && !images.meet(inputs);
-            }));
-        };
+        const Meetings before({parts_.exact.triangles, parts_.exact.parents_of}, vanished);
+        const Meetings after({parts_.rounded.triangles, parts_.rounded.parents_of}, vanished);
         return {missing(before, after, doubles_), missing(after, before, exact_)};
     }
 
