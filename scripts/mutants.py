@@ -44,8 +44,7 @@ class Place:
     file: str
     line: int
     code: str
-    what: str  # the operator, `if` or `for`
-    variants: list
+    variants: list  # their names
 
     def __str__(self):
         return f"{self.file}:{self.line}: {self.code}"
@@ -70,13 +69,13 @@ def closing(text, start):
 
 def edits_of_line(blank, is_loop):
     """Lists what can be written otherwise in a line without texts and comments: tuples of a start, an end, the
-    beginning and the end of the new text, what is mutated, and the names of its variants."""
+    beginning and the end of the new text, and the names of its variants."""
     edits = []
     for found in OPERATOR.finditer(blank):
         op = found[1]
         if op in ("&&", "||"):
             word, name = ("And", "true") if op == "&&" else ("Or", "false")
-            edits.append((found.start(), found.end(), op + f"::terrane::mutants::{word}{{", "}|", op, [f"{op} {name}"]))
+            edits.append((found.start(), found.end(), op + f"::terrane::mutants::{word}{{", "}|", [f"{op} {name}"]))
             continue
         kind = 6 if op == "<" and is_loop else COMPARISONS[op]
         ends = ("==", "==") if kind in (4, 5) else ("<=", ">=")
@@ -86,38 +85,38 @@ def edits_of_line(blank, is_loop):
         elif kind == 6:
             names.append("last step left out")
         edits.append((found.start(), found.end(), f"{ends[0]}::terrane::mutants::Comparison<{kind}>{{", "}" + ends[1],
-                      op, names))
+                      names))
     if found := re.search(r"\bif \(", blank):
         end = closing(blank, found.end() - 1)
         inside = blank[found.end():end] if end else ""
         if inside and not OPERATOR.search(inside) and not re.search(r" = |;|\bauto\b", inside):
-            edits.append((found.end(), found.end(), "::terrane::mutants::Condition{", "}(", "if", ["not if"]))
-            edits.append((end, end, ")", None, "", []))
+            edits.append((found.end(), found.end(), "::terrane::mutants::Condition{", "}(", ["not if"]))
+            edits.append((end, end, ")", None, []))
     if (found := re.search(r"\bfor \(", blank)) and " : " in blank[found.end():] and ";" not in blank[found.end():]:
         if end := closing(blank, found.end() - 1):
-            edits.append((found.end(), found.end(), "::terrane::mutants::First first_step{", "}; ", "for",
+            edits.append((found.end(), found.end(), "::terrane::mutants::First first_step{", "}; ",
                           ["first step left out"]))
-            edits.append((end + 1, end + 1, " if (first_step.skips()) {} else", None, "", []))
+            edits.append((end + 1, end + 1, " if (first_step.skips()) {} else", None, []))
     return sorted(edits, key=lambda edit: edit[0])
 
 
 def mutate(name, text, places, dropped):
-    """Returns the text of a file with switches; adds them to `places`. `dropped` has what did not compile."""
+    """Returns the text of a file with switches; adds these to `places`. `dropped` has lines that stay as they are."""
     lines = []
     for number, line in enumerate(text.split("\n"), 1):
         blank = TEXT.sub(lambda found: "x" * len(found[0]), line)
-        if SKIPPED.search(blank) or (name, number) in dropped:
+        if SKIPPED.search(blank):
             lines.append(line)
             continue
         new, end = "", 0
         is_loop = bool(re.search(r"\bfor \(.*;", blank))
-        for start, stop, before, after, what, names in edits_of_line(blank, is_loop):
+        for start, stop, before, after, names in edits_of_line(blank, is_loop):
             new += line[end:start] + before
             if after is not None:
-                places.append(Place(name, number, line.strip(), what, names))
+                places.append(Place(name, number, line.strip(), names))
                 new += str(len(places)) + after
             end = stop
-        lines.append(new + line[end:])
+        lines.append(line if (name, number) in dropped else new + line[end:])
     return "\n".join(lines)
 
 
@@ -129,7 +128,7 @@ class Program:
         self.tree = work / "include/terrane"
         self.places = []
         self.dropped = set()
-        self.path = work / "terrane_tests"
+        self.path = work / "tests/terrane_tests"
 
     def build(self, jobs):
         files = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
@@ -140,23 +139,21 @@ class Program:
         ours = [file for file in files if file.endswith((".hpp", ".cpp")) and self.is_ours(file)]
         commands = subprocess.run(["ninja", "-t", "commands", "terrane_tests"], cwd=BUILD, capture_output=True,
                                   text=True, check=True).stdout.splitlines()
-        compiling = [command for command in commands if self.source(command)]
-        for _ in range(20):
+        ours_only = [command for command in commands if self.source(command)]
+        left = ours_only
+        while left:
             self.places.clear()
             for file in ours:
-                text = mutate(file, (ROOT / file).read_text(), self.places, self.dropped)
-                if not (self.tree / file).exists() or (self.tree / file).read_text() != text:
-                    (self.tree / file).write_text(text)
-            errors = self.compile(compiling, jobs, ["-fsyntax-only", "-O0"])
-            if not errors:
-                break
+                (self.tree / file).write_text(mutate(file, (ROOT / file).read_text(), self.places, self.dropped))
+            with ThreadPoolExecutor(jobs) as pool:
+                errors = list(pool.map(self.compile, left))
             before = len(self.dropped)
-            self.drop(errors)
-            if len(self.dropped) == before:
-                sys.exit("mutants: this does not compile:\n" + errors[:4000])
-        if errors := self.compile(compiling, jobs, []):
-            sys.exit("mutants: this does not compile:\n" + errors[:4000])
-        self.link(commands[-1], [self.object_of(command) for command in compiling])
+            for text in errors:
+                self.drop(text)
+            left = [command for command, text in zip(left, errors) if text]
+            if left and len(self.dropped) == before:
+                sys.exit("mutants: this does not compile:\n" + "".join(errors)[:4000])
+        self.link(commands[-1], [self.object_of(command) for command in ours_only])
 
     def is_ours(self, file):
         return any(file.startswith(folder + "/") for folder in self.folders)
@@ -175,12 +172,8 @@ class Program:
         words = command.split()
         return self.work / Path(words[words.index("-o") + 1]).name
 
-    def compile(self, commands, jobs, options):
-        """Compiles the mutated sources; returns the errors."""
-        with ThreadPoolExecutor(jobs) as pool:
-            return "".join(pool.map(lambda command: self.compile_one(command, options), commands))
-
-    def compile_one(self, command, options):
+    def compile(self, command):
+        """Compiles the mutated sources of a command; returns the errors."""
         source = self.source(command)
         text = source.read_text() if "Unity" in source.parts else f'#include "{source}"\n'
         copy = self.work / source.name
@@ -190,7 +183,7 @@ class Program:
         words[words.index("-MF") + 1] = str(self.object_of(command)) + ".d"
         words[words.index("-c") + 1] = str(copy)
         words = [f"-I{self.work}/include" if word == f"-I{BUILD}/include" else word for word in words]
-        words += ["-w", "-include", str(ROOT / "scripts/mutants.hpp"), *options]
+        words += ["-w", "-include", str(ROOT / "scripts/mutants.hpp"), "-O1"]
         done = subprocess.run(words, cwd=BUILD, capture_output=True, text=True)
         return done.stderr if done.returncode else ""
 
@@ -201,6 +194,9 @@ class Program:
                 self.dropped.add((file, int(line)))
 
     def link(self, command, objects):
+        self.path.parent.mkdir(exist_ok=True)
+        if not (self.work / "libexec").exists():  # where the program looks for its helpers
+            (self.work / "libexec").symlink_to(BUILD / "libexec")
         command = command.replace("-o tests/terrane_tests", f"-o {self.path}")
         for library in BUILD.glob("*.a"):
             members = subprocess.run(["ar", "t", library], capture_output=True, text=True, check=True).stdout.split()
@@ -284,7 +280,7 @@ def main():
                       (options.work or Path(tempfile.mkdtemp(prefix="mutants"))).resolve())
     program.build(options.jobs)
     mutants = [Mutant(number, variant, name) for number, place in enumerate(program.places, 1)
-               for variant, name in enumerate(place.variants, 1)]
+               for variant, name in enumerate(place.variants, 1) if (place.file, place.line) not in program.dropped]
     reached = reach(program, tests_of(program.folders, options.tests), options.jobs)
     print(f"{len(program.places)} places, {len(mutants)} mutants, {len(program.dropped)} lines left out, "
           f"{len(reached)} tests of {sum(seconds for seconds, _, _ in reached):.0f} s", flush=True)
