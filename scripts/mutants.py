@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Mutates the sources of folders, and sees which mutants their tests kill.
 
-    scripts/mutants.py [--sample N] [--seed N] [--jobs N] [--work FOLDER] [--tests TEXT] FOLDER...
+    scripts/mutants.py [--sample N] [--seed N] [--jobs N] [--work FOLDER] [--tests TEXT] [--longest S] FOLDER...
 
 A mutant negates a comparison, moves its boundary (`<` to `<=`), drops a condition behind `&&` or `||`, negates the
 condition of an `if`, or leaves out the first or last step of a loop. All are compiled once: scripts/mutants.hpp
@@ -233,19 +233,21 @@ def tests_of(folders, text):
     return [name for name in names if text in name]
 
 
-def reach(program, tests, jobs):
+def reach(program, tests, jobs, longest):
     """Runs each test without mutants. Returns per test, the shortest first, its time and the places it reaches."""
     def one(numbered):
         number, test = numbered
         record = program.work / f"reached_{number}"
-        passed, seconds = program.run(test, 600, TERRANE_MUTANTS_REACHED=str(record))
+        passed, seconds = program.run(test, longest, TERRANE_MUTANTS_REACHED=str(record))
+        if seconds >= longest:
+            return None
         if not passed:
             sys.exit(f"mutants: without mutants this test fails: {test}")
         places = {i for i, byte in enumerate(record.read_bytes()) if byte}
         record.unlink()
         return seconds, test, places
     with ThreadPoolExecutor(jobs) as pool:
-        return sorted(pool.map(one, enumerate(tests)), key=lambda result: result[0])
+        return sorted(filter(None, pool.map(one, enumerate(tests))), key=lambda result: result[0])
 
 
 def judge(program, mutant, reached):
@@ -275,17 +277,17 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--work", type=Path, help="keeps the build, and is a new folder by default")
     parser.add_argument("--tests", default="", help="only tests with this text in their names")
+    parser.add_argument("--longest", type=float, default=600, help="seconds; tests that take longer are left out")
     options = parser.parse_args()
     program = Program([folder.rstrip("/") for folder in options.folders],
                       (options.work or Path(tempfile.mkdtemp(prefix="mutants"))).resolve())
     program.build(options.jobs)
     mutants = [Mutant(number, variant, name) for number, place in enumerate(program.places, 1)
                for variant, name in enumerate(place.variants, 1) if (place.file, place.line) not in program.dropped]
-    reached = reach(program, tests_of(program.folders, options.tests), options.jobs)
+    reached = reach(program, tests_of(program.folders, options.tests), options.jobs, options.longest)
     print(f"{len(program.places)} places, {len(mutants)} mutants, {len(program.dropped)} lines left out, "
           f"{len(reached)} tests of {sum(seconds for seconds, _, _ in reached):.0f} s", flush=True)
-    sample = sorted(random.Random(options.seed).sample(mutants, min(options.sample, len(mutants))),
-                    key=lambda mutant: mutant.place)
+    sample = random.Random(options.seed).sample(mutants, min(options.sample, len(mutants)))
     known = explained(program.folders)
     counts = {"killed": 0, "survived": 0, "not reached": 0, "explained": 0}
     with ThreadPoolExecutor(options.jobs) as pool:
