@@ -72,6 +72,17 @@ public:
         return !shared(edges_, inputs).empty();
     }
 
+    /// Returns the edges of which one triangle belongs to the image of an input triangle.
+    [[nodiscard]] std::vector<Edge> border(std::uint32_t input) const {
+        std::map<Edge, int> uses;
+        for (const std::uint32_t t : children_[input])
+            for (std::size_t side = 0; side < 3; ++side) ++uses[edge_of(triangles_[t], side)];
+        std::vector<Edge> once;
+        for (const auto& [edge, count] : uses)
+            if (count == 1) once.push_back(edge);
+        return once;
+    }
+
     [[nodiscard]] Shape shape(const Common& of) const {
         JoinedSets sets(of.vertices.size());
         const auto place = [&](std::uint32_t v) {
@@ -167,7 +178,10 @@ public:
 
     Differences operator()() {
         for (std::uint32_t t = 0; t < parts_.inputs.triangles.size(); ++t)
-            if (!parts_.children[t].empty() && !parts_.exact_children[t].empty()) check({t});
+            if (!parts_.children[t].empty() && !parts_.exact_children[t].empty()) {
+                check({t});
+                if (is_slit(t)) ++slit_;
+            }
         for (const Edge& pair : neighbours()) {
             if (doubles_.meet({pair[0], pair[1]})) {
                 if (have_common_side(pair)) check({pair[0], pair[1]});
@@ -207,6 +221,22 @@ private:
             report(inputs, common + (common.empty() ? "are" : "is") + " torn");
         else if (!is_thinned(inputs) && after.holes > before.holes)
             report(inputs, common + (common.empty() ? "have" : "has") + " a hole");
+    }
+
+    /// Tells whether an image has a border far from the sides of its input triangle. A slit that begins at a side is
+    /// no hole.
+    [[nodiscard]] bool is_slit(std::uint32_t input) const {
+        if (is_thinned({input}) || (!parts_.is_cut.empty() && parts_.is_cut[input])) return false;
+        const auto corners = parts_.input_corners(input);
+        const auto is_far = [&](std::uint32_t v) {
+            const Vector4& p = parts_.points[v];
+            return !within_of_segment(p, *corners[0], *corners[1], parts_.deviation) &&
+                   !within_of_segment(p, *corners[1], *corners[2], parts_.deviation) &&
+                   !within_of_segment(p, *corners[2], *corners[0], parts_.deviation);
+        };
+        return std::ranges::any_of(doubles_.border(input), [&](const Edge& edge) {
+            return is_far(edge[0]) || is_far(edge[1]);
+        });
     }
 
     /// Tells whether the surfaces of two input triangles have a vertex of the doubles in common.
@@ -291,13 +321,14 @@ private:
         const Numbers& vanished = parts_.rounded.vanished;
         const Meetings before({parts_.exact.triangles, parts_.exact.parents_of}, vanished);
         const Meetings after({parts_.rounded.triangles, parts_.rounded.parents_of}, vanished);
-        return {missing(before, after, doubles_), missing(after, before, exact_)};
+        return {missing(before, after, doubles_) + slit_, missing(after, before, exact_)};
     }
 
     const RoundedParts& parts_;
     const Numbers& thinned_;
     Violations& found_;
     Images exact_, doubles_;
+    std::size_t slit_ = 0; ///< number of input triangles that are slit
     std::map<std::uint32_t, std::set<std::uint32_t>> vertices_of_surface_; ///< of the doubles
 };
 

@@ -157,3 +157,15 @@ TEST_CASE("images: an edge that surfaces have in common no more is counted") {
     CHECK(verdict.violations.empty());
     CHECK(verdict.measured.value().differences == Differences{1, 0, 0});
 }
+
+TEST_CASE("images: a slit that begins at a side is counted") {
+    Subject s = subject({{"in.obj", obj_text({square_sheet})}}, {});
+    replace(s.certificate["rounded"],
+            {{0, 0, 0}, {100, 0, 0}, {0, 100, 0}, {30, 30, 0}, {0, 0, 1e-12}},
+            {{0, 1, 3}, {1, 2, 3}, {2, 4, 3}}, {0, 0, 0});
+    const auto certificate = parse_certificate(s.certificate.dump(), "c");
+    REQUIRE(certificate);
+    const Verdict verdict = verify_certificate(s.inputs, certificate.value());
+    CHECK(verdict.violations.empty());
+    CHECK(verdict.measured.value().differences == Differences{1, 0, 0});
+}
