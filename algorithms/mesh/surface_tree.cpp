@@ -87,20 +87,19 @@ SurfaceTree::Node SurfaceTree::node(std::uint32_t first, std::uint32_t last) con
     return made;
 }
 
-std::array<double, 2> SurfaceTree::distances(const Point3& p, std::uint32_t triangle) const {
-    const auto& [i, j, k] = all_.triangles[triangle];
-    const Point3 &a = all_.points[i], &b = all_.points[j], &c = all_.points[k];
+double SurfaceTree::distance_to_box(const Point3& p, std::uint32_t triangle) const {
     BoxOfTriangles box;
-    for (const Point3& corner : {a, b, c}) box.add(corner);
-    const double distance = distance_to_triangle(p, a, b, c);
-    return {distance, std::max(distance, distance_to_box(p, box.low, box.high))};
+    for (const std::uint32_t v : all_.triangles[triangle]) box.add(all_.points[v]);
+    return terrane::distance_to_box(p, box.low, box.high);
 }
 
 void SurfaceTree::visit(const Point3& p, std::span<const std::uint32_t> but, std::uint32_t triangle,
                         Best& best) const {
     const std::uint32_t surface = first_but(all_.surfaces_of[triangle], but);
     if (surface == no_surface) return;
-    const auto [distance, least] = distances(p, triangle);
+    const auto& [a, b, c] = all_.triangles[triangle];
+    const double distance = distance_to_triangle(p, all_.points[a], all_.points[b], all_.points[c]);
+    const double least = std::max(distance, distance_to_box(p, triangle));
     if (std::tie(least, surface, distance) < std::tie(best.least, best.surface, best.distance))
         best = {least, surface, distance};
 }
@@ -116,7 +115,7 @@ std::optional<NearestSurface> SurfaceTree::nearest(const Point3& p,
         std::uint32_t least;
     };
     const auto opened = [&](std::uint32_t n) {
-        return Open{n, distance_to_box(p, nodes_[n].low, nodes_[n].high), nodes_[n].least};
+        return Open{n, terrane::distance_to_box(p, nodes_[n].low, nodes_[n].high), nodes_[n].least};
     };
     std::vector<Open> stack{opened(0)};
     while (!stack.empty()) {
@@ -137,24 +136,23 @@ std::optional<NearestSurface> SurfaceTree::nearest(const Point3& p,
         stack.push_back(first);
     }
     if (best.least >= bound) return std::nullopt;
-    return NearestSurface{best.surface, best.distance};
+    return NearestSurface{best.surface, best.distance, best.least};
 }
 
 std::vector<std::uint32_t> SurfaceTree::within(const Point3& p, std::span<const std::uint32_t> but,
                                                double bound) const {
-    constexpr double about = 1 + 1e-9; // distances are rounded
     std::vector<std::uint32_t> found, open;
     if (!nodes_.empty()) open.push_back(0);
     while (!open.empty()) {
         const Node& node = nodes_[open.back()];
         open.pop_back();
-        if (distance_to_box(p, node.low, node.high) > about * bound || node.is_of(but)) continue;
+        if (terrane::distance_to_box(p, node.low, node.high) > bound || node.is_of(but)) continue;
         if (node.children > 0) {
             open.insert(open.end(), {node.children, node.children + 1});
             continue;
         }
         for (std::uint32_t i = node.first; i < node.last; ++i) {
-            if (distances(p, order_[i])[0] > about * bound) continue;
+            if (distance_to_box(p, order_[i]) > bound) continue;
             for (const std::uint32_t s : all_.surfaces_of[order_[i]])
                 if (!std::binary_search(but.begin(), but.end(), s)) found.push_back(s);
         }

@@ -16,6 +16,8 @@ namespace terrane {
 struct NearestSurface {
     std::uint32_t surface = 0;
     double distance = 0;
+    double reach =
+        0; ///< the distance, or that to the box of the nearest triangle if rounding made it the larger
 };
 
 /// Triangles, and the surfaces that they belong to.
@@ -40,7 +42,8 @@ public:
                                                         std::span<const std::uint32_t> but,
                                                         double bound,
                                                         std::size_t* visits = nullptr) const;
-    /// Returns the surfaces nearer than `bound` or about so near, except those listed; ascending.
+    /// Returns the surfaces with a triangle whose box is no farther than `bound`, except those listed; ascending.
+    /// Distances to boxes are rounded in the order of their lengths, so that all nearer surfaces are among these.
     [[nodiscard]] std::vector<std::uint32_t>
     within(const Point3& p, std::span<const std::uint32_t> but, double bound) const;
 
@@ -63,8 +66,8 @@ private:
 
     /// Returns a node of some triangles, from `first` to before `last` in order_.
     [[nodiscard]] Node node(std::uint32_t first, std::uint32_t last) const;
-    /// Returns the distance to a triangle, and the same or that to its box, whichever is larger.
-    [[nodiscard]] std::array<double, 2> distances(const Point3& p, std::uint32_t triangle) const;
+    /// Returns the distance to the box of a triangle.
+    [[nodiscard]] double distance_to_box(const Point3& p, std::uint32_t triangle) const;
     void visit(const Point3& p, std::span<const std::uint32_t> but, std::uint32_t triangle,
                Best& best) const;
 

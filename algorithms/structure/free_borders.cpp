@@ -133,7 +133,7 @@ std::vector<BorderGap> gaps_along(const Mesh& mesh, const ModelLine& line,
             samples.begin() + static_cast<std::ptrdiff_t>(i),
             samples.begin() + static_cast<std::ptrdiff_t>(i) + 3,
             [](const auto& a, const auto& b) { return a.nearest.distance < b.nearest.distance; });
-        const auto& [part, distance] = far.nearest;
+        const auto& [part, distance, reach] = far.nearest;
         const std::uint32_t surface = parts.surface_of(part);
         const Point3 &p = samples[i].place, &q = samples[i + 2].place;
         const int decade = decade_of(distance);

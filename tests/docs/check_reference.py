@@ -246,7 +246,7 @@ def write_json_files(program, folder):
         unpack_page(folder / "report.html"), unpack_page(folder / "filled.html")
     return {"report.md": sorted(str(p) for p in folder.glob("*.content.json")),
             "report.md, run": sorted(str(p) for p in folder.glob("*.run.json")), "statistics.md": statistics, "model.md": ["open/model.json", "sealed/model.json"],
-            "certificate.md": certificates, "check": ["check.json"], "info": ["info.json"],
+            "certificate-format.md": certificates, "check": ["check.json"], "info": ["info.json"],
             "verdict": ["valid.json", "blocks.json", "valid_improved.json", "refuted.json"]}
 
 
@@ -279,10 +279,10 @@ def check_json(program, findings):
                 for page, files in written.items()}
     pages = {"statistics.md": documented_keys("statistics.md", lambda a: a not in ("findings-of-check", "contents-of-files")),
              "model.md": documented_keys("model.md"),
-             "certificate.md": documented_keys("certificate.md", lambda a: a != "verdict-of-verify"),
+             "certificate-format.md": documented_keys("certificate-format.md", lambda a: a != "verdict-of-verify"),
              "check": documented_keys("statistics.md", lambda a: a == "findings-of-check"),
              "info": documented_keys("statistics.md", lambda a: a == "contents-of-files"),
-             "verdict": documented_keys("certificate.md", lambda a: a == "verdict-of-verify")}
+             "verdict": documented_keys("certificate-format.md", lambda a: a == "verdict-of-verify")}
     if has_pages(program):
         pages["report.md"] = documented_keys("report.md", lambda a: a == "keys-of-terrane-data")
         pages["report.md, run"] = documented_keys("report.md", lambda a: a == "keys-of-terrane-run")
@@ -295,7 +295,7 @@ def check_json(program, findings):
         print("skipped: keys of tetrahedra: the program does not find TetGen's helper")
         optional |= {k for k in pages["statistics.md"] if k.startswith(("tetrahedra", "constants.tetrahedralize", "constants.optimise"))
                     or k in ("seconds.tetrahedralize", "seconds.check", "seconds.split", "seconds.optimise")}
-        optional |= {k for k in pages["certificate.md"] if k.startswith("tetrahedra")}
+        optional |= {k for k in pages["certificate-format.md"] if k.startswith("tetrahedra")}
     # The model of the pages has no block, and no contact of blocks, that a resolution changes.
     optional |= {k for k in pages["statistics.md"] if k.startswith(("tolerance.left[]", "resolution.blocks[]", "resolution.contacts[]"))}
     for page, documented in pages.items():

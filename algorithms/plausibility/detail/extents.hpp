@@ -61,12 +61,19 @@ inline Extent extent_of(std::span<const Extent> extents) {
     return all;
 }
 
+/// Returns the gaps between two boxes along x and y; 0 where they meet. Larger boxes have no larger gaps, as
+/// differences are rounded in order.
+inline std::array<double, 2> gaps_from_above(const Extent& a, const Extent& b) {
+    std::array<double, 2> gaps{};
+    for (std::size_t i = 0; i < 2; ++i)
+        gaps[i] = std::max({0.0, a.low[i] - b.high[i], b.low[i] - a.high[i]});
+    return gaps;
+}
+
 /// Returns the length of the gap between two boxes seen from above; 0 where they meet.
 inline double gap_from_above(const Extent& a, const Extent& b) {
-    std::array<double, 2> gap{};
-    for (std::size_t i = 0; i < 2; ++i)
-        gap[i] = std::max({0.0, a.low[i] - b.high[i], b.low[i] - a.high[i]});
-    return std::hypot(gap[0], gap[1]);
+    const auto [x, y] = gaps_from_above(a, b);
+    return std::hypot(x, y);
 }
 
 /// Returns the length of the gap between two boxes; 0 where they meet.

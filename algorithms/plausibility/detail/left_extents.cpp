@@ -8,8 +8,6 @@ namespace terrane::plausibility::detail {
 namespace {
 
 constexpr std::uint32_t most_in_a_leaf = 4;
-/// Gaps are rounded: a node is passed over only where its gap is clearly too wide.
-constexpr double clearly = 1 + 1e-12;
 
 /// Returns the power of two of a diagonal; a class of its own for 0.
 int size_class(const Extent& extent) {
@@ -80,8 +78,9 @@ void LeftExtents::take(std::uint32_t at, const Extent& here, double far,
                        std::vector<std::uint32_t>& taken) {
     ++visits_;
     Node& node = nodes_[at];
-    if (node.empty() ||
-        gap_from_above(here, node.all) > clearly * far * std::max(here.diagonal(), node.diagonal))
+    // A gap is no shorter than along an axis, and no extent in the node has a smaller one there, rounded or not.
+    if (node.empty() || std::ranges::max(gaps_from_above(here, node.all)) >
+                            far * std::max(here.diagonal(), node.diagonal))
         return;
     if (node.children > 0) {
         for (const std::uint32_t c : {node.children, node.children + 1}) take(c, here, far, taken);

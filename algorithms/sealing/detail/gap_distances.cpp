@@ -105,7 +105,7 @@ std::optional<GapDistances::Near> GapDistances::nearest(const Point3& p, const B
     double least = HUGE_VAL;
     double reach = beyond(factor * distances_.largest());
     if (!distances_.has_exceptions()) // then no other surface can be the nearest
-        if (const auto found = near_.nearest(p, edge.own, reach)) reach = found->distance;
+        if (const auto found = near_.nearest(p, edge.own, reach)) reach = found->reach;
     for (const std::uint32_t s : near_.within(p, edge.own, reach)) {
         const double most = std::min(least, bound(edge.surface, s, factor));
         if (!(most > 0)) continue;

@@ -21,36 +21,38 @@ void extend(Box& box, const Box& other) {
     }
 }
 
-/// Calls take(item) for each item whose box touches a box.
-template <class Take>
-void BoxTree::for_each_touching(const Box& box, const Take& take) const {
+BoxTree::BoxTree(std::vector<Box> boxes, std::vector<std::uint32_t> items,
+                 std::vector<std::uint32_t> groups) :
+    boxes_(std::move(boxes)),
+    items_(std::move(items)), groups_(std::move(groups)) {
+    if (!groups_.empty())
+        std::ranges::stable_sort(items_, {}, [&](std::uint32_t item) { return groups_[item]; });
+    if (!items_.empty()) build(0, items_.size());
+}
+
+std::uint32_t BoxTree::group_of(std::size_t position) const {
+    return groups_.empty() ? no_group : groups_[items_[position]];
+}
+
+std::vector<std::uint32_t> BoxTree::touching(const Box& box, std::uint32_t but) const {
+    std::vector<std::uint32_t> found;
     for (std::size_t n = 0; n < nodes_.size();) {
         look_for_stop();
         const Node& node = nodes_[n];
-        if (!touch(node.box, box)) {
+        if ((node.group == but && but != no_group) || !touch(node.box, box)) {
             n = node.after;
             continue;
         }
         for (std::size_t i = node.first; i < node.last; ++i)
-            if (touch(boxes_[items_[i]], box)) take(items_[i]);
+            if (touch(boxes_[items_[i]], box)) found.push_back(items_[i]);
         ++n;
     }
-}
-
-std::vector<std::uint32_t> BoxTree::touching(const Box& box) const {
-    std::vector<std::uint32_t> found;
-    for_each_touching(box, [&](std::uint32_t item) { found.push_back(item); });
     std::sort(found.begin(), found.end());
     return found;
 }
 
-std::vector<std::uint32_t> BoxTree::touching_above(std::uint32_t item) const {
-    std::vector<std::uint32_t> found;
-    for_each_touching(boxes_[item], [&](std::uint32_t other) {
-        if (other > item) found.push_back(other);
-    });
-    std::sort(found.begin(), found.end());
-    return found;
+std::vector<std::uint32_t> BoxTree::touching_others(std::uint32_t item) const {
+    return touching(boxes_[item], groups_.empty() ? no_group : groups_[item]);
 }
 
 void BoxTree::build(std::size_t first, std::size_t last) {
@@ -58,8 +60,9 @@ void BoxTree::build(std::size_t first, std::size_t last) {
     const std::size_t n = nodes_.size();
     Box box = boxes_[items_[first]];
     for (std::size_t i = first; i < last; ++i) extend(box, boxes_[items_[i]]);
-    nodes_.push_back({box, 0, 0, 0});
-    if (last - first <= leaf_size) {
+    const bool is_one_group = group_of(first) == group_of(last - 1);
+    nodes_.push_back({box, 0, 0, 0, is_one_group ? group_of(first) : no_group});
+    if (is_one_group && last - first <= leaf_size) {
         nodes_[n].first = first;
         nodes_[n].last = last;
     } else {
@@ -70,20 +73,26 @@ void BoxTree::build(std::size_t first, std::size_t last) {
     nodes_[n].after = nodes_.size();
 }
 
-/// Splits the items in half along the longest side of their box. Any split would be correct.
+/// Splits the items between two groups, or in half along the longest side of their box.
 std::size_t BoxTree::split(std::size_t first, std::size_t last, const Box& box) {
+    const std::size_t half = first + (last - first) / 2;
+    if (group_of(first) != group_of(last - 1)) {
+        std::size_t middle = half;
+        while (middle > first && group_of(middle - 1) == group_of(half)) --middle;
+        while (middle == first || group_of(middle - 1) == group_of(middle)) ++middle;
+        return middle;
+    }
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i) {
         if (box.high[i] - box.low[i] > box.high[axis] - box.low[axis]) axis = i;
     }
-    const std::size_t middle = first + (last - first) / 2;
     const auto at = [this](std::size_t i) {
         return items_.begin() + static_cast<std::ptrdiff_t>(i);
     };
-    std::nth_element(at(first), at(middle), at(last), [&](std::uint32_t a, std::uint32_t b) {
+    std::nth_element(at(first), at(half), at(last), [&](std::uint32_t a, std::uint32_t b) {
         return std::pair(boxes_[a].low[axis], a) < std::pair(boxes_[b].low[axis], b);
     });
-    return middle;
+    return half;
 }
 
 } // namespace terrane::verifier

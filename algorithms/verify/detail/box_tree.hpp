@@ -17,20 +17,23 @@ bool touch(const Box& a, const Box& b);
 /// Enlarges a box to contain another one.
 void extend(Box& box, const Box& other);
 
+inline constexpr std::uint32_t no_group = UINT32_MAX;
+
 /// A tree of boxes over some items: the box of a node contains the boxes of all items below it.
 class BoxTree {
 public:
-    /// Item i has box boxes[i].
-    BoxTree(std::vector<Box> boxes, std::vector<std::uint32_t> items) :
-        boxes_(std::move(boxes)), items_(std::move(items)) {
-        if (!items_.empty()) build(0, items_.size());
-    }
+    BoxTree() = default;
+    /// Item i has box boxes[i], and belongs to the group groups[i] if there are any. A group, which may be no_group,
+    /// has a subtree of its own.
+    BoxTree(std::vector<Box> boxes, std::vector<std::uint32_t> items,
+            std::vector<std::uint32_t> groups = {});
 
-    /// Returns the items whose boxes touch a box, sorted.
-    [[nodiscard]] std::vector<std::uint32_t> touching(const Box& box) const;
+    /// Returns the items whose boxes touch a box, sorted; except those of a group, unless that is no_group.
+    [[nodiscard]] std::vector<std::uint32_t> touching(const Box& box,
+                                                      std::uint32_t but = no_group) const;
 
-    /// Returns the items larger than `item` whose boxes touch its box, sorted.
-    [[nodiscard]] std::vector<std::uint32_t> touching_above(std::uint32_t item) const;
+    /// Does the same for the box and the group of an item.
+    [[nodiscard]] std::vector<std::uint32_t> touching_others(std::uint32_t item) const;
 
 private:
     /// A node of the tree. Nodes are in depth-first order: the first child of a node follows it.
@@ -38,17 +41,18 @@ private:
         Box box;
         std::size_t first = 0; ///< of a leaf: its items are items_[first, last)
         std::size_t last = 0;
-        std::size_t after = 0; ///< the node that follows the whole subtree
+        std::size_t after = 0;          ///< the node that follows the whole subtree
+        std::uint32_t group = no_group; ///< of all items below it
     };
     static constexpr std::size_t leaf_size = 4;
 
-    template <class Take>
-    void for_each_touching(const Box& box, const Take& take) const;
+    [[nodiscard]] std::uint32_t group_of(std::size_t position) const;
     void build(std::size_t first, std::size_t last);
     std::size_t split(std::size_t first, std::size_t last, const Box& box);
 
     std::vector<Box> boxes_;
-    std::vector<std::uint32_t> items_;
+    std::vector<std::uint32_t> items_; ///< by groups
+    std::vector<std::uint32_t> groups_;
     std::vector<Node> nodes_;
 };
 

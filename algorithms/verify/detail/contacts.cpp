@@ -2,11 +2,10 @@
 #include <terrane/algorithms/verify/detail/contacts.hpp>
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <utility>
 
-#include <terrane/algorithms/verify/detail/box_tree.hpp>
+#include <terrane/algorithms/verify/detail/fans.hpp>
 
 namespace terrane::verifier {
 
@@ -220,53 +219,13 @@ bool meet_properly(const ExactMesh& mesh, std::uint32_t first, std::uint32_t sec
 
 // --- Which pairs to test ----------------------------------------------------------------------
 
-namespace {
-
-std::vector<Box> boxes_of_triangles(const ExactMesh& mesh) {
-    std::vector<Box> corners;
-    corners.reserve(mesh.points.size());
-    for (const Vector4& point : mesh.points) corners.push_back(enclose(point, mesh.scale));
-    std::vector<Box> boxes;
-    boxes.reserve(mesh.triangles.size());
-    for (const Triangle& t : mesh.triangles) {
-        Box box = corners[t[0]];
-        extend(box, corners[t[1]]);
-        extend(box, corners[t[2]]);
-        boxes.push_back(box);
-    }
-    return boxes;
-}
-
-} // namespace
-
-std::vector<std::array<std::uint32_t, 2>> find_improper_pairs(const ExactMesh& mesh,
-                                                              std::size_t at_most) {
-    std::vector<std::uint32_t> with_area;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (projection_axis(mesh.planes[t])) with_area.push_back(t);
-    }
-    const BoxTree tree(boxes_of_triangles(mesh), with_area);
-    std::vector<std::array<std::uint32_t, 2>> improper;
-    for (const std::uint32_t t : with_area) {
-        for (const std::uint32_t other : tree.touching_above(t)) {
-            if (!meet_properly(mesh, t, other)) improper.push_back({t, other});
-        }
-        if (improper.size() >= at_most) break;
-    }
-    return improper;
-}
-
 std::vector<std::array<std::uint32_t, 2>>
-find_improper_pairs_from(const ExactMesh& mesh, std::uint32_t first, std::size_t at_most) {
-    std::vector<std::uint32_t> with_area;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-        if (projection_axis(mesh.planes[t])) with_area.push_back(t);
-    const auto boxes = boxes_of_triangles(mesh);
-    const BoxTree tree(boxes, with_area);
+find_improper_pairs(const ExactMesh& mesh, std::size_t at_most, std::uint32_t first) {
+    const ContactSearch search(mesh);
     std::vector<std::array<std::uint32_t, 2>> improper;
-    for (const std::uint32_t t : with_area) {
+    for (const std::uint32_t t : search.with_area()) {
         if (t < first) continue;
-        for (const std::uint32_t other : tree.touching(boxes[t]))
+        for (const std::uint32_t other : search.near(t))
             if (other < t && !meet_properly(mesh, other, t)) improper.push_back({other, t});
         if (improper.size() >= at_most) break;
     }

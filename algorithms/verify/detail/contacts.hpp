@@ -36,14 +36,11 @@ Vector4 centroid_of(const ExactMesh& mesh, std::uint32_t triangle);
 /// Cost: six to some thirty multiplications of integers.
 bool meet_properly(const ExactMesh& mesh, std::uint32_t first, std::uint32_t second);
 
-/// Returns the pairs (lower index first, sorted) of triangles with area that do not meet properly.
-/// It stops after the first triangle with which there are `at_most` pairs or more.
-/// Cost: O(n log n) to find the k pairs whose boxes touch, and k exact tests.
-std::vector<std::array<std::uint32_t, 2>> find_improper_pairs(const ExactMesh& mesh,
-                                                              std::size_t at_most);
-
-/// Does the same for the pairs whose second triangle is `first` or a later one.
+/// Returns the pairs (lower index first, sorted) of triangles with area that do not meet properly and of which the second
+/// is `first` or a later one. It stops after the first such triangle with which there are `at_most` pairs or more.
+/// Cost: O(n log n) to find the k pairs to test, and k exact tests. These are the pairs whose boxes touch, but of those
+/// at a vertex that many have in common, only the pairs with common directions there.
 std::vector<std::array<std::uint32_t, 2>>
-find_improper_pairs_from(const ExactMesh& mesh, std::uint32_t first, std::size_t at_most);
+find_improper_pairs(const ExactMesh& mesh, std::size_t at_most, std::uint32_t first = 0);
 
 } // namespace terrane::verifier

@@ -225,7 +225,7 @@ private:
         const auto mesh = make_exact_mesh(std::move(points), scale, triangles_);
         for (std::uint32_t t = new_from(); t < triangles_.size(); ++t)
             if (!projection_axis(mesh.planes[t])) report(Rule::R36_embedded, t, "has no area");
-        for (const auto& [a, b] : find_improper_pairs_from(mesh, new_from(), most_contacts_listed))
+        for (const auto& [a, b] : find_improper_pairs(mesh, most_contacts_listed, new_from()))
             report(Rule::R36_embedded, b,
                    "meets triangle " + text(first_triangle_ + a) +
                        " other than in shared corners or edges");

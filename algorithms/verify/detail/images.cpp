@@ -68,6 +68,20 @@ public:
     [[nodiscard]] bool meet(const Numbers& inputs) const {
         return !shared(vertices_, inputs).empty();
     }
+    [[nodiscard]] bool meet_along_an_edge(const Numbers& inputs) const {
+        return !shared(edges_, inputs).empty();
+    }
+
+    /// Returns the edges of which one triangle belongs to the image of an input triangle.
+    [[nodiscard]] std::vector<Edge> border(std::uint32_t input) const {
+        std::map<Edge, int> uses;
+        for (const std::uint32_t t : children_[input])
+            for (std::size_t side = 0; side < 3; ++side) ++uses[edge_of(triangles_[t], side)];
+        std::vector<Edge> once;
+        for (const auto& [edge, count] : uses)
+            if (count == 1) once.push_back(edge);
+        return once;
+    }
 
     [[nodiscard]] Shape shape(const Common& of) const {
         JoinedSets sets(of.vertices.size());
@@ -130,21 +144,30 @@ private:
     IndexLists<Edge> edges_;
 };
 
-/// Returns the sets of input triangles that meet in vertices.
-std::set<Numbers> meetings_of(const Parts& parts, const Numbers& vanished) {
-    std::map<std::uint32_t, Numbers> at;
-    for (std::size_t t = 0; t < parts.triangles.size(); ++t)
-        for (const std::uint32_t v : parts.triangles[t])
-            at[v].insert(at[v].end(), parts.parents_of[t].begin(), parts.parents_of[t].end());
-    std::set<Numbers> sets;
-    for (auto& [v, all] : at) {
+/// Sets of input triangles that meet in vertices, and along edges. What has vanished is left out.
+struct Meetings {
+    std::set<Numbers> in_vertices, along_edges;
+
+    Meetings(const Parts& parts, const Numbers& vanished) {
+        std::map<std::uint32_t, Numbers> at;
+        std::map<Edge, Numbers> along;
+        for (std::size_t t = 0; t < parts.triangles.size(); ++t)
+            for (std::size_t side = 0; side < 3; ++side)
+                for (Numbers* all :
+                     {&at[parts.triangles[t][side]], &along[edge_of(parts.triangles[t], side)]})
+                    all->insert(all->end(), parts.parents_of[t].begin(), parts.parents_of[t].end());
+        for (auto& [v, all] : at) add(in_vertices, all, vanished);
+        for (auto& [edge, all] : along) add(along_edges, all, vanished);
+    }
+
+private:
+    static void add(std::set<Numbers>& sets, Numbers& all, const Numbers& vanished) {
         std::sort(all.begin(), all.end());
         all.erase(std::unique(all.begin(), all.end()), all.end());
         std::erase_if(all, [&](auto p) { return std::ranges::binary_search(vanished, p); });
         if (!all.empty()) sets.insert(std::move(all));
     }
-    return sets;
-}
+};
 
 class ImageChecks {
 public:
@@ -155,7 +178,10 @@ public:
 
     Differences operator()() {
         for (std::uint32_t t = 0; t < parts_.inputs.triangles.size(); ++t)
-            if (!parts_.children[t].empty() && !parts_.exact_children[t].empty()) check({t});
+            if (!parts_.children[t].empty() && !parts_.exact_children[t].empty()) {
+                check({t});
+                if (is_slit(t)) ++slit_;
+            }
         for (const Edge& pair : neighbours()) {
             if (doubles_.meet({pair[0], pair[1]})) {
                 if (have_common_side(pair)) check({pair[0], pair[1]});
@@ -195,6 +221,22 @@ private:
             report(inputs, common + (common.empty() ? "are" : "is") + " torn");
         else if (!is_thinned(inputs) && after.holes > before.holes)
             report(inputs, common + (common.empty() ? "have" : "has") + " a hole");
+    }
+
+    /// Tells whether an image has a border far from the sides of its input triangle. A slit that begins at a side is
+    /// no hole.
+    [[nodiscard]] bool is_slit(std::uint32_t input) const {
+        if (is_thinned({input}) || (!parts_.is_cut.empty() && parts_.is_cut[input])) return false;
+        const auto corners = parts_.input_corners(input);
+        const auto is_far = [&](std::uint32_t v) {
+            const Vector4& p = parts_.points[v];
+            return !within_of_segment(p, *corners[0], *corners[1], parts_.deviation) &&
+                   !within_of_segment(p, *corners[1], *corners[2], parts_.deviation) &&
+                   !within_of_segment(p, *corners[2], *corners[0], parts_.deviation);
+        };
+        return std::ranges::any_of(doubles_.border(input), [&](const Edge& edge) {
+            return is_far(edge[0]) || is_far(edge[1]);
+        });
     }
 
     /// Tells whether the surfaces of two input triangles have a vertex of the doubles in common.
@@ -261,24 +303,32 @@ private:
         });
     }
 
+    /// Counts the meetings of a mesh that the images in the other one do not have.
+    static std::size_t missing(const Meetings& of, const Meetings& in, const Images& images) {
+        const auto count = [](const auto& sets, const auto& others, const auto& do_meet) {
+            return std::ranges::count_if(sets, [&](const Numbers& inputs) {
+                return !others.contains(inputs) && !do_meet(inputs);
+            });
+        };
+        return static_cast<std::size_t>(
+            count(of.in_vertices, in.in_vertices,
+                  [&](const Numbers& inputs) { return images.meet(inputs); }) +
+            count(of.along_edges, in.along_edges,
+                  [&](const Numbers& inputs) { return images.meet_along_an_edge(inputs); }));
+    }
+
     [[nodiscard]] Differences differences() const {
         const Numbers& vanished = parts_.rounded.vanished;
-        const auto before =
-            meetings_of({parts_.exact.triangles, parts_.exact.parents_of}, vanished);
-        const auto after =
-            meetings_of({parts_.rounded.triangles, parts_.rounded.parents_of}, vanished);
-        const auto missing = [](const auto& of, const auto& in, const Images& images) {
-            return static_cast<std::size_t>(std::ranges::count_if(of, [&](const Numbers& inputs) {
-                return !in.contains(inputs) && !images.meet(inputs);
-            }));
-        };
-        return {missing(before, after, doubles_), missing(after, before, exact_)};
+        const Meetings before({parts_.exact.triangles, parts_.exact.parents_of}, vanished);
+        const Meetings after({parts_.rounded.triangles, parts_.rounded.parents_of}, vanished);
+        return {missing(before, after, doubles_) + slit_, missing(after, before, exact_)};
     }
 
     const RoundedParts& parts_;
     const Numbers& thinned_;
     Violations& found_;
     Images exact_, doubles_;
+    std::size_t slit_ = 0; ///< number of input triangles that are slit
     std::map<std::uint32_t, std::set<std::uint32_t>> vertices_of_surface_; ///< of the doubles
 };
 

@@ -161,7 +161,8 @@ public:
         }
         const BoxTree tree(std::move(boxes), sides);
         for (const std::uint32_t i : sides)
-            for (const std::uint32_t j : tree.touching_above(i)) {
+            for (const std::uint32_t j : tree.touching_others(i)) {
+                if (j <= i) continue;
                 const bool meet = j == i + 1         ? folds(i, j)
                                   : (j + 1) % n == i ? folds(j, i)
                                                      : sides_meet(i, j);

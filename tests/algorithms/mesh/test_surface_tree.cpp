@@ -68,7 +68,7 @@ std::optional<NearestSurface> by_looking_at_all(const Mesh& mesh, const Point3& 
         }
     }
     if (!found) return std::nullopt;
-    return NearestSurface{std::get<1>(best), std::get<2>(best)};
+    return NearestSurface{std::get<1>(best), std::get<2>(best), std::get<0>(best)};
 }
 
 /// Looks from the first corner of each triangle for the nearest other surface; returns how many nodes
@@ -103,6 +103,8 @@ TEST_CASE("surface tree: it finds what a look at each triangle finds", "[borders
             if (!found) continue;
             CHECK(found->surface == expected->surface);
             CHECK(found->distance == expected->distance);
+            CHECK(found->reach == expected->reach);
+            CHECK(std::ranges::count(tree.within(p, but, found->reach), found->surface) == 1);
             std::vector<std::uint32_t> near;
             for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
                 std::vector<std::uint32_t> others;

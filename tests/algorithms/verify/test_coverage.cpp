@@ -4,13 +4,11 @@
 #include <catch2/catch.hpp>
 
 #include <cstdint>
-#include <functional>
 #include <utility>
 #include <vector>
 
-#include <terrane/algorithms/verify/stoppable.hpp>
-
 #include "support/verify_points.hpp"
+#include "support/verify_work.hpp"
 
 namespace {
 
@@ -18,6 +16,7 @@ using namespace terrane;
 using namespace terrane::verifier;
 
 using namespace verify_points;
+using verify_work::check_growth;
 
 /// Judges the coverage of the parent (0,0) (12,0) (0,12) in z = 0 by children, given by their
 /// corners.
@@ -26,28 +25,6 @@ bool covered(const std::vector<Vector4>& points, const std::vector<Triangle>& ch
     const Vector4 a = point(0, 0, 0), b = point(12, 0, 0), c = point(0, 12, 0);
     const Coverage coverage({&a, &b, &c}, points, collar);
     return coverage.holds(Coverage::Facing(coverage, children));
-}
-
-/// Returns how many exact numbers are computed for a task.
-std::uint64_t work_of(const std::function<void()>& task) {
-    std::uint64_t looks = 0;
-    REQUIRE(stoppable(
-        {},
-        [&]() -> Result<bool> {
-            task();
-            return true;
-        },
-        &looks));
-    return looks;
-}
-
-/// Checks that work grows in proportion to a size, but for logarithms.
-void check_growth(const std::function<void(int)>& task) {
-    const auto at = [&](int n) { return work_of([&] { task(n); }); };
-    const std::uint64_t once = at(1000), twice = at(2000), four_times = at(4000);
-    INFO(once << " " << twice << " " << four_times);
-    CHECK(twice < once * 5 / 2);
-    CHECK(four_times < twice * 5 / 2);
 }
 
 /// Needles from one corner of a parent to its opposite side.

@@ -132,3 +132,40 @@ TEST_CASE("places: another order of triangles around an edge is counted") {
     CHECK_FALSE(measured(2 * e).same_cells);
     CHECK(measured(2 * e).differences == Differences{0, 0, 1});
 }
+
+TEST_CASE("images: an edge that surfaces have in common no more is counted") {
+    const Surface floor{"floor", Role::unknown, {{0, 0, 0}, {1e6, 0, 0}, {0, 1e6, 0}}, {{0, 1, 2}}};
+    const Surface wall{
+        "wall", Role::unknown, {{1000, 1000, 0}, {2000, 1000, 0}, {1000, 1000, 2000}}, {{0, 1, 2}}};
+    Subject s = subject({{"in.obj", obj_text({floor, wall})}}, {});
+    Json& r = s.certificate["rounded"];
+    const Json foot = Json::array({"2000", "1000", "0"});
+    const auto at = std::find(r["vertices"].begin(), r["vertices"].end(), foot);
+    REQUIRE(at != r["vertices"].end());
+    const auto v = at - r["vertices"].begin();
+    r["vertices"].push_back({"2000", "1000", decimal_text(1e-7)});
+    for (std::size_t t = 0; t < r["triangles"].size(); ++t)
+        if (r["parents"][t] == Json::array({1}))
+            std::replace(r["triangles"][t].begin(), r["triangles"][t].end(), Json(v),
+                         Json(r["vertices"].size() - 1));
+    r["intersection_edges"] = Json::array();
+    r["max_move"] = nullptr;
+    r["deviation"] = "9e-07";
+    const auto certificate = parse_certificate(s.certificate.dump(), "c");
+    REQUIRE(certificate);
+    const Verdict verdict = verify_certificate(s.inputs, certificate.value());
+    CHECK(verdict.violations.empty());
+    CHECK(verdict.measured.value().differences == Differences{1, 0, 0});
+}
+
+TEST_CASE("images: a slit that begins at a side is counted") {
+    Subject s = subject({{"in.obj", obj_text({square_sheet})}}, {});
+    replace(s.certificate["rounded"],
+            {{0, 0, 0}, {100, 0, 0}, {0, 100, 0}, {30, 30, 0}, {0, 0, 1e-12}},
+            {{0, 1, 3}, {1, 2, 3}, {2, 4, 3}}, {0, 0, 0});
+    const auto certificate = parse_certificate(s.certificate.dump(), "c");
+    REQUIRE(certificate);
+    const Verdict verdict = verify_certificate(s.inputs, certificate.value());
+    CHECK(verdict.violations.empty());
+    CHECK(verdict.measured.value().differences == Differences{1, 0, 0});
+}
