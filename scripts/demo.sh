@@ -42,7 +42,6 @@ run "$terrane" arrange "${model[@]}" -o "$out/faults-topography.vtp" \
     -o "$out/faults-topography.obj" --stats "$out/faults-topography.json"
 expect "$out/faults-topography.json" search.improper_contacts 3382
 run "$terrane" check "$out/faults-topography.obj"
-run "$terrane" tetrahedralize "${model[@]}" -o "$out/faults-topography.vtu" >/dev/null
 
 say "modelA1, three horizons in a box; the model states 5 blocks, the outside included"
 model=(tests/data/ringmesh/modelA1.ml)
