@@ -40,31 +40,6 @@ double spacing_of(std::span<const Surface> inputs) {
     return std::nextafter(most, std::numeric_limits<double>::infinity()) - most;
 }
 
-Mesh mesh_of(const Soup& soup) {
-    Mesh mesh;
-    mesh.surfaces.resize(1);
-    mesh.vertices = soup.points;
-    mesh.triangles.assign(soup.triangles.begin(), soup.triangles.end());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        mesh.surfaces_of.push_back(std::array{0U});
-    return mesh;
-}
-
-/// Adds a flaw if the mesh has another number of blocks, which is possible only where vertices stand for
-/// several points. Errors: those of find_volumes().
-Status compare_blocks(const Arrangement& exact, const OutputMesh& output, Comparison& found,
-                      const Run& run) {
-    const auto expected = find_volumes(exact, run);
-    if (!expected) return expected.error();
-    const auto blocks = find_volumes(mesh_of(output.soup), run);
-    if (!blocks) return blocks.error();
-    if (expected->block_count() != blocks->block_count())
-        found.topology.add({"there are " + counted_as(blocks->block_count(), "block", "blocks") +
-                                ", not " + std::to_string(expected->block_count()),
-                            output.soup.points[output.vertices[0]]});
-    return Done{};
-}
-
 /// Compares the volume of a mesh with the exact one. `bound`: of points.
 JudgedProperty volume_property(const OutputMesh& output, double exact, double bound,
                                std::size_t most) {
@@ -121,14 +96,13 @@ Result<MeshJudgement> judge_valid(std::span<const Surface> output, std::span<con
     if (!target) return target.error();
     const auto checked = check(output, run);
     if (!checked) return checked.error();
-    const OutputMesh mesh(merge_surfaces(output, run));
     MeshJudgement judgement;
     add_checked(*checked, output, options.most_flaws, judgement.properties);
     const double spacing = spacing_of(inputs), bound = options.spacings * spacing;
-    Comparison found = compare(*target, mesh, std::max(bound, spacing / 4), options.most_flaws);
+    const double reach = std::max(bound, spacing / 4); // the grid of points has cells of some size
+    const OutputMesh mesh(merge_surfaces(output, run), reach);
+    Comparison found = compare(*target, mesh, reach, options.most_flaws);
     add_points_twice(output, found.welded);
-    if (found.merged && checked->contacts.empty() && !options.operation)
-        if (const auto done = compare_blocks(*exact, mesh, found, run); !done) return done.error();
     say(found, bound, judgement.properties);
     if (options.operation)
         judgement.properties.push_back(

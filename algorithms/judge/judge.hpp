@@ -6,6 +6,7 @@
 // Boolean operation in it. Its flat regions, the edges between them and their corners are looked for in
 // the mesh. A mesh may divide a flat region into other triangles, and its vertices may be rounded.
 // (1) A vertex of the mesh stands for an exact point if no coordinate differs by more than a bound.
+//     Vertices nearer than the bound are one.
 // (2) Triangles that no edge of a region separates are one patch; it is in the region that has all of
 //     its vertices.
 // (3) A region is covered once if the oriented boundaries of its triangles, each turned to the front by
@@ -97,7 +98,7 @@ struct MeshJudgement {
 /// - vertices: each corner of a region is a vertex, not farther away than the bound;
 /// - curves: each exact intersection curve is there, as edges;
 /// - coverage: each region is covered once, and nothing else is;
-/// - topology: triangles meet as the regions do, without cracks, and nothing is pinched;
+/// - topology: triangles meet as the regions do, without cracks;
 /// - orientation: triangles face as one of the inputs that they lie in; of solids, outwards;
 /// - volume (of operations): that of the exact solid, within the bound times the area.
 /// Errors: bad_number, bad_index, unsupported, bad_option (operand_of); not_closed if an operand bounds

@@ -75,7 +75,6 @@ public:
         find_extra_triangles();
         find_repeated();
         compare_chains();
-        find_pinched();
         find_turned();
         return std::move(found_);
     }
@@ -100,18 +99,23 @@ private:
         return {p.x / 2 + q.x / 2, p.y / 2 + q.y / 2, p.z / 2 + q.z / 2};
     }
 
-    /// Finds vertices within the bound of one that stands for an exact point, which stand for none.
+    /// Finds edges of one triangle where the exact regions have no border.
     void find_torn() {
-        std::vector<std::uint32_t> own, others;
-        for (const std::uint32_t v : output_.vertices)
-            (matching_.preimages[v].empty() ? own : others).push_back(v);
-        const PointGrid grid(points_, others, bound_);
-        for (const std::uint32_t v : own) {
-            bool near = false;
-            grid.for_near(points_[v], [&](std::uint32_t) { near = true; });
-            if (near)
-                found_.welded.add(
-                    {"a second point stands within the bound of another", points_[v]});
+        std::vector<Edge> exact;
+        for (const auto& [low, high] : cells_.borders) {
+            auto path = separation_.image(low, high);
+            if (path.empty()) path = separation_.image(high, low);
+            for (std::size_t i = 0; i + 1 < path.size(); ++i)
+                exact.push_back({std::min(path[i], path[i + 1]), std::max(path[i], path[i + 1])});
+        }
+        sort_unique(exact);
+        for (const Edge& e : output_.borders) {
+            if (std::ranges::binary_search(exact, e)) continue;
+            const PropertyFlaw flaw{
+                "a border where the exact regions have none", middle({0, e[0], e[1], 1}), {}, 0};
+            found_.topology.add(flaw);
+            // It has several triangles once points are joined: they are torn within the bound.
+            if (output_.triangles_at(e[0], e[1]) > 1) found_.welded.add(flaw);
         }
     }
 
@@ -161,6 +165,7 @@ private:
         std::map<std::uint32_t, std::uint32_t> times;
         for (const auto& [t, first] : output_.soup.duplicates) {
             const auto at = std::ranges::lower_bound(output_.soup.input_of, first);
+            if (at == output_.soup.input_of.end() || *at != first) continue; // it has no area
             const auto cell =
                 placing_.cell_of[static_cast<std::size_t>(at - output_.soup.input_of.begin())];
             if (cell == no_index || ++times[first] < cells_.cells[cell].parents) continue;
@@ -183,11 +188,50 @@ private:
                     chain_edge(placing_.cell_of[t], k[i], k[(i + 1) % 3], -placing_.facing[t]));
         }
         edges = summed(divided(summed(std::move(edges))));
+        std::vector<std::span<const ChainEdge>> differences(cells_.cells.size());
         for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
             while (end < edges.size() && edges[end].cell == edges[i].cell) ++end;
-            report_difference(std::span(edges).subspan(i, end - i));
+            differences[edges[i].cell] = std::span(edges).subspan(i, end - i);
         }
-        report_absent_cells(edges);
+        const auto unknown = cells_without_vertices();
+        const auto covered = covered_areas();
+        for (std::uint32_t c = 0; c < differences.size(); ++c)
+            if (unknown[c])
+                report_unknown(c, covered[c]);
+            else if (!differences[c].empty())
+                report_difference(differences[c]);
+    }
+
+    /// Tells which cells have a corner without a vertex, so that their boundaries are known in part.
+    [[nodiscard]] std::vector<bool> cells_without_vertices() const {
+        std::vector<bool> unknown(cells_.cells.size());
+        for (const std::uint32_t x : separation_.missing())
+            for (const std::uint32_t c : cells_.at_vertex[x]) unknown[c] = true;
+        return unknown;
+    }
+    [[nodiscard]] std::vector<double> covered_areas() const {
+        std::vector<double> areas(cells_.cells.size());
+        for (std::uint32_t t = 0; t < output_.soup.triangles.size(); ++t)
+            if (const auto c = placing_.cell_of[t]; c != no_index) areas[c] += area(t);
+        return areas;
+    }
+
+    void report_unknown(std::uint32_t c, double covered) {
+        const Cell& cell = cells_.cells[c];
+        const Triangle& k = target_.triangles[cell.triangle];
+        const Point3& at = nearest(k[0]);
+        found_.topology.add({"a region lacks a corner", at, {}, cell.area});
+        add_area(cell.area - covered, length(minus(nearest(k[0]), nearest(k[1]))), at);
+    }
+    /// Adds an area that is missing, or too much if it is negative, unless rounding may make it.
+    void add_area(double net, double perimeter, const Point3& at) {
+        if (std::abs(net) <= 2 * bound_ * perimeter) return;
+        (net > 0 ? found_.missing_area : found_.extra_area) += std::abs(net);
+        found_.coverage.add({net > 0 ? "a part of a region is not covered"
+                                     : "a region is covered more than once, or beyond its boundary",
+                             at,
+                             {},
+                             std::abs(net)});
     }
 
     /// Divides edges at the vertices that they pass along edges of cells.
@@ -221,62 +265,7 @@ private:
                              middle(edges[0]),
                              {},
                              perimeter});
-        if (std::abs(net) <= 2 * bound_ * perimeter) return;
-        (net > 0 ? found_.missing_area : found_.extra_area) += std::abs(net);
-        found_.coverage.add({net > 0 ? "a part of a region is not covered"
-                                     : "a region is covered more than once, or beyond its boundary",
-                             middle(edges[0]),
-                             {},
-                             std::abs(net)});
-    }
-
-    /// Reports cells without triangles whose boundary the mesh lacks, so that no difference shows them.
-    void report_absent_cells(const std::vector<ChainEdge>& differences) {
-        std::vector<bool> known(cells_.cells.size());
-        for (const ChainEdge& e : differences) known[e.cell] = true;
-        for (const std::uint32_t c : placing_.cell_of)
-            if (c != no_index) known[c] = true;
-        for (const CellEdge& e : separation_.boundary())
-            known[e.cell] = true; // it vanished: no edges
-        std::vector<bool> vanished(cells_.cells.size(), true);
-        for (const CellEdge& e : cells_.boundary)
-            if (separation_.image(e.from, e.to).empty()) vanished[e.cell] = false;
-        for (std::uint32_t c = 0; c < known.size(); ++c) {
-            if (known[c] || vanished[c]) continue;
-            const Cell& cell = cells_.cells[c];
-            found_.missing_area += cell.area;
-            const Point3& at = nearest(target_.triangles[cell.triangle][0]);
-            found_.coverage.add({"a region is not there", at, {}, cell.area});
-            found_.topology.add({"a region is not there", at, {}, cell.area});
-        }
-    }
-
-    /// Finds vertices that stand for exact points which no edges between these join.
-    void find_pinched() {
-        std::map<std::uint32_t, std::uint32_t> place; // exact points that share a vertex
-        std::vector<std::uint32_t> points;
-        for (const std::uint32_t v : output_.vertices)
-            if (const auto all = matching_.preimages[v]; all.size() > 1) {
-                for (const std::uint32_t x : all) place.emplace(x, place.size());
-                points.push_back(v);
-            }
-        if (points.empty()) return;
-        found_.merged = true;
-        DisjointSets sets(place.size());
-        for (const Triangle& t : target_.triangles)
-            for (unsigned i = 0; i < 3; ++i) {
-                const std::uint32_t x = t[i], y = t[(i + 1) % 3];
-                if (matching_.image[x] == no_index || matching_.image[x] != matching_.image[y])
-                    continue;
-                sets.join(place.at(x), place.at(y));
-            }
-        for (const std::uint32_t v : points) {
-            const auto all = matching_.preimages[v];
-            if (!std::ranges::all_of(all, [&](std::uint32_t x) {
-                    return sets.find(place.at(x)) == sets.find(place.at(all[0]));
-                }))
-                found_.topology.add({"a vertex joins exact points that are apart", points_[v]});
-        }
+        add_area(net, perimeter, middle(edges[0]));
     }
 
     void find_turned() {

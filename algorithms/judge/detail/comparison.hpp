@@ -17,7 +17,6 @@ struct Comparison {
     Flaws welded, vertices, curves, coverage, topology, orientation;
     double largest_move = 0; ///< of a vertex
     double missing_area = 0, extra_area = 0;
-    bool merged = false; ///< one vertex stands for several exact points
 
     explicit Comparison(std::size_t most_flaws);
 };

@@ -14,18 +14,51 @@ double difference(const Point3& p, const Point3& q) {
     return std::max({std::abs(p.x - q.x), std::abs(p.y - q.y), std::abs(p.z - q.z)});
 }
 
-OutputMesh::OutputMesh(Soup merged) : soup(std::move(merged)) {
+OutputMesh::OutputMesh(Soup merged, double bound) : soup(std::move(merged)) {
     const auto used = used_vertices(soup.points.size(), soup.triangles);
     for (std::uint32_t v = 0; v < used.size(); ++v)
         if (used[v]) vertices.push_back(v);
+    soup.edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+        if (sides.size() == 1) borders.push_back({low, high});
+    });
+    if (bound > 0) join_near(bound);
 }
 
-bool OutputMesh::has_edge(std::uint32_t u, std::uint32_t w) const {
+void OutputMesh::join_near(double bound) {
+    const PointGrid grid(soup.points, vertices, bound);
+    DisjointSets sets(soup.points.size());
+    bool any = false;
+    for (const std::uint32_t v : vertices)
+        grid.for_near(soup.points[v], [&](std::uint32_t w) {
+            any = any || v != w;
+            sets.join(v, w);
+        });
+    if (!any) return;
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+        Triangle k = soup.triangles[t];
+        for (std::uint32_t& v : k) v = sets.find(v);
+        if (k[0] == k[1] || k[1] == k[2] || k[2] == k[0]) continue;
+        soup.triangles[kept] = k;
+        soup.input_of[kept++] = soup.input_of[t];
+    }
+    soup.triangles.resize(kept);
+    soup.input_of.resize(kept);
+    soup.edges = group_edges(soup.triangles, soup.points.size());
+    for (Edge& e : borders) {
+        for (std::uint32_t& v : e) v = sets.find(v);
+        if (e[0] > e[1]) std::swap(e[0], e[1]);
+    }
+    std::erase_if(borders, [](const Edge& e) { return e[0] == e[1]; });
+    std::erase_if(vertices, [&](std::uint32_t v) { return sets.find(v) != v; });
+}
+
+std::size_t OutputMesh::triangles_at(std::uint32_t u, std::uint32_t w) const {
     const auto [low, high] = std::minmax(u, w);
     const auto sides =
         std::span(soup.edges.sides)
             .subspan(soup.edges.starts[low], soup.edges.starts[low + 1] - soup.edges.starts[low]);
-    return std::ranges::binary_search(sides, high, {}, &EdgeSides::Side::high);
+    return std::ranges::equal_range(sides, high, {}, &EdgeSides::Side::high).size();
 }
 
 PointGrid::PointGrid(std::span<const Point3> points, std::span<const std::uint32_t> members,

@@ -13,16 +13,6 @@
 
 namespace terrane::judging {
 
-/// The mesh that is judged: its distinct points and triangles.
-struct OutputMesh {
-    Soup soup;
-    std::vector<std::uint32_t> vertices; ///< the points of triangles, ascending
-
-    explicit OutputMesh(Soup merged);
-    /// Whether some triangle has this edge.
-    [[nodiscard]] bool has_edge(std::uint32_t u, std::uint32_t w) const;
-};
-
 /// Finds points in a grid whose cells are about as large as what is looked for.
 class PointGrid {
 public:
@@ -59,6 +49,25 @@ private:
     std::span<const Point3> points_;
     double reach_, size_;
     std::vector<Entry> entries_; ///< by hash, then by point
+};
+
+/// The mesh that is judged: its distinct points and triangles. Points nearer than the bound are one.
+struct OutputMesh {
+    Soup soup;                           ///< triangles that lose their area thereby are left out
+    std::vector<std::uint32_t> vertices; ///< the points of triangles, ascending
+    std::vector<Edge>
+        borders; ///< edges of one triangle, before points were joined; with their ends
+                 ///< as they are now
+
+    OutputMesh(Soup merged, double bound);
+    /// Returns the number of triangles that have an edge.
+    [[nodiscard]] std::size_t triangles_at(std::uint32_t u, std::uint32_t w) const;
+    [[nodiscard]] bool has_edge(std::uint32_t u, std::uint32_t w) const {
+        return triangles_at(u, w) > 0;
+    }
+
+private:
+    void join_near(double bound);
 };
 
 /// A vertex for each exact point, as far as there is one.

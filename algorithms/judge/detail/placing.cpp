@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
@@ -146,21 +147,23 @@ private:
         }
     }
 
-    /// Returns the candidate of whose boundary the patch has most edges.
+    /// Returns the candidate of whose oriented boundary the patch has most edges.
     [[nodiscard]] std::uint32_t best_of(const Numbers& candidates, const Numbers& patch) {
         if (candidates.size() == 1) return candidates[0];
         if (boundary_.empty()) {
             for (const CellEdge& e : separation_.boundary())
-                boundary_.push_back({e.cell, std::min(e.from, e.to), std::max(e.from, e.to)});
+                boundary_.push_back({e.cell, e.from, e.to});
             sort_unique(boundary_);
         }
         return *std::ranges::max_element(candidates, {}, [&](std::uint32_t cell) {
             std::size_t edges = 0;
-            for (const std::uint32_t t : patch)
-                for (unsigned k = 0; k < 3; ++k) {
-                    const auto [low, high] = std::minmax(corners(t)[k], corners(t)[(k + 1) % 3]);
-                    edges += std::ranges::binary_search(boundary_, std::array{cell, low, high});
-                }
+            for (const std::uint32_t t : patch) {
+                Triangle k = corners(t);
+                if (facing_in(t, cell) < 0) std::swap(k[0], k[1]);
+                for (unsigned i = 0; i < 3; ++i)
+                    edges += std::ranges::binary_search(boundary_,
+                                                        std::array{cell, k[i], k[(i + 1) % 3]});
+            }
             return edges;
         });
     }
@@ -232,7 +235,7 @@ private:
     const Separation& separation_;
     double bound_;
     Positions positions_;
-    std::vector<std::array<std::uint32_t, 3>> boundary_; ///< {cell, low, high}; sorted, unique
+    std::vector<std::array<std::uint32_t, 3>> boundary_; ///< {cell, from, to}; sorted, unique
     Placing placing_;
 };
 

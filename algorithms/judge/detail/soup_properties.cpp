@@ -189,7 +189,7 @@ void add_points_twice(std::span<const Surface> soup, Flaws& welded) {
 
 MeshJudgement soup_judgement(std::span<const Surface> soup, const CheckReport& checked,
                              std::size_t most_flaws, const Run& run) {
-    const OutputMesh mesh(merge_surfaces(soup, run));
+    const OutputMesh mesh(merge_surfaces(soup, run), 0);
     MeshJudgement judgement;
     add_checked(checked, soup, most_flaws, judgement.properties);
     Flaws welded("welded", most_flaws);

@@ -39,6 +39,7 @@ public:
                 return;
             }
             cells_.edges.push_back({low, high});
+            if (sides.size() == 1) cells_.borders.push_back({low, high});
             for (const auto& s : sides) {
                 const bool along = runs_along(target_.triangles[s.triangle], low, high);
                 open.push_back({s.triangle, along ? low : high, along ? high : low});

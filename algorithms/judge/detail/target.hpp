@@ -51,6 +51,7 @@ struct Cells {
     IndexLists<std::uint32_t> at_vertex; ///< per vertex: its cells, ascending
     std::vector<CellEdge> boundary;      ///< of all cells
     std::vector<Edge> edges;             ///< of `boundary`, without orientation; sorted, unique
+    std::vector<Edge> borders;           ///< those with one triangle; sorted
     std::vector<Edge> curves;            ///< those that are intersection edges; sorted
 };
 

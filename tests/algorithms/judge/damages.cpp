@@ -28,7 +28,7 @@ Point3 centre(const Surface& s, std::uint32_t t) {
 }
 /// A normal of length 1.
 Point3 unit_normal(const Surface& s, std::uint32_t t) {
-    const Point3 n = Places(s).normal(t);
+    const Point3 n = DamagePlaces(s).normal(t);
     return times(1 / std::hypot(n.x, n.y, n.z), n);
 }
 /// Removes triangles.
@@ -42,7 +42,7 @@ void drop(Surface& s, const std::set<std::uint32_t>& which) {
 std::uint32_t largest(const Surface& s) {
     std::uint32_t best = 0;
     double most = -1;
-    const Places places(s);
+    const DamagePlaces places(s);
     for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
         const Point3 n = places.normal(t);
         if (const double area = std::hypot(n.x, n.y, n.z); area > most) {
@@ -59,14 +59,14 @@ void replace(Surface& s, std::uint32_t t, std::uint32_t from, std::uint32_t to) 
 // --- damages with a size
 
 Made move_corner(Surface s, double by) {
-    const auto v = Places(s).corner();
+    const auto v = DamagePlaces(s).corner();
     if (!v) return std::nullopt;
     s.vertices[*v] = plus(s.vertices[*v], {by, by, by});
     return s;
 }
 /// Half of the triangles of a vertex get a copy of it.
 Made crack(Surface s, double by) {
-    const Places places(s);
+    const DamagePlaces places(s);
     const auto v = places.corner();
     if (!v) return std::nullopt;
     const auto w = add_vertex(s, plus(s.vertices[*v], {by, 0, by}));
@@ -101,7 +101,7 @@ Made bubble(Surface s, double by, bool keep) {
 }
 /// A triangle hangs on an edge, in no plane of its triangles.
 Made fin(Surface s, double by) {
-    const Places places(s);
+    const DamagePlaces places(s);
     const auto& [edge, triangles] = *places.edges.begin();
     const Point3 up = times(by, unit_normal(s, triangles[0]));
     const auto top = add_vertex(s, plus(middle(s.vertices[edge[0]], s.vertices[edge[1]]), up));
@@ -138,9 +138,9 @@ Made stray(Surface s, double by) {
 }
 /// Divides an edge of one triangle alone, at a point beside its middle.
 Made gap_at_edge(Surface s, double by) {
-    const auto edge = Places(s).crease();
+    const auto edge = DamagePlaces(s).crease();
     if (!edge) return std::nullopt;
-    const Places places(s);
+    const DamagePlaces places(s);
     const std::uint32_t t = places.edges.at(*edge)[0];
     const std::uint32_t w = places.third(t, (*edge)[0], (*edge)[1]);
     const Point3 m = middle(s.vertices[(*edge)[0]], s.vertices[(*edge)[1]]);
@@ -190,14 +190,14 @@ Made drop_all(Surface s) {
     return s;
 }
 Made drop_fan(Surface s) {
-    const Places places(s);
+    const DamagePlaces places(s);
     const auto v = places.corner();
     if (!v) return std::nullopt;
     drop(s, places.around.at(*v));
     return s;
 }
 Made drop_beside_junction(Surface s) {
-    const Places places(s);
+    const DamagePlaces places(s);
     const auto edge = places.junction();
     if (!edge) return std::nullopt;
     drop(s, {places.edges.at(*edge)[0]});
@@ -231,6 +231,15 @@ Made repeat_smaller(Surface s) {
     s.triangles.push_back(copy);
     return s;
 }
+/// A triangle goes through another one.
+Made pierce(Surface s) {
+    const std::uint32_t t = largest(s);
+    const Point3 c = centre(s, t), n = unit_normal(s, t);
+    const auto a = add_vertex(s, plus(c, times(0.01, n))),
+               b = add_vertex(s, plus(c, times(-0.01, n)));
+    s.triangles.push_back({a, b, s.triangles[t][0]});
+    return s;
+}
 Made no_area(Surface s) {
     const auto [a, b, c] = s.triangles[0];
     s.triangles.push_back({a, b, a});
@@ -244,7 +253,7 @@ Made no_area_between_points(Surface s) {
     return s;
 }
 Made unweld(Surface s) {
-    const Places places(s);
+    const DamagePlaces places(s);
     const auto v = places.corner();
     if (!v) return std::nullopt;
     const auto w = add_vertex(s, s.vertices[*v]);
@@ -260,7 +269,7 @@ Made unweld_all(Surface s) {
 }
 /// A vertex with a point one spacing beside it, for one triangle.
 Made tear_by_spacing(Surface s) {
-    const Places places(s);
+    const DamagePlaces places(s);
     const auto v = places.corner();
     if (!v) return std::nullopt;
     Point3 p = s.vertices[*v];
@@ -271,7 +280,7 @@ Made tear_by_spacing(Surface s) {
 }
 /// The other diagonal of a bent quadrilateral.
 Made swap_diagonal(Surface s) {
-    const Places places(s);
+    const DamagePlaces places(s);
     const auto edge = places.crease();
     if (!edge) return std::nullopt;
     const std::uint32_t t = places.edges.at(*edge)[0], u = places.edges.at(*edge)[1];
@@ -294,16 +303,16 @@ Made collapse(Surface s, const std::optional<std::array<std::uint32_t, 2>>& edge
     return s;
 }
 Made collapse_crease(Surface s) {
-    const auto edge = Places(s).crease();
+    const auto edge = DamagePlaces(s).crease();
     return collapse(std::move(s), edge);
 }
 Made collapse_junction(Surface s) {
-    const auto edge = Places(s).junction();
+    const auto edge = DamagePlaces(s).junction();
     return collapse(std::move(s), edge);
 }
 /// Two vertices far apart become one.
 Made pinch(Surface s) {
-    const auto v = Places(s).corner();
+    const auto v = DamagePlaces(s).corner();
     if (!v) return std::nullopt;
     std::uint32_t far = *v;
     const auto distance = [&](std::uint32_t w) {
@@ -317,14 +326,14 @@ Made pinch(Surface s) {
 }
 /// Two vertices change places.
 Made exchange(Surface s) {
-    const auto edge = Places(s).crease();
+    const auto edge = DamagePlaces(s).crease();
     if (!edge) return std::nullopt;
     std::swap(s.vertices[(*edge)[0]], s.vertices[(*edge)[1]]);
     return s;
 }
 /// A triangle between vertices that have none.
 Made wall_inside(Surface s) {
-    const auto v = Places(s).corner();
+    const auto v = DamagePlaces(s).corner();
     if (!v) return std::nullopt;
     const Triangle& t = s.triangles[largest(s)];
     const Triangle& u = s.triangles[s.triangles.size() / 2];
@@ -359,7 +368,7 @@ Made flatten(Surface s) {
     return s;
 }
 Made wrong_vertex(Surface s) {
-    const auto v = Places(s).corner();
+    const auto v = DamagePlaces(s).corner();
     if (!v) return std::nullopt;
     Triangle& t = s.triangles[largest(s)];
     if (std::ranges::count(t, *v) != 0) return std::nullopt;
@@ -369,8 +378,8 @@ Made wrong_vertex(Surface s) {
 
 } // namespace
 
-std::vector<Damage> all_damages() {
-    std::vector<Damage> all;
+std::vector<MeshDamage> all_mesh_damages() {
+    std::vector<MeshDamage> all;
     const auto sized = [&](const std::string& name, const std::string& breaks, auto make,
                            std::initializer_list<double> sizes) {
         for (const double by : sizes)
@@ -392,7 +401,7 @@ std::vector<Damage> all_damages() {
     sized("coarsen", "vertices", coarsen, {1e-11, 1e-9, 1e-6, 1e-3});
     sized("stray triangle", "coverage", stray, {1e-9, 1e-3, 1});
     sized("gap at an edge", "topology", gap_at_edge, {1e-12, 1e-9, 1e-6, 1e-2, 0.5});
-    const std::vector<Damage> others{
+    const std::vector<MeshDamage> others{
         {"flip one", "orientation", flip_one},
         {"flip all", "orientation", flip_all},
         {"flip half", "orientation", flip_half},
@@ -408,8 +417,9 @@ std::vector<Damage> all_damages() {
         {"repeat one turned", "distinct", repeat_turned},
         {"repeat one with own vertices", "welded", repeat_with_own_vertices},
         {"repeat all", "distinct", repeat_all},
-        {"repeat a smaller one", "conforming", repeat_smaller},
-        {"repeat a smaller one, for coverage", "coverage", repeat_smaller},
+        {"repeat a smaller one", "coverage", repeat_smaller},
+        {"pierce", "conforming", pierce},
+        {"pierce, for coverage", "coverage", pierce},
         {"corner twice", "distinct", no_area},
         {"collinear", "distinct", no_area_between_points},
         {"unweld one", "welded", unweld},

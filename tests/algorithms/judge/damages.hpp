@@ -23,16 +23,16 @@ using terrane::Surface;
 using terrane::Triangle;
 
 /// A damage. It returns nothing where a mesh has no place for it.
-struct Damage {
+struct MeshDamage {
     std::string name;
     std::string breaks; ///< a property
     std::function<std::optional<Surface>(Surface)> make;
 };
 
 /// Where a mesh can be damaged: found without the code that judges.
-class Places {
+class DamagePlaces {
 public:
-    explicit Places(const Surface& s) : s_(s) {
+    explicit DamagePlaces(const Surface& s) : s_(s) {
         for (std::uint32_t t = 0; t < s.triangles.size(); ++t)
             for (unsigned k = 0; k < 3; ++k) {
                 const auto [low, high] =
@@ -95,6 +95,6 @@ private:
 };
 
 /// Returns the damages; meshes have an extent of about 10, at most 10^7 from the origin.
-std::vector<Damage> all_damages();
+std::vector<MeshDamage> all_mesh_damages();
 
 } // namespace test_support

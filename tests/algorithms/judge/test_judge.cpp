@@ -122,7 +122,7 @@ TEST_CASE("judge: each damage to a good mesh is found by the property that it br
         const auto whole = judged({good.output}, good.inputs, good.operation);
         INFO(failing(whole));
         REQUIRE(whole.holds());
-        for (const Damage& damage : all_damages()) {
+        for (const MeshDamage& damage : all_mesh_damages()) {
             INFO(damage.name);
             // What is smaller than the bound is rounding.
             const auto by = damage.name.find(" by -");
@@ -137,7 +137,7 @@ TEST_CASE("judge: each damage to a good mesh is found by the property that it br
             found_somewhere.insert(damage.name);
         }
     }
-    CHECK(found_somewhere.size() == all_damages().size());
+    CHECK(found_somewhere.size() == all_mesh_damages().size());
     CHECK(found_somewhere.size() >= 80);
 }
 
