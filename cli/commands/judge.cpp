@@ -28,8 +28,8 @@ arrangement of the inputs, or with the boundary of the operation; each input fil
 --soup judges triangles alone: conforming, distinct, welded, closed, manifold, oriented, tetgen.
 docs/how-to/judge.md says what each property means.
 
-Exit status: 0 all properties hold; 1 one fails; 2 a file cannot be read, or an operand bounds no
-solid; 3 a limit of time or memory was reached, or internal.
+Exit status: 0 all properties hold; 1 one fails; 2 one cannot be judged, a file cannot be read, or an
+operand bounds no solid; 3 a limit of time or memory was reached, or internal.
 
 Examples:
   terrane judge model.obj horizons.ts faults.ts
@@ -96,7 +96,8 @@ ExitStatus judge_file(const JudgeCommand& command) {
     if (command.tags) print(stdout, tag_line(tag_of(*judged)));
     if (!command.json && !command.tags)
         say(stdout, judge_text(*judged, output, name_of_inputs(of_output)));
-    return judged->holds() ? ExitStatus::done : ExitStatus::negative;
+    if (!judged->holds()) return ExitStatus::negative;
+    return judged->complete() ? ExitStatus::done : ExitStatus::bad_input;
 }
 
 } // namespace

@@ -85,7 +85,7 @@ std::string tag_line(std::string_view tag) {
 }
 
 std::string_view tag_of(const MeshJudgement& judged) {
-    if (judged.holds()) return "VALID_OUTPUT";
+    if (judged.holds()) return judged.complete() ? "VALID_OUTPUT" : "NOT_JUDGED";
     const auto fails = [&](std::string_view name) {
         const JudgedProperty* p = judged.find(name);
         return p != nullptr && p->verdict == PropertyVerdict::fails;

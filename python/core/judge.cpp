@@ -15,7 +15,7 @@ using namespace py::literals;
 namespace {
 
 /// (sentence, place, triangles, size)
-py::list to_list(const std::vector<PropertyFlaw>& flaws) {
+py::list flaws_list(const std::vector<PropertyFlaw>& flaws) {
     return rows(flaws, &PropertyFlaw::sentence, &PropertyFlaw::place, &PropertyFlaw::triangles,
                 &PropertyFlaw::size);
 }
@@ -35,7 +35,8 @@ py::list judge_surfaces(const py::sequence& output, const std::optional<py::sequ
     py::list properties;
     for (const JudgedProperty& p : found.properties)
         properties.append(py::make_tuple(to_text(p.name), to_text(std::string(name_of(p.verdict))),
-                                         to_text(p.sentence), p.count, p.size, to_list(p.flaws)));
+                                         to_text(p.sentence), p.count, p.size,
+                                         flaws_list(p.flaws)));
     return properties;
 }
 

@@ -69,6 +69,7 @@ public:
 
     Comparison operator()() {
         found_.largest_move = matching_.largest_move;
+        find_crowded();
         find_torn();
         find_missing_points();
         find_missing_curves();
@@ -99,6 +100,40 @@ private:
         return {p.x / 2 + q.x / 2, p.y / 2 + q.y / 2, p.z / 2 + q.z / 2};
     }
 
+    /// Finds exact points nearer to others, or to edges, than rounding can tell apart.
+    void find_crowded() {
+        std::vector<Point3> places;
+        std::vector<std::uint32_t> used;
+        for (std::uint32_t x = 0; x < target_.exact.vertices.size(); ++x) {
+            places.push_back(nearest(x));
+            if (!cells_.at_vertex[x].empty()) used.push_back(x);
+        }
+        crowded_.assign(places.size(), false);
+        const PointGrid grid(places, used, 2 * bound_);
+        for (const std::uint32_t x : used)
+            grid.for_near(places[x], [&](std::uint32_t y) {
+                if (x != y) crowded_[x] = true;
+            });
+        for (const auto& [a, b, c] : target_.triangles) {
+            const Point3 u = minus(places[b], places[a]), v = minus(places[c], places[a]);
+            const double longest = std::max({length(u), length(v), length(minus(u, v))});
+            if (length(cross(u, v)) > 4 * bound_ * longest) continue;
+            crowded_[a] = crowded_[b] = crowded_[c] = true;
+        }
+        doubtful_.assign(cells_.cells.size(), false);
+        for (const std::uint32_t x : used)
+            for (const std::uint32_t c : cells_.at_vertex[x])
+                if (crowded_[x]) doubtful_[c] = true;
+    }
+    [[nodiscard]] bool is_crowded(std::uint32_t v) const {
+        return std::ranges::any_of(matching_.preimages[v],
+                                   [this](std::uint32_t x) { return crowded_[x]; });
+    }
+    [[nodiscard]] bool has_crowded(std::uint32_t t) const {
+        return std::ranges::any_of(output_.soup.triangles[t],
+                                   [this](std::uint32_t v) { return is_crowded(v); });
+    }
+
     /// Finds edges of one triangle where the exact regions have no border.
     void find_torn() {
         std::vector<Edge> exact;
@@ -113,15 +148,17 @@ private:
             if (std::ranges::binary_search(exact, e)) continue;
             const PropertyFlaw flaw{
                 "a border where the exact regions have none", middle({0, e[0], e[1], 1}), {}, 0};
-            found_.topology.add(flaw);
+            const bool in_doubt = is_crowded(e[0]) || is_crowded(e[1]);
+            found_.topology.add(flaw, in_doubt);
             // It has several triangles once points are joined: they are torn within the bound.
-            if (output_.triangles_at(e[0], e[1]) > 1) found_.welded.add(flaw);
+            if (output_.triangles_at(e[0], e[1]) > 1) found_.welded.add(flaw, in_doubt);
         }
     }
 
     void find_missing_points() {
         for (const std::uint32_t x : separation_.missing())
-            found_.vertices.add({"no vertex is at a corner of the exact regions", nearest(x)});
+            found_.vertices.add({"no vertex is at a corner of the exact regions", nearest(x)},
+                                crowded_[x]);
     }
 
     void find_missing_curves() {
@@ -135,7 +172,8 @@ private:
                                     nearest(low).y / 2 + nearest(high).y / 2,
                                     nearest(low).z / 2 + nearest(high).z / 2},
                                    {},
-                                   length(minus(nearest(low), nearest(high)))});
+                                   length(minus(nearest(low), nearest(high)))},
+                                  crowded_[low] || crowded_[high]);
         }
     }
     /// Whether the mesh leaves out both ends of an edge, as points of a longer straight one.
@@ -156,7 +194,8 @@ private:
                 {is_off[t] ? "a triangle lies off the surfaces" : "a triangle is in no region",
                  middle(t),
                  {number(t)},
-                 area(t)});
+                 area(t)},
+                has_crowded(t));
         }
     }
 
@@ -220,18 +259,17 @@ private:
         const Cell& cell = cells_.cells[c];
         const Triangle& k = target_.triangles[cell.triangle];
         const Point3& at = nearest(k[0]);
-        found_.topology.add({"a region lacks a corner", at, {}, cell.area});
-        add_area(cell.area - covered, length(minus(nearest(k[0]), nearest(k[1]))), at);
+        found_.topology.add({"a region lacks a corner", at, {}, cell.area}, doubtful_[c]);
+        add_area(c, cell.area - covered, length(minus(nearest(k[0]), nearest(k[1]))), at);
     }
     /// Adds an area that is missing, or too much if it is negative, unless rounding may make it.
-    void add_area(double net, double perimeter, const Point3& at) {
+    void add_area(std::uint32_t c, double net, double perimeter, const Point3& at) {
         if (std::abs(net) <= 2 * bound_ * perimeter) return;
         (net > 0 ? found_.missing_area : found_.extra_area) += std::abs(net);
-        found_.coverage.add({net > 0 ? "a part of a region is not covered"
-                                     : "a region is covered more than once, or beyond its boundary",
-                             at,
-                             {},
-                             std::abs(net)});
+        const char* const what = net > 0
+                                     ? "a part of a region is not covered"
+                                     : "a region is covered more than once, or beyond its boundary";
+        found_.coverage.add({what, at, {}, std::abs(net)}, doubtful_[c]);
     }
 
     /// Divides edges at the vertices that they pass along edges of cells.
@@ -264,15 +302,17 @@ private:
         found_.topology.add({"the triangles in a region do not meet along its boundary",
                              middle(edges[0]),
                              {},
-                             perimeter});
-        add_area(net, perimeter, middle(edges[0]));
+                             perimeter},
+                            doubtful_[edges[0].cell]);
+        add_area(edges[0].cell, net, perimeter, middle(edges[0]));
     }
 
     void find_turned() {
         for (std::uint32_t t = 0; t < output_.soup.triangles.size(); ++t) {
             const auto cell = placing_.cell_of[t];
             if (cell == no_index || placing_.facing[t] > 0 || cells_.cells[cell].either) continue;
-            found_.orientation.add({"a triangle faces the other way", middle(t), {number(t)}, 0});
+            found_.orientation.add({"a triangle faces the other way", middle(t), {number(t)}, 0},
+                                   doubtful_[cell]);
         }
     }
 
@@ -285,6 +325,8 @@ private:
     Matching matching_;
     Separation separation_;
     Placing placing_;
+    std::vector<bool> crowded_;  ///< per exact vertex
+    std::vector<bool> doubtful_; ///< per cell: it has a crowded vertex
 };
 
 } // namespace

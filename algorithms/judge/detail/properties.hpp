@@ -14,8 +14,11 @@ class Flaws {
 public:
     Flaws(std::string name, std::size_t most) : most_(most) { property_.name = std::move(name); }
 
-    void add(PropertyFlaw flaw) {
-        property_.verdict = PropertyVerdict::fails;
+    /// in_doubt: features of the exact result that are thinner than the bound may be why.
+    void add(PropertyFlaw flaw, bool in_doubt = false) {
+        if (!in_doubt) property_.verdict = PropertyVerdict::fails;
+        if (property_.verdict == PropertyVerdict::holds)
+            property_.verdict = PropertyVerdict::not_judged;
         if (++property_.count <= most_) property_.flaws.push_back(std::move(flaw));
     }
     [[nodiscard]] std::size_t count() const { return property_.count; }
