@@ -49,6 +49,7 @@ std::string judge_text(const MeshJudgement& judged, const Inputs& output, const 
     }
     const auto failed =
         std::ranges::count(judged.properties, PropertyVerdict::fails, &JudgedProperty::verdict);
+    if (failed == 0 && !judged.complete()) return text + "result: not all judged\n";
     return text + (failed == 0 ? "result: all hold\n"
                                : fmt::format("result: {} of {} properties fail\n", failed,
                                              judged.properties.size()));

