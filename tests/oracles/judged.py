@@ -16,8 +16,8 @@ import tempfile
 DATA = pathlib.Path(__file__).resolve().parent.parent / "data"
 ENDINGS = {".ts", ".obj", ".off", ".ply", ".stl", ".ml", ".vtp", ".vtu", ".vtk", ".msh"}
 
-#: Where rounding moves points farther than the bound, as `terrane arrange` says.
-FAR = ("017-", "019-", "020-", "022-")
+#: Where rounding moves points farther than the bound, or joins surfaces up to a border.
+FAR = ("008-", "017-", "019-", "020-", "022-")
 
 
 def groups():

@@ -211,7 +211,8 @@ private:
             const auto kept = static_cast<std::uint32_t>(at - output_.soup.input_of.begin());
             found_.extra_area += area(kept);
             found_.coverage.add(
-                {"a triangle covers its place again", middle(kept), {t, first}, area(kept)});
+                {"a triangle covers its place again", middle(kept), {t, first}, area(kept)},
+                doubtful_[cell]);
         }
     }
 
