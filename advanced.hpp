@@ -9,6 +9,7 @@
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/core/process_memory.hpp>
 #include <terrane/algorithms/intersection/contact_kind.hpp>
+#include <terrane/algorithms/judge/judge.hpp>
 #include <terrane/algorithms/layers/layers.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The independent verifier, which judges results with rational numbers.
+// The independent verifier, which judges results with rational numbers; and the judgement of any mesh by
+// its inputs.
 #pragma once
 
 #include <terrane/capi/arrangement.h>
@@ -63,6 +64,84 @@ TERRANE_API const char* terrane_verdict_sentence(const terrane_verdict* verdict,
 /// Returns the elements that a violation is about; docs/reference/certificate.md says of what kind.
 TERRANE_API const uint32_t* terrane_verdict_elements(const terrane_verdict* verdict,
                                                      size_t violation, size_t* count);
+
+/// The operations that terrane_judge knows; NONE: the mesh is an arrangement.
+typedef int32_t terrane_operation;
+enum {
+    TERRANE_OPERATION_NONE = 0,                ///< the arrangement of all inputs
+    TERRANE_OPERATION_UNION = 1,               ///< inside any operand
+    TERRANE_OPERATION_INTERSECTION = 2,        ///< inside all
+    TERRANE_OPERATION_DIFFERENCE = 3,          ///< inside the first and no other
+    TERRANE_OPERATION_SYMMETRIC_DIFFERENCE = 4 ///< inside an odd number
+};
+
+/// What a judgement says of a property.
+typedef int32_t terrane_property_verdict;
+enum {
+    TERRANE_PROPERTY_HOLDS = 0,     ///< it was judged and holds
+    TERRANE_PROPERTY_FAILS = 1,     ///< it was judged and fails
+    TERRANE_PROPERTY_NOT_JUDGED = 2 ///< nothing is known
+};
+
+/// The judgement of a mesh.
+typedef struct terrane_mesh_judgement terrane_mesh_judgement;
+
+/// Options of terrane_judge.
+typedef struct terrane_judge_options {
+    size_t struct_size;          ///< sizeof(terrane_judge_options)
+    double spacings;             ///< how far points may be rounded, in spacings of doubles
+    size_t most_flaws;           ///< flaws that are listed for each property
+    terrane_operation operation; ///< what the mesh is of the inputs
+    int32_t reserved;            ///< 0
+} terrane_judge_options;
+
+/// A property that was judged. Texts live as long as the judgement.
+typedef struct terrane_property {
+    const char* name;                 ///< "conforming", "coverage", ...
+    const char* sentence;             ///< what was found
+    double size;                      ///< largest move, sum of areas, ... as the sentence says
+    size_t count;                     ///< number of flaws
+    size_t listed;                    ///< number of those that are listed
+    terrane_property_verdict verdict; ///< whether it holds
+    int32_t reserved;                 ///< 0
+} terrane_property;
+
+/// A place where a property fails. Texts and arrays live as long as the judgement.
+typedef struct terrane_property_flaw {
+    const char* sentence;      ///< what is wrong
+    double place[3];           ///< where
+    double size;               ///< area, distance or angle; or 0
+    const uint32_t* triangles; ///< of the mesh, counted through its surfaces
+    size_t triangle_count;     ///< number of them
+} terrane_property_flaw;
+
+/// Gives options their defaults. Errors: BAD_ARGUMENT.
+TERRANE_API terrane_code terrane_judge_options_init(terrane_judge_options* options,
+                                                    size_t struct_size);
+
+/// Judges a mesh, whatever program made it, by the surfaces that it was made from; without inputs
+/// (NULL), its triangles alone. Each surface is one operand of an operation. Free the judgement with
+/// terrane_mesh_judgement_free. Errors: BAD_ARGUMENT, BAD_OPTION, NOT_CLOSED, INTERRUPTED,
+/// OUT_OF_MEMORY, INTERNAL.
+TERRANE_API terrane_code terrane_judge(const terrane_surfaces* output,
+                                       const terrane_surfaces* inputs,
+                                       const terrane_judge_options* options, const terrane_run* run,
+                                       terrane_mesh_judgement** out, terrane_error** error);
+/// Frees a judgement.
+TERRANE_API void terrane_mesh_judgement_free(terrane_mesh_judgement* judgement);
+/// Returns 1 if no property fails, else 0.
+TERRANE_API int terrane_mesh_judgement_holds(const terrane_mesh_judgement* judgement);
+/// Returns the number of properties.
+TERRANE_API size_t terrane_mesh_judgement_count(const terrane_mesh_judgement* judgement);
+/// Writes a property to *property. Errors: BAD_ARGUMENT.
+TERRANE_API terrane_code terrane_mesh_judgement_property(const terrane_mesh_judgement* judgement,
+                                                         size_t number, terrane_property* property,
+                                                         size_t struct_size);
+/// Writes a flaw of a property to *flaw. Errors: BAD_ARGUMENT.
+TERRANE_API terrane_code terrane_mesh_judgement_flaw(const terrane_mesh_judgement* judgement,
+                                                     size_t number, size_t flaw_number,
+                                                     terrane_property_flaw* flaw,
+                                                     size_t struct_size);
 
 #ifdef __cplusplus
 }

@@ -510,7 +510,7 @@ def main():
                "forge_layered": lambda: forge_kind(5), "forge_cut": lambda: forge_kind(4, 1),
                "forge_sealed": forge_sealed,
                "arrange": soups, "rounding": soups, "crowded": crowded, "regions": soups,
-                "tiles": tiles, "known": soups,
+                "tiles": tiles, "known": soups, "judge": soups,
                 "volumes": soups, "tetrahedra": soups, "pieces": pieces,
                 "kept": kept}
     seeds = {t: dict(make()) for t, make in targets.items()}

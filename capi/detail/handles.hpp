@@ -16,6 +16,7 @@
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/judge/judge.hpp>
 #include <terrane/algorithms/layers/layers.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
@@ -68,6 +69,7 @@ enum class Kind : std::uint64_t {
     built,
     simplified,
     error,
+    mesh_judgement,
 };
 
 /// The base of handles: their type comes first in memory.
@@ -257,6 +259,11 @@ struct terrane_verdict : terrane::capi::detail::Handle<terrane::capi::detail::Ki
         std::vector<std::uint32_t> elements{};
     };
     std::vector<Item> items{};
+};
+
+struct terrane_mesh_judgement
+    : terrane::capi::detail::Handle<terrane::capi::detail::Kind::mesh_judgement> {
+    terrane::MeshJudgement judgement{};
 };
 
 struct terrane_built : terrane::capi::detail::Handle<terrane::capi::detail::Kind::built> {

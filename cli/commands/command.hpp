@@ -25,6 +25,7 @@ Command convert_command(CLI::App& program);
 Command ensemble_command(CLI::App& program);
 Command fill_command(CLI::App& program);
 Command improve_command(CLI::App& program);
+Command judge_command(CLI::App& program);
 Command layer_command(CLI::App& program);
 Command manual_command(CLI::App& program);
 Command report_command(CLI::App& program);

@@ -38,11 +38,12 @@ struct FileRule {
     std::function<Words()> endings;
 };
 
-const std::array<FileRule, 9>& file_rules() {
+const std::array<FileRule, 10>& file_rules() {
     const auto read = [] { return formats(is_read); };
     const auto written = [] { return formats(is_written); };
-    static const std::array<FileRule, 9> rules{{
+    static const std::array<FileRule, 10> rules{{
         {"IN", "", read},
+        {"MESH", "", read},
         {"--within", "", read},
         {"--hard", "", read},
         {"--soft", "", read},

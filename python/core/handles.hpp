@@ -63,6 +63,7 @@ void bind_fill(py::module_& module);
 void bind_layers(py::module_& module);
 void bind_tetrahedra(py::module_& module);
 void bind_verify(py::module_& module);
+void bind_judge(py::module_& module);
 void bind_project(py::module_& module);
 void bind_ensemble(py::module_& module);
 void bind_report(py::module_& module);

@@ -38,6 +38,7 @@ PYBIND11_MODULE(_core, module) {
     bind_layers(module);
     bind_tetrahedra(module);
     bind_verify(module);
+    bind_judge(module);
     bind_project(module);
     bind_ensemble(module);
     bind_report(module);

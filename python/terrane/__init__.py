@@ -26,6 +26,7 @@ from ._errors import ERROR_CODES, Doubt, Error, OutOfMemory
 from ._examples import complete as _complete
 from ._files import read, save
 from ._holes import BorderLoop, Filled, FilledHole, FillReport, fill, holes
+from ._judgement import JudgedProperty, MeshJudgement, PropertyFlaw, judge
 from ._layers import Layered, LayerReport, OutOfOrder, layers
 from ._memory import keep_freed_memory
 from ._mesh import CheckReport, Contact, Mesh, Region, Regions, mesh
@@ -55,13 +56,13 @@ __version__: str = _core.version
 __all__ = [
     "Arrangement", "Block", "BlockOutcome", "BlockParts", "BlockVolume", "Blocks", "BorderLoop", "Built", "CheckReport", "ClosedGap",
     "Contact", "Corner", "Doubt", "ERROR_CODES", "Ensemble", "Error", "Failure", "FillReport", "Filled", "FilledHole", "Frame",
-    "HAS_REPORTS", "Improved", "IndexLists", "Interface", "InterfaceParts", "Juxtaposed", "Juxtaposition", "LayerReport", "Layered",
-    "Leak", "Line", "Mesh", "Model", "NO_INDEX", "OpenBorder", "OpenGap", "OutOfMemory", "OutOfOrder",
-    "Patch", "ROLES", "Region", "Regions", "Relation", "RoundedMesh", "RoundingReport",
+    "HAS_REPORTS", "Improved", "IndexLists", "Interface", "InterfaceParts", "JudgedProperty", "Juxtaposed", "Juxtaposition", "LayerReport", "Layered",
+    "Leak", "Line", "Mesh", "MeshJudgement", "Model", "NO_INDEX", "OpenBorder", "OpenGap", "OutOfMemory", "OutOfOrder",
+    "Patch", "PropertyFlaw", "ROLES", "Region", "Regions", "Relation", "RoundedMesh", "RoundingReport",
     "RuleViolation", "SealAdvice", "SealChange", "SealTrial", "Sealed", "Structure", "Surface",
     "SurfaceCut", "SurfaceInfo", "Tetrahedra", "Verdict", "VerifiedFile", "Violation",
     "VolumeOfInterest", "Volumes", "arrange", "as_surface", "as_surfaces", "box", "build", "check",
-    "closed", "distance", "ensemble", "extend", "fill", "holes", "improve", "keep_freed_memory", "layers", "mesh", "model", "polygon",
+    "closed", "distance", "ensemble", "extend", "fill", "holes", "improve", "judge", "keep_freed_memory", "layers", "mesh", "model", "polygon",
     "read", "regions", "rotated_box", "round", "save", "seal", "structure", "suggest_seal",
     "tetrahedralize", "verify", "volume_of_interest", "volumes",
 ]

@@ -32,7 +32,7 @@ MAY_BE_NULL = {"left", "run", "error", "count", "length", "options", "search", "
                "block_count", "column", "improved", "rules", "size_of", "size_in", "split", "inputs", "edge_length_of", "merged",
                "surfaces_or_null", "holes", "layered", "layers", "growth", "volume_files", "model_folder", "tetrahedra", "model"}
 #: Limits, which a number may exceed so far that nothing reaches them.
-LIMITS = {"limit", "time", "memory", "tolerance", "max_area", "max_move", "max_rounds", "max_deviation", "max_change", "max_volume", "max_volume_change", "time_limit",
+LIMITS = {"spacings", "most_flaws", "limit", "time", "memory", "tolerance", "max_area", "max_move", "max_rounds", "max_deviation", "max_change", "max_volume", "max_volume_change", "time_limit",
           "max_triangles", "max_edge", "gap_slope", "curve_length", "growth", "smallest", "thickness_share", "rings"}
 LARGE = {"inf", "1e+308", "2147483647"}
 #: Members that are of another function, which takes the same struct.

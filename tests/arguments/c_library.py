@@ -171,6 +171,7 @@ class Library:
             "terrane_layered": lambda: self.make("terrane_stack_layers", self.boxed, ctypes.addressof(layers), 2, None, None),
             "terrane_tetrahedra": lambda: self.make("terrane_tetrahedralize", h("terrane_model"), None, None),
             "terrane_verdict": lambda: self.make_verdict(),
+            "terrane_mesh_judgement": lambda: self.make("terrane_judge", self.boxed, self.boxed, None, None),
             "terrane_built": lambda: self.make("terrane_build", self.text(PROJECT), self.text(str(DATA)), None, None),
         }
         return how[kind]()

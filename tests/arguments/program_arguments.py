@@ -33,7 +33,7 @@ BASES = {
     "build": "project.json -o out", "ensemble": "project.json -o out --realisations=2 --grid=5 --engine=serial",
     "info": "top.ts fault.ts", "check": "top.ts fault.ts", "fill": "dish.obj -o out.stl", "layer": "--hard=salt.ts --soft=shale.ts --keep=upper -o out.stl",
     "report": f"top.ts fault.ts -o out.html {BOX}", "view": f"top.ts fault.ts {BOX}", "convert": "top.ts out.stl",
-    "verify": "certificate.json", "completion": "bash", "manual": "arrange"}
+    "verify": "certificate.json", "judge": "arranged.obj top.ts fault.ts", "completion": "bash", "manual": "arrange"}
 #: Commands that are not run, with the reason; their options are only refused.
 NOT_RUN = {"bench": "it measures for hours"}
 #: How a command runs or what it says, not what it makes: only nonsense is tried.
@@ -43,7 +43,7 @@ HOW = {"--threads", "--quiet", "--color", "--search", "--check", "--stats", "--s
        "--suggest-seal", "--corner", "--keep-unverified", "--max-volume-change", "--least-quality", "--max-triangles",
        "--crease-angle", "--curve-angle", "--thickness-share", "--growth", "--smallest", "--layers-in-gaps", "--turn", "--passes",
        "--max-deviation", "--max-change", "--hard", "--soft", "--bridge-faults", "--gap-slope", "--extend", "--edge-length-of",
-       "--size-of", "--dissolve", "--resolution", "--min-volume", "--tolerance", "--time", "--expect-input", "--no-optimise", "--optimise"}
+       "--size-of", "--dissolve", "--resolution", "--min-volume", "--tolerance", "--time", "--expect-input", "--no-optimise", "--optimise", "--spacings"}
 #: A value that makes sense ("" for flags), and what it needs besides.
 SENSE = {
     "--depth": ("", "IN=seabed.asc"), "--max-edge": ("90", "IN=points.csv"), "--columns": ("1,3,2", "IN=points.csv"), "--box": (BOX[6:], ""),
@@ -59,6 +59,7 @@ SENSE = {
     "--contact": ("-1000", ""), "--only": ("1", "BASE=project.json -o out"), "--json": ("", ""), "--method": ("rbf", ""),
     "--model": ("gaussian", ""), "--isotropic": ("", ""), "--smoothing": ("3", "--method=rbf"), "--mesh-size": ("9", ""),
     "--rings": ("1", ""), "--holes": ("1", ""), "--max-area": ("1", ""), "--list": ("", "BASE=fold.ts"), "--map": ("m.svg", ""),
+    "--soup": ("", "BASE=body.ts"), "--operation": ("union", "BASE=body.ts body.ts"), "--tags": ("", ""),
     "--points": ("p.csv", ""), "--keep": ("lower", ""), "--min-thickness": ("5", ""),
     "--layer": ("salt=2", "BASE=salt.ts shale.ts -o out.stl --layer=shale=1")}
 #: The same option of another command.
@@ -71,6 +72,7 @@ ALSO = {("ensemble", "--grid"): ("7", ""), ("layer", "--certificate"): ("c.json"
         ("layer", "--min-thickness"): ("5", "BASE=salt.ts shale.ts -o out.stl --layer=shale=1 --layer=salt=2"),
         ("layer", "--depth"): None, ("layer", "--max-edge"): None, ("layer", "--columns"): None, ("verify", "--depth"): None,
         ("verify", "--columns"): None, ("fill", "--columns"): None, ("verify", "--max-edge"): None,
+        ("judge", "--depth"): None, ("judge", "--max-edge"): None, ("judge", "--columns"): None,
         ("volume", "--seal-plot"): ("p.svg", f"BASE=top.ts base.ts fault.ts {BOX} --suggest-seal"),
         ("volume", "--grid"): ("grid.grdecl", "--cells=cells.grdecl"),
         ("fill", "--max-edge"): None, ("tetrahedralize", "--seal"): None, ("report", "--seal"): None, ("view", "--seal"): None,
@@ -80,7 +82,7 @@ NONSENSE = ["", "nonsense", "-1", "nan", "inf", "-inf", "1e999", "99999999999999
             "\udcff", "7x", "0x10", "1 2", "%s%n", "a=b=c"]
 VOLUMES = ("--rotated-box", "--polygon", "--between", "--within")
 #: Limits that large numbers do not reach.
-LIMITS = {"--rounds", "--max-move", "--max-volume-change", "--max-triangles", "--max-deviation", "--max-change", "--time-limit", "--time", "--memory",
+LIMITS = {"--spacings", "--rounds", "--max-move", "--max-volume-change", "--max-triangles", "--max-deviation", "--max-change", "--time-limit", "--time", "--memory",
           "--max-area", "--smallest", "--growth", "--curve-length", "--turn", "--thickness-share", "--least-quality", "--max-edge", "--rings", "--mesh-size", "--gap-slope", "--max-volume", "--retries"}
 
 

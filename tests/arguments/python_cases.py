@@ -165,6 +165,8 @@ FUNCTIONS = {
     "verify": (lambda f: dict(result=f.certificate), {
         "inputs": lambda f: [str(f.files / f"{n}.ts") for n in ("base", "top", "F1")], "max_deviation": 0, "max_change": None,
         "folder": None, "time": None, "memory": None}),
+    "judge": (lambda f: dict(output=f.crossing), {
+        "inputs": lambda f: f.crossing, "operation": None, "spacings": None, "most_flaws": 2}),
     "build": (lambda f: dict(project=str(f.files / "project.json")), {"folder": None}),
     "ensemble": (lambda f: dict(project=str(f.files / "project.json"), realisations=2, engine="serial"), {
         "folder": None, "seed": 2, "contacts": 0.5, "grid": 7, "workers": None, "scheduler": None, "retries": None,

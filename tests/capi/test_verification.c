@@ -114,7 +114,40 @@ static void test_certificates(void) {
     CHECK(verdict == NULL);
 }
 
+static void test_judgement(void) {
+    terrane_surfaces* const s = small_surfaces();
+    terrane_mesh_judgement* judged = NULL;
+    terrane_judge_options options;
+    CHECK(terrane_judge_options_init(&options, sizeof options) == TERRANE_OK);
+    CHECK(options.spacings == 16 && options.most_flaws == 10);
+    options.most_flaws = 1;
+    WORKS(terrane_judge(s, s, &options, NULL, &judged, &error)); // inputs are no arrangement of theirs
+    CHECK(terrane_mesh_judgement_holds(judged) == 0 && terrane_mesh_judgement_count(judged) == 8);
+    terrane_property property;
+    terrane_property_flaw flaw;
+    CHECK(terrane_mesh_judgement_property(judged, 0, &property, sizeof property) == TERRANE_OK);
+    CHECK(same_text(property.name, "conforming") && strlen(property.sentence) > 5);
+    CHECK(property.verdict == TERRANE_PROPERTY_FAILS && property.count >= property.listed);
+    CHECK(property.listed == 1);
+    CHECK(terrane_mesh_judgement_flaw(judged, 0, 0, &flaw, sizeof flaw) == TERRANE_OK);
+    CHECK(flaw.triangle_count == 2 && flaw.triangles[0] < flaw.triangles[1]);
+    CHECK(terrane_mesh_judgement_flaw(judged, 0, 1, &flaw, sizeof flaw) == TERRANE_BAD_ARGUMENT);
+    CHECK(terrane_mesh_judgement_property(judged, 8, &property, sizeof property) ==
+          TERRANE_BAD_ARGUMENT);
+    terrane_mesh_judgement_free(judged);
+    WORKS(terrane_judge(s, NULL, NULL, NULL, &judged, &error)); // alone
+    CHECK(terrane_mesh_judgement_property(judged, 3, &property, sizeof property) == TERRANE_OK);
+    CHECK(same_text(property.name, "closed"));
+    terrane_mesh_judgement_free(judged);
+    options.operation = TERRANE_OPERATION_UNION;
+    FAILS(TERRANE_NOT_CLOSED, terrane_judge(s, s, &options, NULL, &judged, &error));
+    options.operation = 9;
+    FAILS(TERRANE_BAD_ARGUMENT, terrane_judge(s, s, &options, NULL, &judged, &error));
+    terrane_surfaces_free(s);
+}
+
 void test_verification(void) {
     test_results();
+    test_judgement();
     test_certificates();
 }

@@ -248,11 +248,30 @@ Rational mesh_volume(const ExactMesh& mesh) {
     return sum;
 }
 
+Surface to_surface(const ExactMesh& mesh) {
+    Surface s{"", terrane::Role::unknown, {}, {}};
+    std::map<ExactMesh::Vertex_index, std::uint32_t> number;
+    for (const auto v : mesh.vertices()) {
+        number[v] = static_cast<std::uint32_t>(s.vertices.size());
+        const auto& p = CGAL::exact(mesh.point(v));
+        s.vertices.push_back(
+            {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())});
+    }
+    for (const auto f : mesh.faces()) {
+        Triangle t{};
+        unsigned i = 0;
+        for (const auto v : vertices_around_face(mesh.halfedge(f), mesh)) t[i++] = number[v];
+        s.triangles.push_back(t);
+    }
+    return s;
+}
+
 /// The result of CGAL.
 struct Refined {
     std::array<Parts, 2> parts;
     std::array<std::optional<Rational>, 4> six; ///< six times the volumes of the wanted Booleans;
                                                 ///< none if CGAL finds them not manifold
+    MadeByCgal made;
 };
 
 class Corefinement {
@@ -284,6 +303,7 @@ public:
                           CGAL::parameters::edge_is_constrained_map(is_[1]));
         for (unsigned k = 0; k < 2; ++k)
             result.parts[k] = parts_of(mesh_[k], tracker_.parents.at(&mesh_[k]), is_[k]);
+        for (const ExactMesh& mesh : mesh_) result.made.corefined.push_back(to_surface(mesh));
         return result;
     }
 
@@ -297,7 +317,10 @@ private:
             mesh_[0], mesh_[1], asked, parameters().edge_is_constrained_map(is_[0]),
             CGAL::parameters::edge_is_constrained_map(is_[1]));
         for (unsigned i = 0; i < 4; ++i)
-            if (wanted[i] && possible[i]) result.six[i] = mesh_volume(made[i]);
+            if (wanted[i] && possible[i]) {
+                result.six[i] = mesh_volume(made[i]);
+                result.made.booleans[i] = to_surface(made[i]);
+            }
     }
 
     std::array<ExactMesh, 2> mesh_;
@@ -345,6 +368,17 @@ Outcome compare(std::span<const Surface> pair, const Arrangement& a) {
     if (outcome.flaw.empty()) outcome.flaw = volume_flaw(borders, spots, theirs);
     outcome.crossing = theirs.parts[0].intersection_edges.size();
     return outcome;
+}
+
+std::optional<MadeByCgal> made_by_cgal(std::span<const Surface> pair) {
+    for (const Surface& s : pair)
+        if (!broken_condition(s).empty()) return std::nullopt;
+    const bool solid = bounds_volume(pair[0]) && bounds_volume(pair[1]);
+    try {
+        return Corefinement(pair).run({solid, solid, solid, solid}).made;
+    } catch (const pmp::Corefinement::Self_intersection_exception&) {
+        return std::nullopt;
+    }
 }
 
 } // namespace corefine_oracle

@@ -8,8 +8,11 @@
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 
+#include <array>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace corefine_oracle {
 
@@ -23,5 +26,16 @@ struct Outcome {
 
 /// Compares the arrangement of two surfaces with CGAL's corefinement.
 Outcome compare(std::span<const terrane::Surface> pair, const terrane::Arrangement& a);
+
+/// What CGAL makes of two surfaces, with corners at doubles near the exact ones.
+struct MadeByCgal {
+    std::vector<terrane::Surface> corefined; ///< both
+    std::array<std::optional<terrane::Surface>, 4>
+        booleans; ///< union, intersection, first minus second, second minus first; none where CGAL
+                  ///< makes none
+};
+
+/// Returns what CGAL makes; nothing if one of its conditions is violated.
+std::optional<MadeByCgal> made_by_cgal(std::span<const terrane::Surface> pair);
 
 } // namespace corefine_oracle

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/judge/detail/comparison.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/figure.hpp>
+#include <terrane/algorithms/core/no_index.hpp>
+#include <terrane/algorithms/judge/detail/placing.hpp>
+#include <terrane/algorithms/judge/detail/separation.hpp>
+#include <terrane/algorithms/mesh/triangle_tree.hpp>
+
+namespace terrane::judging {
+
+Comparison::Comparison(std::size_t most) :
+    welded("welded", most), vertices("vertices", most), curves("curves", most),
+    coverage("coverage", most), topology("topology", most), orientation("orientation", most) {}
+
+namespace {
+
+/// An edge of the difference between the boundary of a cell and that of the triangles in it: so many
+/// times more from low to high than back.
+struct ChainEdge {
+    std::uint32_t cell, low, high;
+    int count;
+};
+
+/// Adds up equal edges; what cancels is left out.
+std::vector<ChainEdge> summed(std::vector<ChainEdge> edges) {
+    const auto key = [](const ChainEdge& e) { return std::array{e.cell, e.low, e.high}; };
+    std::ranges::sort(edges, {}, key);
+    std::vector<ChainEdge> sums;
+    for (const ChainEdge& e : edges) {
+        if (!sums.empty() && key(sums.back()) == key(e))
+            sums.back().count += e.count;
+        else
+            sums.push_back(e);
+    }
+    std::erase_if(sums, [](const ChainEdge& e) { return e.count == 0; });
+    return sums;
+}
+
+ChainEdge chain_edge(std::uint32_t cell, std::uint32_t from, std::uint32_t to, int count) {
+    return from < to ? ChainEdge{cell, from, to, count} : ChainEdge{cell, to, from, -count};
+}
+
+Point3 cross(const Point3& u, const Point3& v) {
+    return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+}
+double dot(const Point3& u, const Point3& v) {
+    return u.x * v.x + u.y * v.y + u.z * v.z;
+}
+Point3 minus(const Point3& p, const Point3& q) {
+    return {p.x - q.x, p.y - q.y, p.z - q.z};
+}
+double length(const Point3& v) {
+    return std::hypot(v.x, v.y, v.z);
+}
+
+class Comparer {
+public:
+    Comparer(const Target& target, const OutputMesh& output, double bound, std::size_t most) :
+        target_(target), output_(output), points_(output.soup.points), bound_(bound), found_(most),
+        cells_(find_cells(target)), matching_(match_vertices(target, cells_, output, bound)),
+        separation_(target, cells_, output, matching_, bound),
+        placing_(place(target, cells_, output, matching_, separation_, bound)) {}
+
+    Comparison operator()() {
+        found_.largest_move = matching_.largest_move;
+        find_crowded();
+        find_torn();
+        find_missing_points();
+        find_missing_curves();
+        find_extra_triangles();
+        find_repeated();
+        compare_chains();
+        find_turned();
+        return std::move(found_);
+    }
+
+private:
+    [[nodiscard]] const Point3& nearest(std::uint32_t x) const {
+        return target_.exact.nearest(VertexId(x));
+    }
+    [[nodiscard]] std::uint32_t number(std::uint32_t t) const { return output_.soup.input_of[t]; }
+    [[nodiscard]] double area(std::uint32_t t) const {
+        const auto [a, b, c] = output_.soup.triangles[t];
+        return length(cross(minus(points_[b], points_[a]), minus(points_[c], points_[a]))) / 2;
+    }
+    [[nodiscard]] Point3 middle(std::uint32_t t) const {
+        const auto [a, b, c] = output_.soup.triangles[t];
+        return {points_[a].x / 3 + points_[b].x / 3 + points_[c].x / 3,
+                points_[a].y / 3 + points_[b].y / 3 + points_[c].y / 3,
+                points_[a].z / 3 + points_[b].z / 3 + points_[c].z / 3};
+    }
+    [[nodiscard]] Point3 middle(const ChainEdge& e) const {
+        const Point3 &p = points_[e.low], &q = points_[e.high];
+        return {p.x / 2 + q.x / 2, p.y / 2 + q.y / 2, p.z / 2 + q.z / 2};
+    }
+
+    /// Finds exact points nearer to triangles of others than rounding can tell apart.
+    void find_crowded() {
+        std::vector<Point3> places;
+        std::vector<std::uint32_t> used;
+        for (std::uint32_t x = 0; x < target_.exact.vertices.size(); ++x) {
+            places.push_back(nearest(x));
+            if (!cells_.at_vertex[x].empty()) used.push_back(x);
+        }
+        crowded_.assign(places.size(), false);
+        const TriangleTree tree(places, target_.triangles);
+        for (const std::uint32_t x : used)
+            for (const auto& near : tree.within(places[x], 16 * bound_)) {
+                if (std::ranges::count(near.triangle, x) != 0) continue;
+                crowded_[x] = true;
+                for (const std::uint32_t y : near.triangle) crowded_[y] = true;
+            }
+        for (const auto& [a, b, c] : target_.triangles) {
+            const Point3 u = minus(places[b], places[a]), v = minus(places[c], places[a]);
+            const double longest = std::max({length(u), length(v), length(minus(u, v))});
+            if (length(cross(u, v)) > 16 * bound_ * longest) continue;
+            crowded_[a] = crowded_[b] = crowded_[c] = true;
+        }
+        doubtful_.assign(cells_.cells.size(), false);
+        for (const std::uint32_t x : used)
+            for (const std::uint32_t c : cells_.at_vertex[x])
+                if (crowded_[x]) doubtful_[c] = true;
+    }
+    [[nodiscard]] bool is_crowded(std::uint32_t v) const {
+        return std::ranges::any_of(matching_.preimages[v],
+                                   [this](std::uint32_t x) { return crowded_[x]; });
+    }
+    /// Finds edges of one triangle where the exact regions have no border.
+    void find_torn() {
+        std::vector<Edge> exact;
+        for (const auto& [low, high] : cells_.borders) {
+            auto path = separation_.image(low, high);
+            if (path.empty()) path = separation_.image(high, low);
+            for (std::size_t i = 0; i + 1 < path.size(); ++i)
+                exact.push_back({std::min(path[i], path[i + 1]), std::max(path[i], path[i + 1])});
+        }
+        sort_unique(exact);
+        for (const Edge& e : output_.borders) {
+            if (std::ranges::binary_search(exact, e)) continue;
+            const PropertyFlaw flaw{
+                "a border where the exact regions have none", middle({0, e[0], e[1], 1}), {}, 0};
+            const bool in_doubt = is_crowded(e[0]) || is_crowded(e[1]);
+            found_.topology.add(flaw, in_doubt);
+            // It has several triangles once points are joined: they are torn within the bound.
+            if (output_.triangles_at(e[0], e[1]) > 1) found_.welded.add(flaw, in_doubt);
+        }
+    }
+
+    void find_missing_points() {
+        for (const std::uint32_t x : separation_.missing())
+            found_.vertices.add({"no vertex is at a corner of the exact regions", nearest(x)},
+                                crowded_[x]);
+    }
+
+    void find_missing_curves() {
+        for (const auto& [low, high] : cells_.curves) {
+            auto edge = separation_.image(low, high);
+            if (edge.empty()) edge = separation_.image(high, low);
+            const bool is_there = edge.empty() ? is_bridged(low, high) : separation_.has_path(edge);
+            if (!is_there)
+                found_.curves.add({"no edge follows an exact intersection curve",
+                                   {nearest(low).x / 2 + nearest(high).x / 2,
+                                    nearest(low).y / 2 + nearest(high).y / 2,
+                                    nearest(low).z / 2 + nearest(high).z / 2},
+                                   {},
+                                   length(minus(nearest(low), nearest(high)))},
+                                  crowded_[low] || crowded_[high]);
+        }
+    }
+    /// Whether the mesh leaves out both ends of an edge, as points of a longer straight one.
+    [[nodiscard]] bool is_bridged(std::uint32_t low, std::uint32_t high) const {
+        const auto& missing = separation_.missing();
+        return matching_.image[low] == no_index && matching_.image[high] == no_index &&
+               !std::ranges::binary_search(missing, low) &&
+               !std::ranges::binary_search(missing, high);
+    }
+
+    void find_extra_triangles() {
+        // Rounding joins parts that are near each other to triangles which are in neither.
+        const bool any_crowded = std::ranges::find(crowded_, true) != crowded_.end();
+        std::vector<bool> is_off(output_.soup.triangles.size());
+        for (const std::uint32_t t : placing_.off) is_off[t] = true;
+        for (std::uint32_t t = 0; t < is_off.size(); ++t) {
+            if (placing_.cell_of[t] != no_index) continue;
+            found_.extra_area += area(t);
+            found_.coverage.add(
+                {is_off[t] ? "a triangle lies off the surfaces" : "a triangle is in no region",
+                 middle(t),
+                 {number(t)},
+                 area(t)},
+                any_crowded);
+        }
+    }
+
+    /// Finds triangles that are there more often than there are inputs at their place.
+    void find_repeated() {
+        std::map<std::uint32_t, std::uint32_t> times;
+        for (const auto& [t, first] : output_.soup.duplicates) {
+            const auto at = std::ranges::lower_bound(output_.soup.input_of, first);
+            if (at == output_.soup.input_of.end() || *at != first) continue; // it has no area
+            const auto cell =
+                placing_.cell_of[static_cast<std::size_t>(at - output_.soup.input_of.begin())];
+            if (cell == no_index || ++times[first] < cells_.cells[cell].parents) continue;
+            const auto kept = static_cast<std::uint32_t>(at - output_.soup.input_of.begin());
+            found_.extra_area += area(kept);
+            found_.coverage.add(
+                {"a triangle covers its place again", middle(kept), {t, first}, area(kept)},
+                doubtful_[cell]);
+        }
+    }
+
+    void compare_chains() {
+        std::vector<ChainEdge> edges;
+        for (const CellEdge& e : separation_.boundary())
+            edges.push_back(chain_edge(e.cell, e.from, e.to, 1));
+        for (std::uint32_t t = 0; t < output_.soup.triangles.size(); ++t) {
+            if (placing_.cell_of[t] == no_index) continue;
+            const Triangle& k = output_.soup.triangles[t];
+            for (unsigned i = 0; i < 3; ++i)
+                edges.push_back(
+                    chain_edge(placing_.cell_of[t], k[i], k[(i + 1) % 3], -placing_.facing[t]));
+        }
+        edges = summed(divided(summed(std::move(edges))));
+        std::vector<std::span<const ChainEdge>> differences(cells_.cells.size());
+        for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+            while (end < edges.size() && edges[end].cell == edges[i].cell) ++end;
+            differences[edges[i].cell] = std::span(edges).subspan(i, end - i);
+        }
+        const auto unknown = cells_without_vertices();
+        const auto covered = covered_areas();
+        for (std::uint32_t c = 0; c < differences.size(); ++c)
+            if (unknown[c])
+                report_unknown(c, covered[c]);
+            else if (!differences[c].empty())
+                report_difference(differences[c]);
+    }
+
+    /// Tells which cells have a corner without a vertex, so that their boundaries are known in part.
+    [[nodiscard]] std::vector<bool> cells_without_vertices() const {
+        std::vector<bool> unknown(cells_.cells.size());
+        for (const std::uint32_t x : separation_.missing())
+            for (const std::uint32_t c : cells_.at_vertex[x]) unknown[c] = true;
+        return unknown;
+    }
+    [[nodiscard]] std::vector<double> covered_areas() const {
+        std::vector<double> areas(cells_.cells.size());
+        for (std::uint32_t t = 0; t < output_.soup.triangles.size(); ++t)
+            if (const auto c = placing_.cell_of[t]; c != no_index) areas[c] += area(t);
+        return areas;
+    }
+
+    void report_unknown(std::uint32_t c, double covered) {
+        const Cell& cell = cells_.cells[c];
+        const Triangle& k = target_.triangles[cell.triangle];
+        const Point3& at = nearest(k[0]);
+        found_.topology.add({"a region lacks a corner", at, {}, cell.area}, doubtful_[c]);
+        add_area(c, cell.area - covered, length(minus(nearest(k[0]), nearest(k[1]))), at);
+    }
+    /// Adds an area that is missing, or too much if it is negative, unless rounding may make it.
+    void add_area(std::uint32_t c, double net, double perimeter, const Point3& at) {
+        if (std::abs(net) <= 2 * bound_ * perimeter) return;
+        (net > 0 ? found_.missing_area : found_.extra_area) += std::abs(net);
+        const char* const what = net > 0
+                                     ? "a part of a region is not covered"
+                                     : "a region is covered more than once, or beyond its boundary";
+        found_.coverage.add({what, at, {}, std::abs(net)}, doubtful_[c]);
+    }
+
+    /// Divides edges at the vertices that they pass along edges of cells.
+    [[nodiscard]] std::vector<ChainEdge> divided(const std::vector<ChainEdge>& edges) const {
+        std::vector<ChainEdge> parts;
+        for (const ChainEdge& e : edges) {
+            const auto path = separation_.straight_path(e.low, e.high);
+            if (path.size() < 3) {
+                parts.push_back(e);
+                continue;
+            }
+            for (std::size_t i = 0; i + 1 < path.size(); ++i)
+                parts.push_back(chain_edge(e.cell, path[i], path[i + 1], e.count));
+        }
+        return parts;
+    }
+
+    void report_difference(std::span<const ChainEdge> edges) {
+        const Cell& cell = cells_.cells[edges[0].cell];
+        const Point3& origin = points_[edges[0].low];
+        Point3 sum{};
+        double perimeter = 0;
+        for (const ChainEdge& e : edges) {
+            const Point3 part =
+                cross(minus(points_[e.low], origin), minus(points_[e.high], origin));
+            sum = {sum.x + e.count * part.x, sum.y + e.count * part.y, sum.z + e.count * part.z};
+            perimeter += std::abs(e.count) * length(minus(points_[e.low], points_[e.high]));
+        }
+        const double net = dot(sum, cell.normal) / 2;
+        found_.topology.add({"the triangles in a region do not meet along its boundary",
+                             middle(edges[0]),
+                             {},
+                             perimeter},
+                            doubtful_[edges[0].cell]);
+        add_area(edges[0].cell, net, perimeter, middle(edges[0]));
+    }
+
+    void find_turned() {
+        for (std::uint32_t t = 0; t < output_.soup.triangles.size(); ++t) {
+            const auto cell = placing_.cell_of[t];
+            if (cell == no_index || placing_.facing[t] > 0 || cells_.cells[cell].either) continue;
+            found_.orientation.add({"a triangle faces the other way", middle(t), {number(t)}, 0},
+                                   doubtful_[cell]);
+        }
+    }
+
+    const Target& target_;
+    const OutputMesh& output_;
+    const std::vector<Point3>& points_;
+    double bound_;
+    Comparison found_;
+    Cells cells_;
+    Matching matching_;
+    Separation separation_;
+    Placing placing_;
+    std::vector<bool> crowded_;  ///< per exact vertex
+    std::vector<bool> doubtful_; ///< per cell: it has a crowded vertex
+};
+
+} // namespace
+
+Comparison compare(const Target& target, const OutputMesh& output, double bound,
+                   std::size_t most_flaws) {
+    return Comparer(target, output, bound, most_flaws)();
+}
+
+} // namespace terrane::judging

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/judge/judge.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/core/figure.hpp>
+#include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/judge/detail/comparison.hpp>
+#include <terrane/algorithms/judge/detail/soup_properties.hpp>
+#include <terrane/algorithms/judge/detail/target.hpp>
+#include <terrane/algorithms/mesh/validation.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
+
+namespace terrane {
+
+using namespace judging;
+
+namespace {
+
+constexpr std::array<std::string_view, 4> operation_names{"union", "intersection", "difference",
+                                                          "symmetric-difference"};
+
+double largest_coordinate(std::span<const Surface> surfaces) {
+    double most = 0;
+    for (const Surface& s : surfaces)
+        for (const Point3& p : s.vertices)
+            most = std::max({most, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    return most;
+}
+
+/// Returns the distance from the largest coordinate to the next double.
+double spacing_of(std::span<const Surface> inputs) {
+    const double most = largest_coordinate(inputs);
+    return std::nextafter(most, std::numeric_limits<double>::infinity()) - most;
+}
+
+/// Compares the volume of a mesh with the exact one. `bound`: of points.
+JudgedProperty volume_property(const OutputMesh& output, double exact, double bound,
+                               std::size_t most) {
+    double volume = 0, area = 0;
+    const auto& points = output.soup.points;
+    const Point3 o = output.vertices.empty() ? Point3{} : points[output.vertices[0]];
+    for (const Triangle& t : output.soup.triangles) {
+        const Point3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
+        const double ux = a.x - o.x, uy = a.y - o.y, uz = a.z - o.z;
+        const double vx = b.x - a.x, vy = b.y - a.y, vz = b.z - a.z;
+        const double wx = c.x - a.x, wy = c.y - a.y, wz = c.z - a.z;
+        const double nx = vy * wz - vz * wy, ny = vz * wx - vx * wz, nz = vx * wy - vy * wx;
+        volume += (ux * nx + uy * ny + uz * nz) / 6;
+        area += std::hypot(nx, ny, nz) / 2;
+    }
+    Flaws flaws("volume", most);
+    if (std::abs(volume - exact) > 2 * bound * area + 1e-13 * std::abs(exact))
+        flaws.add(
+            {"the volume is " + figure(volume) + ", not " + figure(exact), o, {}, volume - exact});
+    return flaws.said(figure(volume) + ", exactly " + figure(exact), volume - exact);
+}
+
+Result<Target> target_of(const Arrangement& exact, const JudgeOptions& options, const Run& run) {
+    if (options.operation) return boundary_of(exact, options, run);
+    return whole_arrangement(exact);
+}
+
+/// Returns the properties that a comparison found, said in words.
+void say(Comparison& found, double bound, std::vector<JudgedProperty>& properties) {
+    const auto count = [](const Flaws& f, std::string_view one, std::string_view many) {
+        return counted_as(f.count(), one, many);
+    };
+    properties.push_back(
+        found.welded.said(count(found.welded, "point twice or torn", "points twice or torn")));
+    properties.push_back(found.vertices.said(
+        count(found.vertices, "point", "points") + " missing; the others moved by " +
+            figure(found.largest_move) + " at most, of " + figure(bound) + " allowed",
+        found.largest_move));
+    properties.push_back(
+        found.curves.said(count(found.curves, "edge", "edges") + " of curves missing"));
+    properties.push_back(found.coverage.said("area missing " + figure(found.missing_area) +
+                                                 ", too much " + figure(found.extra_area),
+                                             found.missing_area + found.extra_area));
+    properties.push_back(found.topology.said(count(found.topology, "difference", "differences")));
+    properties.push_back(
+        found.orientation.said(count(found.orientation, "triangle turned", "triangles turned")));
+}
+
+Result<MeshJudgement> judge_valid(std::span<const Surface> output, std::span<const Surface> inputs,
+                                  const JudgeOptions& options, const Run& run) {
+    const auto exact = arrange(inputs, {}, run);
+    if (!exact) return exact.error();
+    const auto target = target_of(*exact, options, run);
+    if (!target) return target.error();
+    const auto checked = check(output, run);
+    if (!checked) return checked.error();
+    MeshJudgement judgement;
+    add_checked(*checked, output, options.most_flaws, judgement.properties);
+    const double spacing = spacing_of(inputs), bound = options.spacings * spacing;
+    const double reach = std::max(bound, spacing / 4); // the grid of points has cells of some size
+    const OutputMesh mesh(merge_surfaces(output, run), reach);
+    Comparison found = compare(*target, mesh, reach, options.most_flaws);
+    add_points_twice(output, found.welded);
+    say(found, bound, judgement.properties);
+    if (options.operation)
+        judgement.properties.push_back(
+            volume_property(mesh, target->volume, bound, options.most_flaws));
+    if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
+    return judgement;
+}
+
+} // namespace
+
+std::string_view name_of(BooleanOperation operation) {
+    return operation_names[static_cast<std::size_t>(operation)];
+}
+
+std::optional<BooleanOperation> operation_named(std::string_view name) {
+    const auto found = std::ranges::find(operation_names, name);
+    if (found == operation_names.end()) return std::nullopt;
+    return static_cast<BooleanOperation>(found - operation_names.begin());
+}
+
+std::string_view name_of(PropertyVerdict verdict) {
+    constexpr std::array<std::string_view, 3> names{"holds", "fails", "not judged"};
+    return names[static_cast<std::size_t>(verdict)];
+}
+
+bool MeshJudgement::holds() const {
+    return std::ranges::none_of(properties,
+                                [](const auto& p) { return p.verdict == PropertyVerdict::fails; });
+}
+
+bool MeshJudgement::complete() const {
+    return std::ranges::none_of(
+        properties, [](const auto& p) { return p.verdict == PropertyVerdict::not_judged; });
+}
+
+const JudgedProperty* MeshJudgement::find(std::string_view name) const {
+    const auto found = std::ranges::find(properties, name, &JudgedProperty::name);
+    return found == properties.end() ? nullptr : &*found;
+}
+
+Result<MeshJudgement> judge(std::span<const Surface> output, std::span<const Surface> inputs,
+                            const JudgeOptions& options, const Run& run) {
+    return guarded("for the judgement", "judge", [&]() -> Result<MeshJudgement> {
+        if (!(options.spacings >= 0 && options.spacings <= 0x1p40))
+            return Error{ErrorCode::bad_option, "must be from 0 to 2^40", "spacings"};
+        for (const auto surfaces : {output, inputs})
+            if (const auto valid = validate(surfaces); !valid) return valid.error();
+        return judge_valid(output, inputs, options, run);
+    });
+}
+
+Result<MeshJudgement> judge_soup(std::span<const Surface> soup, const JudgeOptions& options,
+                                 const Run& run) {
+    return guarded("for the judgement", "judge", [&]() -> Result<MeshJudgement> {
+        const auto checked = check(soup, run);
+        if (!checked) return checked.error();
+        return soup_judgement(soup, *checked, options.most_flaws, run);
+    });
+}
+
+} // namespace terrane

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Reports of `terrane judge`, as text, as lines of JSON, and as a tag.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <terrane/algorithms/judge/judge.hpp>
+#include <terrane/cli/options/files.hpp>
+
+namespace terrane::cli {
+
+/// Says the verdict of each property and lists flaws. `name`: of the output.
+std::string judge_text(const MeshJudgement& judged, const Inputs& output, const std::string& name);
+
+/// Returns one line per property. A triangle is {"surface": index, "triangle": number within it}.
+std::string judge_json(const MeshJudgement& judged, const Inputs& output);
+
+/// Returns a line as the scripts of CGAL's robustness benchmarks write it.
+std::string tag_line(std::string_view tag);
+/// Returns the tag of a judgement: VALID_OUTPUT, ...
+std::string_view tag_of(const MeshJudgement& judged);
+
+} // namespace terrane::cli

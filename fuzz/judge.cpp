@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Property: the mesh that an arrangement is rounded to is accepted; without one of its triangles, with
+// one moved off or with one twice, it is not.
+#include "property.hpp"
+#include "shapes.hpp"
+
+#include <terrane/algorithms/judge/judge.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace terrane::fuzz {
+
+std::vector<Surface> input(Bytes& bytes) {
+    return soup(bytes, 14);
+}
+
+namespace {
+
+/// Names what fails; empty if all holds.
+std::string failing(const Surface& mesh, std::span<const Surface> inputs) {
+    const auto found = judge(std::span(&mesh, 1), inputs);
+    if (!found) return found.error().message();
+    std::string names;
+    for (const JudgedProperty& p : found->properties)
+        if (p.verdict == PropertyVerdict::fails) names += " " + p.name;
+    return names;
+}
+
+/// Names a damage to a triangle that is not found.
+std::string overlooked(const Surface& mesh, std::size_t t, std::span<const Surface> inputs) {
+    Surface s = mesh;
+    s.triangles.erase(s.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+    if (failing(s, inputs).empty()) return "a triangle that is missing";
+    s = mesh;
+    s.triangles.push_back(s.triangles[t]);
+    if (failing(s, inputs).empty()) return "a triangle that is there twice";
+    s = mesh;
+    double size = 1;
+    for (const Point3& p : s.vertices)
+        size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    for (std::uint32_t& v : s.triangles[t]) {
+        const Point3 p = s.vertices[v];
+        v = static_cast<std::uint32_t>(s.vertices.size());
+        s.vertices.push_back({p.x, p.y + size / 1024, p.z - size / 512});
+    }
+    return failing(s, inputs).empty() ? "a triangle that is moved" : "";
+}
+
+} // namespace
+
+std::string flaw(std::span<const Surface> surfaces) {
+    const auto exact = arrange(surfaces);
+    if (!exact) return exact.error().message();
+    const auto made = round_to_doubles(*exact);
+    if (!made || !made->report.clean) return "";
+    const Surface mesh{"", Role::unknown, made->mesh.vertices, made->mesh.triangles};
+    if (const auto names = failing(mesh, surfaces); !names.empty())
+        return "a good mesh is refused:" + names;
+    for (std::size_t t = 0; t < mesh.triangles.size(); t += 1 + mesh.triangles.size() / 4)
+        if (const auto what = overlooked(mesh, t, surfaces); !what.empty())
+            return "it overlooks " + what;
+    return "";
+}
+
+} // namespace terrane::fuzz
