@@ -33,7 +33,6 @@
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/io/certificate.hpp>
-#include <terrane/io/exact_text.hpp>
 #include <terrane/io/grids/grid.hpp>
 #include <terrane/kernel/point.hpp>
 #include <terrane/kernel/predicate_counts.hpp>

@@ -265,7 +265,8 @@ def explained(folders):
     for folder in folders:
         file = ROOT / "tests" / folder / "survivors.txt"
         for line in file.read_text().splitlines() if file.exists() else []:
-            codes.add(line.rpartition(" | ")[0].strip())
+            if not line.startswith("#"):
+                codes.add(line.rpartition(" | ")[0].strip())
     return codes
 
 

@@ -49,7 +49,7 @@ def test_gfm2020():
 
 
 def test_all_examples_are_known():
-    scripts = {p.stem for p in FOLDER.glob("*.py")} - {"drawing", "shapes"}
+    scripts = {p.stem for p in FOLDER.glob("*.py")} - {"drawing", "shapes", "check_case"}
     assert scripts == {*EXAMPLES, "gfm2020_blocks"}
 
 

@@ -76,7 +76,7 @@ PARTS = {"add", "check_steps", "count", "deliver", "filled", "finish", "integer"
          "step_of", "take_messages", "triangulate"}
 # Readers of one format each: parse_surfaces, with the name of the format.
 FORMATS = {
-    "cps3": "cps3", "dxf": "dxf", "esri": "asc", "gocad": "ts", "gocad_points": "vs", "grdecl": "grdecl", "irap": "irap",
+    "cps3": "cps3", "dxf": "dxf", "esri": "asc", "gocad": "ts", "gocad_points": "vs", "grdecl": "grdecl", "irap": "irap", "leapfrog": "leapfrog",
     "msh": "msh", "obj": "obj", "off": "off", "ply": "ply", "points": "xyz", "sticks": "sticks", "stl": "stl",
     "surfer": "grd", "vtk": "vtk", "vtp": "vtp", "vtu": "vtu", "zmap": "zmap",
 }

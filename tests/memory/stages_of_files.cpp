@@ -6,16 +6,19 @@
 #include <bit>
 #include <cstdint>
 
+#include <terrane/algorithms/judge/judge.hpp>
 #include <terrane/algorithms/verify/verify.hpp>
 #include <terrane/io/certify.hpp>
 #include <terrane/io/gocad/gocad_model.hpp>
 #include <terrane/io/judgement/judgement.hpp>
+#include <terrane/io/judgement/limits.hpp>
 #include <terrane/io/meshes/pvtp.hpp>
 #include <terrane/io/points/outline.hpp>
 #include <terrane/io/points/shape_outline.hpp>
 #include <terrane/io/reading.hpp>
 #include <terrane/io/results.hpp>
 #include <terrane/io/structure_json.hpp>
+#include <terrane/io/text/bytes.hpp>
 #include <terrane/io/uncertainty_maps.hpp>
 
 #include "fixture.hpp"
@@ -69,6 +72,15 @@ std::string vtu_text() {
     return contents_of(path);
 }
 
+std::string leapfrog_text() {
+    std::string text = "%ARANZ-1.0\n[index]\nLocation Double 3 3;\nTri Integer 3 1;\n[binary]";
+    text += std::string(4, '\0');
+    for (const double number : {1.23456789, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0})
+        terrane::detail::store(text, number);
+    for (const std::uint32_t corner : {0U, 1U, 2U}) terrane::detail::store(text, corner);
+    return text;
+}
+
 /// Texts of all formats that are read. The fixture fails where one is missing.
 std::vector<std::pair<std::string, std::string>> all_texts() {
     auto texts = only_read();
@@ -76,9 +88,10 @@ std::vector<std::pair<std::string, std::string>> all_texts() {
     for (const char* name : {"ts", "obj", "off", "stl", "ply", "vtp", "msh", "msh22", "vtk"})
         texts.emplace_back(name, needed(format_mesh(*f.mesh, *format_named(name))));
     texts.emplace_back("vtu", vtu_text());
+    texts.emplace_back("leapfrog", leapfrog_text());
     for (const std::string_view name : format_names()) {
         const auto is_of_format = [&](const auto& text) {
-            return format_named(text.first) == format_named(name);
+            return text.first != "leapfrog" && format_named(text.first) == format_named(name);
         };
         if (is_read(*format_named(name)) && std::ranges::none_of(texts, is_of_format))
             fail("there is no text of the format " + std::string(name));
@@ -91,7 +104,8 @@ std::vector<Stage> reading() {
     const auto as_text = [](const std::vector<Surface>& surfaces) { return text_of(surfaces); };
     std::vector<Stage> stages;
     for (const auto& [name, text] : all_texts()) {
-        const Format format = name == "msh22" ? Format::msh : *format_named(name);
+        const Format format =
+            name == "msh22" || name == "leapfrog" ? Format::msh : *format_named(name);
         stages.push_back(stage(
             "parse_surfaces, " + name,
             [contents = text, format] {
@@ -306,6 +320,21 @@ std::vector<Stage> certifying() {
     stages.push_back(stage(
         "judge", [request = JudgementRequest{.certificate = stated}] { return judge(request); },
         [](const Judgement& judged) { return std::to_string(judged.violations().size()); }));
+    const auto judged_text = [](const MeshJudgement& judged) {
+        std::string text;
+        for (const JudgedProperty& p : judged.properties) text += p.name + ": " + p.sentence + "\n";
+        return text;
+    };
+    stages.push_back(stage(
+        "judge_within",
+        [surfaces] {
+            return judge_within({}, {}, [&](const std::stop_token& stop) {
+                return judge(surfaces, surfaces, {}, {.stop = stop});
+            });
+        },
+        judged_text));
+    stages.push_back(stage(
+        "judge_soup", [surfaces] { return judge_soup(surfaces); }, judged_text));
     const VolumeRecord box{
         .shape = "prism", .corners = {{0, 0}, {8, 0}, {8, 8}, {0, 8}}, .between = {0, 8}};
     auto all = f.surfaces;

@@ -175,27 +175,6 @@ bool sections_meet_properly(const std::optional<Interval>& a, const std::optiona
 
 } // namespace
 
-ExactMesh make_exact_mesh(std::vector<Vector4> points, const mpz_class& scale,
-                          std::span<const Triangle> triangles) {
-    ExactMesh mesh{std::move(points), scale, {triangles.begin(), triangles.end()}, {}};
-    mesh.planes.reserve(triangles.size());
-    for (const Triangle& t : triangles) {
-        mesh.planes.push_back(orthogonal(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]));
-        make_primitive(mesh.planes.back());
-    }
-    return mesh;
-}
-
-Vector4 centroid_of(const ExactMesh& mesh, std::uint32_t triangle) {
-    const auto& [i, j, k] = mesh.triangles[triangle];
-    const Vector4 &a = mesh.points[i], &b = mesh.points[j], &c = mesh.points[k];
-    const mpz_class bc = b[3] * c[3], ca = c[3] * a[3], ab = a[3] * b[3];
-    Vector4 point{0, 0, 0, mpz_class(3 * a[3] * bc)};
-    for (std::size_t x = 0; x < 3; ++x) point[x] = a[x] * bc + b[x] * ca + c[x] * ab;
-    make_primitive(point);
-    return point;
-}
-
 bool meet_properly(const ExactMesh& mesh, std::uint32_t first, std::uint32_t second) {
     const Pair pair = make_pair_of(mesh, mesh.triangles[first], mesh.triangles[second]);
     if (pair.shared == 3) return true;

@@ -6,29 +6,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/algorithms/verify/detail/rational.hpp>
+#include <terrane/algorithms/verify/detail/exact_mesh.hpp>
 
 namespace terrane::verifier {
-
-/// Triangles with exact corners.
-struct ExactMesh {
-    std::vector<Vector4> points;
-    mpz_class scale = 1;
-    std::vector<Triangle> triangles; ///< indices into points
-    std::vector<Vector4> planes; ///< per triangle: the plane through its corners; zero iff it has
-                                 ///< no area
-};
-
-/// Makes a mesh and computes its planes.
-ExactMesh make_exact_mesh(std::vector<Vector4> points, const mpz_class& scale,
-                          std::span<const Triangle> triangles);
-
-/// Returns the centroid of a triangle.
-Vector4 centroid_of(const ExactMesh& mesh, std::uint32_t triangle);
 
 /// Tells whether two triangles with area, as closed sets, have exactly the convex hull of their
 /// shared corners in common: nothing, a corner or an edge. It is true if they share all three

@@ -4,10 +4,13 @@
 // pair each of them with each.
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include <terrane/algorithms/verify/detail/box_tree.hpp>
-#include <terrane/algorithms/verify/detail/contacts.hpp>
+#include <terrane/algorithms/verify/detail/exact_mesh.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 
 namespace terrane::verifier {
