@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <terrane/advanced.hpp>
+#include <terrane/io/exact_text.hpp>
 
 #include "support/files.hpp"
 

@@ -321,9 +321,9 @@ std::vector<Stage> certifying() {
         "judge", [request = JudgementRequest{.certificate = stated}] { return judge(request); },
         [](const Judgement& judged) { return std::to_string(judged.violations().size()); }));
     const auto judged_text = [](const MeshJudgement& judged) {
-        std::string text;
-        for (const JudgedProperty& p : judged.properties) text += p.name + ": " + p.sentence + "\n";
-        return text;
+        std::string all;
+        for (const JudgedProperty& p : judged.properties) all += p.name + ": " + p.sentence + "\n";
+        return all;
     };
     stages.push_back(stage(
         "judge_within",

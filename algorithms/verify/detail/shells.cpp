@@ -25,7 +25,7 @@ struct AtEdge {
     [[nodiscard]] std::uint32_t ahead() const { return 2 * triangle + (upward ? 0 : 1); }
 };
 
-std::vector<AtEdge> triangles_at_edges(std::span<const Triangle> triangles) {
+std::vector<AtEdge> by_edges(std::span<const Triangle> triangles) {
     std::vector<AtEdge> all;
     all.reserve(3 * triangles.size());
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
@@ -90,7 +90,7 @@ void sort_by_angle(const ExactMesh& mesh, std::vector<AtEdge>& around) {
 } // namespace
 
 std::vector<Facing> facing_sides(const ExactMesh& mesh) {
-    const auto all = triangles_at_edges(mesh.triangles);
+    const auto all = by_edges(mesh.triangles);
     std::vector<Facing> pairs;
     pairs.reserve(all.size());
     std::vector<AtEdge> around;
