@@ -12,6 +12,7 @@
 #include <terrane/algorithms/judge/detail/placing.hpp>
 #include <terrane/algorithms/judge/detail/separation.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
 
 namespace terrane::judging {
 
@@ -45,19 +46,6 @@ std::vector<ChainEdge> summed(std::vector<ChainEdge> edges) {
 
 ChainEdge chain_edge(std::uint32_t cell, std::uint32_t from, std::uint32_t to, int count) {
     return from < to ? ChainEdge{cell, from, to, count} : ChainEdge{cell, to, from, -count};
-}
-
-Point3 cross(const Point3& u, const Point3& v) {
-    return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
-}
-double dot(const Point3& u, const Point3& v) {
-    return u.x * v.x + u.y * v.y + u.z * v.z;
-}
-Point3 minus(const Point3& p, const Point3& q) {
-    return {p.x - q.x, p.y - q.y, p.z - q.z};
-}
-double length(const Point3& v) {
-    return std::hypot(v.x, v.y, v.z);
 }
 
 class Comparer {

@@ -58,7 +58,9 @@ std::size_t OutputMesh::triangles_at(std::uint32_t u, std::uint32_t w) const {
     const auto sides =
         std::span(soup.edges.sides)
             .subspan(soup.edges.starts[low], soup.edges.starts[low + 1] - soup.edges.starts[low]);
-    return std::ranges::equal_range(sides, high, {}, &EdgeSides::Side::high).size();
+    const auto first = std::ranges::lower_bound(sides, high, {}, &EdgeSides::Side::high);
+    const auto last = std::ranges::upper_bound(sides, high, {}, &EdgeSides::Side::high);
+    return static_cast<std::size_t>(last - first);
 }
 
 PointGrid::PointGrid(std::span<const Point3> points, std::span<const std::uint32_t> members,
@@ -147,10 +149,11 @@ private:
 
     void choose(std::size_t i, const std::vector<std::array<std::uint32_t, 2>>& ends) {
         const std::uint32_t x = doubtful_[i];
-        const auto neighbours =
-            std::ranges::equal_range(ends, x, {}, [](const auto& e) { return e[0]; });
+        const auto point_of = [](const std::array<std::uint32_t, 2>& end) { return end[0]; };
+        const auto first = std::ranges::lower_bound(ends, x, {}, point_of);
+        const auto last = std::ranges::upper_bound(ends, x, {}, point_of);
         const auto edges_of = [&](std::uint32_t v) {
-            return std::ranges::count_if(neighbours, [&](const auto& end) {
+            return std::count_if(first, last, [&](const std::array<std::uint32_t, 2>& end) {
                 const std::uint32_t w = matching_.image[end[1]];
                 return w != no_index && w != v && output_.has_edge(v, w);
             });

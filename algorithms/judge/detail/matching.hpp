@@ -40,8 +40,9 @@ private:
     static std::uint64_t hash(const Key& key);
     template <class Visit>
     void visit_cell(const Key& cell, const Point3& p, const Visit& visit) const {
-        const auto [first, last] = std::ranges::equal_range(entries_, hash(cell), {}, &Entry::hash);
-        for (auto e = first; e != last; ++e)
+        const std::uint64_t wanted = hash(cell);
+        for (auto e = std::ranges::lower_bound(entries_, wanted, {}, &Entry::hash);
+             e != entries_.end() && e->hash == wanted; ++e)
             if (key(points_[e->point]) == cell && is_near(points_[e->point], p)) visit(e->point);
     }
     [[nodiscard]] bool is_near(const Point3& p, const Point3& q) const;

@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
 
 namespace terrane::judging {
 namespace {
@@ -192,15 +193,11 @@ private:
         const Triangle& plane = cells_.cells[cell].plane;
         const Point3 &a = points.input(plane[0]), &b = points.input(plane[1]),
                      &c = points.input(plane[2]);
-        const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
-        const double vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
-        const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-        const double length = std::hypot(nx, ny, nz);
+        const Point3 normal = cross(minus(b, a), minus(c, a));
+        const double most = 2 * bound_ * length(normal);
         return std::ranges::any_of(corners(t), [&](std::uint32_t v) {
             if (!positions_.is_own(v)) return false;
-            const Point3& p = output_.soup.points[v];
-            const double d = nx * (p.x - a.x) + ny * (p.y - a.y) + nz * (p.z - a.z);
-            return std::abs(d) > 2 * bound_ * length;
+            return std::abs(dot(normal, minus(output_.soup.points[v], a))) > most;
         });
     }
 
@@ -219,13 +216,10 @@ private:
         double longest = 0;
         const Triangle& k = corners(t);
         for (unsigned i = 0; i < 3; ++i) {
-            const Point3 &p = points[k[i]], &q = points[k[(i + 1) % 3]];
-            longest = std::max(longest, std::hypot(p.x - q.x, p.y - q.y, p.z - q.z));
+            longest = std::max(longest, length(minus(points[k[i]], points[k[(i + 1) % 3]])));
         }
         const Point3 &a = points[k[0]], &b = points[k[1]], &c = points[k[2]];
-        const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
-        const double vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
-        return std::hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx) / longest;
+        return length(cross(minus(b, a), minus(c, a))) / longest;
     }
 
     const Target& target_;

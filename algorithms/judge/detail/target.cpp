@@ -7,6 +7,7 @@
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -15,13 +16,7 @@ namespace {
 
 /// Returns the normal of a triangle, twice as long as its area.
 Point3 normal_of(const Point3& a, const Point3& b, const Point3& c) {
-    const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
-    const double vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
-    return {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
-}
-
-double length(const Point3& v) {
-    return std::hypot(v.x, v.y, v.z);
+    return cross(minus(b, a), minus(c, a));
 }
 
 class CellFinder {
