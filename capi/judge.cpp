@@ -66,7 +66,8 @@ void terrane_mesh_judgement_free(terrane_mesh_judgement* judgement) {
 }
 
 int terrane_mesh_judgement_holds(const terrane_mesh_judgement* judgement) {
-    return known(judgement) && judgement->judgement.holds() ? 1 : 0;
+    return known(judgement) && judgement->judgement.holds() && judgement->judgement.complete() ? 1
+                                                                                               : 0;
 }
 
 size_t terrane_mesh_judgement_count(const terrane_mesh_judgement* judgement) {

@@ -129,7 +129,7 @@ TERRANE_API terrane_code terrane_judge(const terrane_surfaces* output,
                                        terrane_mesh_judgement** out, terrane_error** error);
 /// Frees a judgement.
 TERRANE_API void terrane_mesh_judgement_free(terrane_mesh_judgement* judgement);
-/// Returns 1 if no property fails, else 0.
+/// Returns 1 if all properties hold, else 0.
 TERRANE_API int terrane_mesh_judgement_holds(const terrane_mesh_judgement* judgement);
 /// Returns the number of properties.
 TERRANE_API size_t terrane_mesh_judgement_count(const terrane_mesh_judgement* judgement);

@@ -10,7 +10,6 @@ from ._arrangement import _whole
 from ._arrays import as_count, as_number, as_word
 from ._errors import bad_option
 from ._mesh import Mesh
-from ._results import counted
 from ._run import how
 from ._surface import as_surfaces, parts_of_surfaces
 
@@ -37,7 +36,7 @@ class PropertyFlaw(NamedTuple):
 
 
 class JudgedProperty(NamedTuple):
-    """A property: its name, "holds", "fails" or "not judged", what was found, and the first flaws of ``count``.
+    """A property: its name, "holds", "fails" or "not judged", what was found, and the first of its flaws.
 
     Examples
     --------
@@ -49,13 +48,13 @@ class JudgedProperty(NamedTuple):
     name: str
     verdict: str
     sentence: str
-    count: int
+    flaw_count: int
     size: float
     flaws: List[PropertyFlaw]
 
 
 class MeshJudgement(NamedTuple):
-    """The properties of a mesh. It is true if none fails; ``judgement["coverage"]`` is one of them.
+    """The properties of a mesh. It is true if all hold; ``judgement["coverage"]`` is one of them.
 
     Examples
     --------
@@ -67,7 +66,7 @@ class MeshJudgement(NamedTuple):
     properties: List[JudgedProperty]
 
     def __bool__(self) -> bool:
-        return all(p.verdict != "fails" for p in self.properties)
+        return all(p.verdict == "holds" for p in self.properties)
 
     def __getitem__(self, name: Any) -> Any:
         if not isinstance(name, str):
@@ -81,7 +80,10 @@ class MeshJudgement(NamedTuple):
         failing = [p.name for p in self.properties if p.verdict == "fails"]
         if failing:
             return f"<MeshJudgement: {', '.join(failing)} {'fail' if len(failing) > 1 else 'fails'}>"
-        return f"<MeshJudgement: all {counted(len(self.properties), 'property')} hold>"
+        unknown = [p.name for p in self.properties if p.verdict == "not judged"]
+        if unknown:
+            return f"<MeshJudgement: {', '.join(unknown)} not judged>"
+        return f"<MeshJudgement: all {len(self.properties)} properties hold>"
 
 
 def judge(output: Any, inputs: Any = None, *, operation: Optional[str] = None, spacings: float = 16,
@@ -122,4 +124,5 @@ def judge(output: Any, inputs: Any = None, *, operation: Optional[str] = None, s
     found = _core.judge(parts_of_surfaces(parts), None if inputs is None else parts_of_surfaces(as_surfaces(inputs)),
                         operation, as_number(spacings, "spacings", least=0), as_count(most_flaws, "most_flaws"),
                         how(threads, progress))
-    return MeshJudgement([JudgedProperty(*p[:5], [PropertyFlaw(*f) for f in p[5]]) for p in found])
+    return MeshJudgement([JudgedProperty(name, verdict, sentence, count, size, [PropertyFlaw(*f) for f in flaws])
+                          for name, verdict, sentence, count, size, flaws in found])

@@ -51,4 +51,4 @@ def test_points_may_be_rounded_as_far_as_is_stated():
 
 def test_triangles_alone():
     assert terrane.judge(octahedron(0))
-    assert terrane.judge(octahedron(0).replace(triangles=octahedron(0).triangles[1:]))["closed"].count == 3
+    assert terrane.judge(octahedron(0).replace(triangles=octahedron(0).triangles[1:]))["closed"].flaw_count == 3

@@ -195,7 +195,8 @@ def instances():
     point = (0.5, 1.0, 2.0)
     for cls, values in ((terrane.SealChange, ("extended", 0, 1.0, 2.0, point, 3)), (terrane.ClosedGap, (0, 1, 1.0, 2.0, point)),
                         (terrane.OpenBorder, (0, 1.0, point)), (terrane.OpenGap, (0, 1, "wide", 2, 1.0, 2.0, point)), (terrane.OutOfOrder, (0, 1, (2, 3), point, 1.0)),
-                        (terrane.Violation, ("open_face", 1, "x")), (terrane.RuleViolation, ("R5", (0, 1), "x")),
+                        (terrane.Violation, ("open_face", 1, "x")), (terrane.PropertyFlaw, ("x", point, (1,), 0.5)),
+                        (terrane.JudgedProperty, ("curves", "fails", "x", 1, 0.0, [])), (terrane.MeshJudgement, ([],)), (terrane.RuleViolation, ("R5", (0, 1), "x")),
                         (terrane.VerifiedFile, ("a", "every byte", [])), (terrane.Failure, (1, "x", "y"))):
         found[cls.__name__] = cls(*values)
     return found

@@ -87,7 +87,8 @@ GOOD = {
     "text": lambda lib: None, "threads": lambda lib: 2, "progress": lambda lib: None, "timing": lambda lib: None,
     "user": lambda lib: None,
 }
-INDEX = {"surface", "hole", "task", "block", "violation", "vertex", "which", "kind", "reason", "axis", "role", "volume", "code"}
+INDEX = {"surface", "hole", "task", "block", "violation", "vertex", "which", "kind", "reason", "axis", "role", "volume", "code", "number",
+         "flaw_number"}
 
 
 class Call:

@@ -17,7 +17,7 @@ DATA = HERE.parent.parent / "docs" / "data"
 NUMBERS = {"double": ctypes.c_double, "int": ctypes.c_int, "int32_t": ctypes.c_int32, "uint32_t": ctypes.c_uint32,
            "uint64_t": ctypes.c_uint64, "size_t": ctypes.c_size_t, "unsigned": ctypes.c_uint, "terrane_code": ctypes.c_int32,
            "terrane_role": ctypes.c_int32, "terrane_mesher": ctypes.c_int32, "terrane_structure_list": ctypes.c_int32,
-           "terrane_operation": ctypes.c_int32}
+           "terrane_operation": ctypes.c_int32, "terrane_property_verdict": ctypes.c_int32}
 #: Members without a default.
 NEEDED = {"terrane_seal_options": {"distance": 0.2}, "terrane_simplify_options": {"resolution": 0.5}}
 
