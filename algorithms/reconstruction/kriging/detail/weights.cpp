@@ -49,7 +49,7 @@ public:
     /// Returns the likeliest model of each shape, of the two likeliest with anisotropy, and of noise;
     /// the likeliest first. Returns only the trend of least degree that is the data.
     std::vector<Likely> operator()() const {
-        const auto noise = likelihood_.of_noise();
+        auto noise = likelihood_.of_noise();
         if (noise[0].likelihood == HUGE_VAL) return noise;
         std::vector<Likely> found;
         for (const Variogram& shape : shapes(options_)) found.push_back(likeliest(ranged(shape)));
