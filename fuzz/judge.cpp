@@ -6,6 +6,7 @@
 #include "shapes.hpp"
 
 #include <terrane/algorithms/judge/judge.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 
 #include <algorithm>
@@ -38,8 +39,25 @@ bool is_accepted(const Surface& mesh, std::span<const Surface> inputs) {
     return named(mesh, inputs, true).empty();
 }
 
+double size_of(const Surface& mesh) {
+    double size = 1;
+    for (const Point3& p : mesh.vertices)
+        size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    return size;
+}
+
+/// Whether a triangle is thinner than four times the default bound: without it points are where they may be.
+bool is_thin(const Surface& mesh, const Triangle& corners) {
+    const Point3 &a = mesh.vertices[corners[0]], &b = mesh.vertices[corners[1]],
+                 &c = mesh.vertices[corners[2]];
+    const double longest =
+        std::max({length(minus(b, a)), length(minus(c, b)), length(minus(a, c))});
+    return length(cross(minus(b, a), minus(c, a))) <= 0x1p-46 * size_of(mesh) * longest;
+}
+
 /// Names a damage to a triangle that is not found.
 std::string overlooked(const Surface& mesh, std::size_t t, std::span<const Surface> inputs) {
+    if (is_thin(mesh, mesh.triangles[t])) return "";
     Surface s = mesh;
     s.triangles.erase(s.triangles.begin() + static_cast<std::ptrdiff_t>(t));
     if (is_accepted(s, inputs)) return "a triangle that is missing";
@@ -47,9 +65,7 @@ std::string overlooked(const Surface& mesh, std::size_t t, std::span<const Surfa
     s.triangles.push_back(s.triangles[t]);
     if (is_accepted(s, inputs)) return "a triangle that is there twice";
     s = mesh;
-    double size = 1;
-    for (const Point3& p : s.vertices)
-        size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    const double size = size_of(mesh);
     for (std::uint32_t& v : s.triangles[t]) {
         const Point3 p = s.vertices[v];
         v = static_cast<std::uint32_t>(s.vertices.size());
