@@ -10,8 +10,8 @@
 #include <pybind11/pybind11.h>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/plausibility/plausibility.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/plausibility/plausibility.hpp>
 
 namespace terrane::python {
 

@@ -121,7 +121,8 @@ static void test_judgement(void) {
     CHECK(terrane_judge_options_init(&options, sizeof options) == TERRANE_OK);
     CHECK(options.spacings == 16 && options.most_flaws == 10);
     options.most_flaws = 1;
-    WORKS(terrane_judge(s, s, &options, NULL, &judged, &error)); // inputs are no arrangement of theirs
+    WORKS(terrane_judge(s, s, &options, NULL, &judged,
+                        &error)); // inputs are no arrangement of theirs
     CHECK(terrane_mesh_judgement_holds(judged) == 0 && terrane_mesh_judgement_count(judged) == 8);
     terrane_property property;
     terrane_property_flaw flaw;
