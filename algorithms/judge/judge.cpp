@@ -15,6 +15,7 @@
 #include <terrane/algorithms/judge/detail/soup_properties.hpp>
 #include <terrane/algorithms/judge/detail/target.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane {
@@ -40,23 +41,26 @@ double spacing_of(std::span<const Surface> inputs) {
     return std::nextafter(most, std::numeric_limits<double>::infinity()) - most;
 }
 
-/// Compares the volume of a mesh with the exact one. `bound`: of points.
-JudgedProperty volume_property(const OutputMesh& output, double exact, double bound,
+/// Compares the volume of a mesh with the exact one. `bound`: of points. The tolerance follows from the
+/// exact boundary alone: triangles that are too many can't widen it.
+JudgedProperty volume_property(const OutputMesh& output, const Target& target, double bound,
                                std::size_t most) {
-    double volume = 0, area = 0;
+    constexpr double rounded_sum = 0x1p-43; // share of the volume that its sum may lose
+    double area = 0;
+    for (const Triangle& t : target.triangles) {
+        const auto at = [&](unsigned i) { return target.exact.nearest(VertexId(t[i])); };
+        area += length(cross(minus(at(1), at(0)), minus(at(2), at(0)))) / 2;
+    }
+    double volume = 0;
     const auto& points = output.soup.points;
     const Point3 o = output.vertices.empty() ? Point3{} : points[output.vertices[0]];
-    for (const Triangle& t : output.soup.triangles) {
-        const Point3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
-        const double ux = a.x - o.x, uy = a.y - o.y, uz = a.z - o.z;
-        const double vx = b.x - a.x, vy = b.y - a.y, vz = b.z - a.z;
-        const double wx = c.x - a.x, wy = c.y - a.y, wz = c.z - a.z;
-        const double nx = vy * wz - vz * wy, ny = vz * wx - vx * wz, nz = vx * wy - vy * wx;
-        volume += (ux * nx + uy * ny + uz * nz) / 6;
-        area += std::hypot(nx, ny, nz) / 2;
-    }
+    for (const auto& [i, j, k] : output.soup.triangles)
+        volume += dot(minus(points[i], o),
+                      cross(minus(points[j], points[i]), minus(points[k], points[j]))) /
+                  6;
+    const double exact = target.volume;
     Flaws flaws("volume", most);
-    if (std::abs(volume - exact) > 2 * bound * area + 1e-13 * std::abs(exact))
+    if (!(std::abs(volume - exact) <= 2 * bound * area + rounded_sum * std::abs(exact)))
         flaws.add(
             {"the volume is " + figure(volume) + ", not " + figure(exact), o, {}, volume - exact});
     return flaws.said(figure(volume) + ", exactly " + figure(exact), volume - exact);
@@ -105,8 +109,7 @@ Result<MeshJudgement> judge_valid(std::span<const Surface> output, std::span<con
     add_points_twice(output, found.welded);
     say(found, bound, judgement.properties);
     if (options.operation)
-        judgement.properties.push_back(
-            volume_property(mesh, target->volume, bound, options.most_flaws));
+        judgement.properties.push_back(volume_property(mesh, *target, bound, options.most_flaws));
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
     return judgement;
 }

@@ -166,6 +166,24 @@ TEST_CASE("judge: other operations and lost operands are found") {
     CHECK(fails(judged({as_surface(mesh_of({pair[0]}))}, pair), "curves"));
 }
 
+TEST_CASE("judge: triangles that are too many do not widen the tolerance of the volume") {
+    const std::vector<Surface> pair{octahedron({4, 4, 4}, 3.3), torus({4, 4, 5}, 3, 1, 7)};
+    const auto cgal = corefine_oracle::made_by_cgal(pair);
+    REQUIRE(cgal);
+    REQUIRE(cgal->booleans[0]);
+    Surface forged =
+        *cgal->booleans[0]; // without a triangle, and with a large sheet there and back
+    forged.triangles.pop_back();
+    const auto first = static_cast<std::uint32_t>(forged.vertices.size());
+    for (const Point3& p : {Point3{0, 0, 50}, Point3{1e9, 0, 50}, Point3{0, 1e9, 50}})
+        forged.vertices.push_back(p);
+    forged.triangles.push_back({first, first + 1, first + 2});
+    forged.triangles.push_back({first, first + 2, first + 1});
+    const auto found = judged({forged}, pair, BooleanOperation::unite);
+    CHECK(fails(found, "volume"));
+    CHECK(fails(found, "coverage"));
+}
+
 TEST_CASE("judge: an operand that bounds no solid is refused") {
     Surface open = octahedron({0, 0, 0}, 2);
     open.triangles.pop_back();
