@@ -40,8 +40,8 @@ AveragedHeights::AveragedHeights(const DataAroundHole& around, ModelAverage aver
         near_.assign(around.data.begin(),
                      around.data.begin() + static_cast<std::ptrdiff_t>(around.near));
     for (auto* data : {&data_, &near_}) std::sort(data->begin(), data->end());
-    // The height of a datum, so that no digit is lost.
-    ground_ = data_[data_.size() / 2].z;
+    // The height of a datum near the hole, so that no digit is lost.
+    ground_ = near_[near_.size() / 2].z;
     for (auto* data : {&data_, &near_})
         for (Point3& p : *data) p.z -= ground_;
     for (const WeighedModel& m : average_.models)
