@@ -207,7 +207,7 @@ TEST_CASE("kriging: data far away help models that hold there, and no others", "
     heights(smooth, 0)(random, ring);
     CHECK(missed(true) < 0.5 * missed(false));
     heights(cliff, 0)(random, ring);
-    CHECK(missed(true) == missed(false));
+    CHECK(missed(true) == Approx(missed(false)));
     // A cliff far away is seen by those who search for models, too.
     heights([](double x, double y) { return x - y / 3 + (x > 105 ? 30 : 0); }, 0)(random, ring);
     const auto models = [&](std::size_t count) {
