@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 
@@ -96,8 +95,7 @@ void report_models(const FlatHole& hole, const ModelAverage& average,
     const auto middle = middle_of(filling, hole.border());
     report.models = heights.shares_at(middle.value_or(Point3{}));
     if (middle) return;
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    for (ModelShare& share : report.models) share.height = share.deviation = unknown;
+    for (ModelShare& share : report.models) share.height = share.deviation = NAN;
 }
 
 } // namespace
@@ -117,7 +115,7 @@ Result<Filling> fill_by_kriging(const Surface& surface, const BorderLoop& loop,
         if (const auto built = hole->triangulate(options.mesh_size, run); !built)
             return built.error();
         // 3. Weigh the models, and average what they say of heights.
-        const DataAroundHole around{hole->data(), hole->border(), hole->radius()};
+        const DataAroundHole around{hole->data(), hole->border(), hole->radius(), hole->near()};
         const auto average = weigh_models(around, options, run);
         if (run.stop.stop_requested()) return interrupted;
         const AveragedHeights heights(around, average, run);

@@ -26,7 +26,8 @@ struct KrigingOptions {
                            ///< border, down to a quarter of it if flat triangles of that size would
                            ///< be farther from the estimated heights than their expected error
     std::size_t rings = 5; ///< rings of triangles around the hole whose corners are data, at least;
-                           ///< more up to two radii of the hole, until there are 4000 data; >= 1
+                           ///< more up to two radii of the hole, until there are 4000 data, and
+                           ///< farther away until there are 800; >= 1
     std::span<const BorderLoop> loops{}; ///< all loops of the surface: parts within the hole are
                                          ///< data, too, and are left out of the filling
 };

@@ -29,8 +29,8 @@ using HeightSource = std::function<KnownHeights(std::span<const Point3>)>;
 class FlatHole {
 public:
     /// Collects the corners of at least `rings` rings of triangles around the hole (more up to two of
-    /// its radii, while there are fewer than 4000) and around those of all
-    /// loops that are islands in it. Errors: unsupported if the surface there is no graph
+    /// its radii, while there are fewer than 4000, and farther away, while there are fewer than 800)
+    /// and around those of all loops that are islands in it. Errors: unsupported if the surface there is no graph
     /// z = f(x, y), with the place; bad_index; nothing_to_do for a loop without area; interrupted.
     static Result<FlatHole> of(const Surface& surface, const BorderLoop& loop,
                                std::span<const BorderLoop> loops, std::size_t rings,
@@ -38,6 +38,8 @@ public:
 
     /// The corners; those on borders come first, in the order of the loops.
     [[nodiscard]] const std::vector<Point3>& data() const { return data_.points; }
+    /// Number of data up to two radii away, which come first.
+    [[nodiscard]] std::size_t near() const { return data_.near; }
     /// Number of data on borders.
     [[nodiscard]] std::size_t border() const { return data_.inner_of.size(); }
     /// Radius of a disk with the area of the hole.

@@ -17,8 +17,7 @@
 //       (kriging/nearby_rest.hpp). So every datum is interpolated, whatever the number of centres
 //       and the noise; not with options.smoothing;
 //   (5) the zero level over the hole and a margin beyond it as triangles (detail/zero_level.hpp).
-// The expected error is unknown.
-// Guarantees: the same bytes for any number of threads. The filling
+// The expected error is unknown. Guarantees: the same bytes for any number of threads. The filling
 // extends at least two edge lengths beyond the border where the surface does; it must be joined
 // (join.hpp). Cost: n^3 / 3 for n constraints, at most 2000; n per lattice point of (5).
 // Source: the paper, 4.1, equation (10), Carr et al. (2001) for (2) and (3).

@@ -17,11 +17,9 @@ struct HoleConstants : Constants {
     /// Least throw of a fault gap, in roughnesses of the border: below, noise could be
     /// taken for throw.
     double roughness_factor = add("roughness_factor", 3);
-    /// Steeper slopes of a border triangle are not extrapolated, as they are those of
-    /// slivers.
+    /// Steeper slopes of a border triangle are not extrapolated, as they are those of slivers.
     double steepest = add("steepest", 10);
-    /// Edges of a hole from which the opposite side is searched. Larger: more time on long
-    /// borders.
+    /// Edges of a hole from which the opposite side is searched. Larger: more time on long borders.
     std::size_t most_probes = add("most_probes", 256);
     /// Least diagonal of an outer border, in diagonals of its part; parts without such a
     /// border are closed bodies with holes.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -36,11 +35,15 @@ std::vector<Point3> taking_part(const DataAroundHole& around, std::size_t most) 
 AveragedHeights::AveragedHeights(const DataAroundHole& around, ModelAverage average,
                                  const Run& run) :
     average_(std::move(average)),
-    data_(taking_part(around, constants.most_at_once)) {
-    std::sort(data_.begin(), data_.end());
-    // The height of a datum, so that no digit is lost.
-    ground_ = data_[data_.size() / 2].z;
-    for (Point3& p : data_) p.z -= ground_;
+    data_(taking_part(around, constants.most_at_once)), near_(data_) {
+    if (around.near < around.data.size())
+        near_.assign(around.data.begin(),
+                     around.data.begin() + static_cast<std::ptrdiff_t>(around.near));
+    for (auto* data : {&data_, &near_}) std::sort(data->begin(), data->end());
+    // The height of a datum near the hole, so that no digit is lost.
+    ground_ = near_[near_.size() / 2].z;
+    for (auto* data : {&data_, &near_})
+        for (Point3& p : *data) p.z -= ground_;
     for (const WeighedModel& m : average_.models)
         rounding_ = std::max(rounding_, rounding_of(around.data, m.degree));
     systems_ = systems_of(data_, run);
@@ -52,7 +55,12 @@ AveragedHeights::Systems AveragedHeights::systems_of(std::span<const Point3> dat
                                                      const Run& run) const {
     std::vector<std::optional<System>> made(average_.models.size());
     const auto one = [&](std::size_t m) {
-        made[m].emplace(data, average_.models[m].variogram, average_.models[m].degree, run);
+        const auto& [variogram, degree, weight] = average_.models[m];
+        made[m].emplace(data, variogram, degree, run);
+        // What more data add to a trend without noise is rounding.
+        const bool helps = made[m]->ready() && made[m]->misfit() <= constants.most_misfit &&
+                           variogram.sill + variogram.nugget > 0;
+        if (!helps && data.size() > near_.size()) made[m].emplace(near_, variogram, degree, run);
     };
     with_threads(run, [&] { for_each_index(made.size(), one); });
     Systems systems;
@@ -88,7 +96,7 @@ KnownHeights AveragedHeights::average_at(std::span<const Point3> places,
         known.expected.push_back(
             average_.unknown.empty()
                 ? std::hypot(average_.factor * std::sqrt(std::max(0.0, variance[i])), rounding_)
-                : std::numeric_limits<double>::quiet_NaN());
+                : NAN);
     }
     return known;
 }
@@ -132,7 +140,7 @@ KnownHeights AveragedHeights::at(std::span<const Point3> places, const Run& run)
     const double operations = size * size * static_cast<double>(places.size() * systems_.size());
     const bool all = operations <= constants.most_operations;
     if (!all && fewer_.empty())
-        fewer_ = systems_of(selected(data_, well_spread_in_plane(data_, constants.most_deviations)),
+        fewer_ = systems_of(selected(near_, well_spread_in_plane(near_, constants.most_deviations)),
                             run);
     KnownHeights known{std::vector<double>(places.size()), std::vector<double>(places.size())};
     constexpr std::size_t grain = 64;

@@ -19,8 +19,9 @@ namespace terrane::kriging::detail {
 /// The average of estimates, for one set of data.
 ///
 /// Invariant under: the order of the data; all else that changes neither distances nor differences
-/// of heights, to rounding. Up to 800 data take part, of those on borders half as many at most. What
-/// the estimates leave of other data on borders is added next to them, without its noise.
+/// of heights, to rounding. Up to 800 data take part, of those on borders half as many at most; with
+/// models that do not hold farther away, those near the hole. What the estimates leave of other data on
+/// borders is added next to them, without its noise.
 /// Cost: n^3 / 3 for each model and n data, n per place, and n^2 for its standard deviation. Memory:
 /// n^2 doubles for each model.
 class AveragedHeights {
@@ -48,6 +49,7 @@ private:
     double ground_ = 0; ///< added to heights
     double rounding_ = 0;
     std::vector<Point3> data_; ///< that take part
+    std::vector<Point3> near_; ///< the same of those near the hole
     Systems systems_;
     mutable Systems fewer_; ///< of less data, for standard deviations: once they are needed
     std::unique_ptr<NearbyRest> beside_border_; ///< in the plane

@@ -10,21 +10,25 @@
 namespace terrane::kriging::detail {
 
 struct KrigingConstants : Constants {
-    /// Distance from the hole up to which the surface gives data, in radii of the hole. Larger: less
-    /// noise, but farther parts of the surface may be of another kind.
+    /// Distance from the hole up to which data are near, in radii of the hole. Larger: less noise, but
+    /// farther parts of the surface may be of another kind.
     double reach = add("reach", 2);
-    /// No further ring is added to this number of data.
+    /// No further ring is added to this number of near data.
     std::size_t enough_data = add("enough_data", 4000);
     /// With fewer data, no expected error can be told.
     std::size_t least_data = add("least_data", 20);
-    /// Data of an estimate. Larger: nearer to rough data, n^3.
+    /// Data of an estimate, for which rings are added. Larger: nearer to smooth surfaces, and to rough
+    /// data of a long border, n^3.
     std::size_t most_at_once = add("most_at_once", 800);
+    /// Misfit of a model to all data above which it estimates from those near the hole alone. Larger:
+    /// farther data help smooth models, but may be of another kind.
+    double most_misfit = add("most_misfit", 1.5);
     /// Data of a standard deviation where all of them would take more than `most_operations`
     /// multiplications.
     std::size_t most_deviations = add("most_deviations", 250);
     double most_operations = add("most_operations", 1.5e9);
-    /// Well-spread data from which likelihoods are computed; half of them with their nearest
-    /// neighbour. Larger: slower, n^3 for each model.
+    /// Well-spread data near the hole from which likelihoods are computed; half of them with their
+    /// nearest neighbour, and a quarter as many farther away. Larger: slower, n^3 for each model.
     std::size_t most_fitted = add("most_fitted", 96);
     /// Ranges that are tried, at equal ratios.
     int range_steps = add("range_steps", 6);

@@ -277,11 +277,14 @@ Result<KrigingData> collect_data(const Surface& surface, std::span<const BorderL
         }
     Rings near(soup);
     if (const auto status = near.start(border); !status) return status.error();
-    for (std::size_t ring = 1; ring < range.rings || static_cast<double>(ring) < range.enough_rings;
-         ++ring) {
+    std::size_t near_triangles = 0;
+    for (std::size_t ring = 1;; ++ring) {
         if (run.stop.stop_requested()) return interrupted;
+        const double left = range.enough_rings - static_cast<double>(ring);
+        if (ring <= range.rings || left >= 0) near_triangles = near.triangles().size();
+        const auto enough = left > 0 ? constants.enough_data : constants.most_at_once;
         // A vertex has two triangles.
-        if (ring >= range.rings && near.triangles().size() > 2 * constants.enough_data) break;
+        if (ring >= range.rings && near.triangles().size() > 2 * enough) break;
         if (!near.spread()) break;
     }
 
@@ -296,8 +299,10 @@ Result<KrigingData> collect_data(const Surface& surface, std::span<const BorderL
         Polygon& polygon = data.borders.emplace_back();
         for (const auto v : loop->vertices) polygon.push_back(number_of(v));
     }
-    for (const auto t : near.triangles())
-        for (const auto v : soup.triangles[t]) number_of(v);
+    for (std::size_t t = 0; t < near.triangles().size(); ++t) {
+        for (const auto v : soup.triangles[near.triangles()[t]]) number_of(v);
+        if (t + 1 == near_triangles) data.near = data.points.size();
+    }
 
     for (const BorderLoop* loop : loops)
         for (std::size_t i = 0; i < loop->vertices.size(); ++i) {

@@ -18,6 +18,8 @@ namespace terrane::kriging::detail {
 struct KrigingData {
     std::vector<Point3> points;          ///< distinct; border points first, in the
                                          ///< order of the loops
+    std::size_t near = 0;                ///< points of the rings that are asked for, which
+                                         ///< come first
     std::vector<Polygon> borders;        ///< the loops, as indices into points
     std::vector<std::uint32_t> inner_of; ///< per border edge, in the order of points:
                                          ///< the third corner of its triangle
@@ -26,7 +28,7 @@ struct KrigingData {
 /// Rings of triangles around a hole whose corners are data.
 struct RingRange {
     std::size_t rings = 5;   ///< at least
-    double enough_rings = 0; ///< as many, if there are not enough data before
+    double enough_rings = 0; ///< as many, if there are not enough data before; more for an estimate
 };
 
 /// Collects the corners of rings of triangles around the loops, as far as they are a graph

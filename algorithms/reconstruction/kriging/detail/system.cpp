@@ -81,6 +81,7 @@ System::System(std::span<const Point3> data, const Variogram& model, unsigned de
     contrasts_.apply(z);
     MatrixXd solved = z.tail(n - m);
     divide_by_factor(factor_, solved);
+    misfit_ = solved.squaredNorm() / static_cast<double>(std::max<Index>(1, n - m));
     divide_by_transposed(factor_, solved);
     weights_ = VectorXd::Zero(n);
     weights_.tail(n - m) = solved;

@@ -65,6 +65,9 @@ public:
            const Run& run = {});
 
     [[nodiscard]] bool ready() const { return ready_; }
+    /// The sum of squares of the contrasts in what the model expects of it: 1, but for luck, if it
+    /// holds.
+    [[nodiscard]] double misfit() const { return misfit_; }
     /// Estimates places in blocks, with the square roots of the kriging variances if wanted.
     [[nodiscard]] std::vector<Estimate> at(std::span<const Point3> places, bool deviations) const;
     /// The matrix P for which P z are the weights of the data: if data B are left out, they are
@@ -89,6 +92,7 @@ private:
     Eigen::MatrixXd top_;       ///< kernels between trend and all rotated data
     Eigen::MatrixXd factor_;    ///< lower triangle, of the contrasts
     Eigen::VectorXd weights_, polynomial_;
+    double misfit_ = 0;
     bool ready_ = false;
 };
 

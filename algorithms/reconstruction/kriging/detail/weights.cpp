@@ -39,12 +39,26 @@ std::vector<Variogram> shapes(const KrigingOptions& options) {
     return all;
 }
 
+/// Chooses data for likelihoods: pairs near the hole, which tell noise from roughness, and some
+/// farther away, where a model that holds near the hole alone is not likely.
+SpreadPairs fitted(const DataAroundHole& around) {
+    auto all = well_spread_pairs(around.data.first(around.near), constants.most_fitted,
+                                 constants.most_fitted / 2);
+    const auto far = around.data.subspan(around.near);
+    for (const auto i : well_spread_in_plane(far, constants.most_fitted / 4))
+        all.chosen.push_back(static_cast<std::uint32_t>(around.near) + i);
+    return all;
+}
+
 /// Computes the likelihood of models.
 class Search {
 public:
-    Search(std::span<const Point3> data, const KrigingOptions& options, const Run& run) :
-        Search(data, well_spread_pairs(data, constants.most_fitted, constants.most_fitted / 2),
-               options, run) {}
+    Search(std::span<const Point3> data, const SpreadPairs& fitted, const KrigingOptions& options,
+           const Run& run) :
+        options_(options),
+        run_(run), likelihood_(selected(data, fitted.chosen)),
+        least_range_(fitted.gap > 0 ? constants.gaps_per_range * fitted.gap
+                                    : likelihood_.extent()) {}
 
     /// Returns the likeliest model of each shape, of the two likeliest with anisotropy, and of noise;
     /// the likeliest first. Returns only the trend of least degree that is the data.
@@ -65,12 +79,6 @@ public:
     }
 
 private:
-    Search(std::span<const Point3> data, const SpreadPairs& pairs, const KrigingOptions& options,
-           const Run& run) :
-        options_(options),
-        run_(run), likelihood_(selected(data, pairs.chosen)),
-        least_range_(pairs.gap > 0 ? constants.gaps_per_range * pairs.gap : likelihood_.extent()) {}
-
     static bool less_likely(const Likely& a, const Likely& b) {
         return a.likelihood < b.likelihood;
     }
@@ -345,11 +353,11 @@ ModelAverage weigh_models(const DataAroundHole& around, const KrigingOptions& op
     if (around.data.size() < constants.least_data) average.unknown = "too few data";
     if (std::ranges::all_of(around.data, [](const Point3& p) { return p.z == 0; }))
         average.unknown = "all heights are 0, which has no unit";
-    auto likely = Search(around.data, options, run)();
+    auto likely = Search(around.data, fitted(around), options, run)();
     if (options.noise)
         for (Likely& l : likely) l.variogram.nugget = *options.noise * *options.noise;
-    const auto data =
-        selected(around.data, well_spread_in_plane(around.data, constants.block_data));
+    const auto near = around.data.first(around.near);
+    const auto data = selected(near, well_spread_in_plane(near, constants.block_data));
     const auto left = left_out_of(data, around);
     std::vector<Judged> all(likely.size());
     const auto one = [&](std::size_t i) { all[i] = judged(likely[i], data, left, run); };

@@ -12,9 +12,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,21 +40,19 @@ struct ModelAverage {
     std::vector<WeighedModel> models; ///< the likeliest first
     std::string unknown{};            ///< why no expected error can be told; empty: it can
     std::size_t blocks = 0;           ///< that could be left out
-    double ratio = std::numeric_limits<double>::quiet_NaN(); ///< root mean square over blocks of
-                                                             ///< error / expected error
-    double error = std::numeric_limits<double>::quiet_NaN(); ///< root mean square over their data
-    double rim_ratio =
-        std::numeric_limits<double>::quiet_NaN();  ///< error / expected error of a rim
-                                                   ///< of data all round the hole
-    double factor = 1;                             ///< of standard deviations, for these ratios
+    double ratio = NAN;               ///< root mean square over blocks of error / expected error
+    double error = NAN;               ///< root mean square over their data
+    double rim_ratio = NAN; ///< error / expected error of a rim of data all round the hole
+    double factor = 1;      ///< of standard deviations, for these ratios
     std::vector<std::array<double, 2>> left_out{}; ///< height of a datum, and as predicted
 };
 
 /// Data and the hole among them.
 struct DataAroundHole {
-    std::span<const Point3> data; ///< those on the border of the hole first
-    std::size_t border = 0;       ///< data on the border
-    double radius = 0;            ///< of a disk with the area of the hole
+    std::span<const Point3> data;   ///< those on the border of the hole first
+    std::size_t border = 0;         ///< data on the border
+    double radius = 0;              ///< of a disk with the area of the hole
+    std::size_t near = data.size(); ///< data up to two radii away, which come first
 };
 
 /// Selects data.
@@ -62,11 +60,12 @@ std::vector<Point3> selected(std::span<const Point3> data, std::span<const std::
 
 /// Weighs the likeliest model of each covariance of `options`, of the two likeliest with anisotropy,
 /// and of noise about a trend:
-///   (1) likelihood of 96 well-spread data and the neighbours of 48 of them, after the trend has been
-///       taken out by contrasts, with the likeliest range, nugget and sill. A term of the trend costs
-///       what spreading its factor over the variance of the heights does. The logarithm is divided
-///       by 2;
-///   (2) blocks as wide as the hole, round places of its border, are left out in turn. The mean
+///   (1) likelihood of 96 well-spread data near the hole, the neighbours of 48 of them, and 24 data
+///       farther away, after the trend has been taken out by contrasts, with the likeliest range,
+///       nugget and sill. A term of the trend costs what spreading its factor over the variance of
+///       the heights does. The logarithm is divided by 2;
+///   (2) blocks as wide as the hole, round places of its border, are left out of the data near the
+///       hole in turn. The mean
 ///       logarithm of the density that a model expects of a datum in them counts as much as blocks
 ///       are, but at most 8 of them, since they overlap;
 ///   (3) models below a hundredth have no say;
@@ -75,7 +74,7 @@ std::vector<Point3> selected(std::span<const Point3> data, std::span<const std::
 ///       radius: where they are missed by more, the surface becomes rougher or steeper towards the
 ///       hole, and may do so again within it. So `factor` is the square of that ratio, if that is more.
 /// Stops early if the run is stopped; the result is of no use then.
-/// Cost: 4/3 n^3 for n = 144 and each of 40 to 90 shapes, with all trends; n^3 for n = 200 and each of
+/// Cost: 4/3 n^3 for n = 168 and each of 40 to 90 shapes, with all trends; n^3 for n = 200 and each of
 /// at most 12 models.
 ModelAverage weigh_models(const DataAroundHole& around, const KrigingOptions& options,
                           const Run& run);

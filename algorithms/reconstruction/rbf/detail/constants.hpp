@@ -13,8 +13,7 @@ namespace terrane::rbf::detail {
 /// Thresholds named worth_... are the share of the validation error of the best form so far below
 /// which another form is preferred. Smaller: the simpler form is kept more often.
 struct RbfConstants : Constants {
-    /// Least cosine between normals and axis for which a surface counts as a graph: 60
-    /// degrees.
+    /// Least cosine between normals and axis for which a surface counts as a graph: 60 degrees.
     double graph_cosine = add("graph_cosine", 0.5);
     /// Cosine below which offsets along normals are tried as well: 45 degrees.
     double steep_cosine = add("steep_cosine", 0.7);

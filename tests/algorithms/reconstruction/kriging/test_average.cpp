@@ -183,6 +183,42 @@ TEST_CASE("kriging: expected errors grow where data that are left out are missed
     CHECK(peak.factor == Approx(factor(peak)));
 }
 
+TEST_CASE("kriging: data far away help models that hold there, and no others", "[kriging]") {
+    const auto smooth = [](double x, double y) { return 9 * std::sin(x / 40) * std::cos(y / 50); };
+    const auto cliff = [&](double x, double y) { return smooth(x, y) + (x > 105 ? 30 : 0); };
+    Random random(44);
+    Ring ring = ring_of(random);
+    const auto is_near = [](const Point3& p) { return std::hypot(p.x, p.y) < 100; };
+    const auto first_far = std::stable_partition(
+        ring.data.begin() + static_cast<std::ptrdiff_t>(ring.border), ring.data.end(), is_near);
+    const auto near = static_cast<std::size_t>(first_far - ring.data.begin());
+    ModelAverage average;
+    average.models = {{{VariogramModel::gaussian, 1e-7, 20, 130}, 0, 1}};
+    const auto missed = [&](bool all) {
+        const std::span<const Point3> data(ring.data);
+        const AveragedHeights heights(
+            {all ? data : data.first(near), ring.border, hole_radius, near}, average, {});
+        const auto known = heights.at(ring.places, {});
+        double squares = 0;
+        for (std::size_t k = 0; k < ring.places.size(); ++k)
+            squares += std::pow(known.heights[k] - smooth(ring.places[k].x, ring.places[k].y), 2);
+        return std::sqrt(squares / static_cast<double>(ring.places.size()));
+    };
+    heights(smooth, 0)(random, ring);
+    CHECK(missed(true) < 0.5 * missed(false));
+    heights(cliff, 0)(random, ring);
+    CHECK(missed(true) == Approx(missed(false)));
+    // A cliff far away is seen by those who search for models, too.
+    heights([](double x, double y) { return x - y / 3 + (x > 105 ? 30 : 0); }, 0)(random, ring);
+    const auto models = [&](std::size_t count) {
+        return weigh_models({std::span(ring.data).first(count), ring.border, hole_radius, near}, {},
+                            {})
+            .models;
+    };
+    CHECK(models(near)[0].variogram.sill == 0); // a trend, and no more
+    CHECK(models(ring.data.size())[0].variogram.sill > 0);
+}
+
 TEST_CASE("kriging: planes and paraboloids are known to rounding", "[kriging]") {
     Random random(40);
     for (const auto& z : std::vector<std::function<double(double, double)>>{
