@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Property: an arrangement in tiles is that of one process: the same digest, doubles, triangles,
-// parents and regions. Where tiles find no conforming mesh, one process finds none either. Volumes in
+// parents and regions, also where tiles leave the doubles to one process. Volumes in
 // tiles, and their names, are those of the joined mesh. The work to find what is near the triangles that are in the
 // way, and the memory for it, do not grow faster than the triangles.
 #include <algorithm>
@@ -18,8 +18,6 @@
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
-#include <terrane/algorithms/rounding/detail/closed_parts.hpp>
-#include <terrane/algorithms/rounding/detail/reports.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/tiles/local_supersteps.hpp>
@@ -67,14 +65,17 @@ std::string volumes_flaw(Supersteps& tiles, const TiledReport& report) {
     return "";
 }
 
-/// Tells whether one process takes a mesh only if no other is conforming; tiles take it at once
-/// (docs/explanation/rounding.md, Joints).
-bool is_taken_last(const Mesh& mesh, const Arrangement& exact) {
-    using namespace rounding::detail;
-    RoundedMesh rounded;
-    rounded.mesh = Mesh(mesh);
-    return !ill_joined(mesh.triangles, mesh.parents_of, exact.state->corners).empty() ||
-           are_parted(exact, rounded);
+/// What tiles leave to one process.
+std::string flaw_of_left(const Whole& whole, Supersteps& tiles) {
+    const auto left = repair_in_one_process(tiles);
+    if (!left || !whole.rounded) {
+        const bool says_so =
+            !left && !whole.rounded && left.error().code == whole.rounded.error().code;
+        return says_so ? "" : "what tiles leave is refused, or not, by one process alone";
+    }
+    if (left->report.clean != whole.is_clean()) return "what tiles leave ends otherwise";
+    Mesh mesh = left->piece.mesh;
+    return test_support::difference(mesh, whole.rounded->mesh);
 }
 
 std::string work_flaw(const Work& total, std::uint64_t triangles) {
@@ -96,18 +97,14 @@ std::string flaw_of_tiles(std::span<const Surface> surfaces, const Whole& whole,
     if (report->digest != whole.digest) return "another digest";
     if (auto what = work_flaw(report->total, whole.exact.triangles.size()); !what.empty())
         return what;
-    const bool is_left = report->contacts > TiledOptions{}.most_gathered; // to one process
-    if (!report->clean && is_left) return "";
+    if (!report->clean) return flaw_of_left(whole, tiles);
     if (!whole.rounded) return "one process says " + whole.rounded.error().message();
-    if (report->clean != whole.is_clean())
-        return report->clean ? "one process finds no conforming mesh"
-                             : "tiles find no conforming mesh";
-    if (!report->clean) return "";
+    if (!whole.is_clean()) return "one process finds no conforming mesh";
     const RoundedMesh& rounded = *whole.rounded;
     const auto mesh = test_support::pieces_joined(tiles, *report);
     if (!mesh) return mesh.error().message();
     if (const auto what = test_support::difference(*mesh, rounded.mesh); !what.empty())
-        return is_taken_last(*mesh, whole.exact) ? "" : "another mesh: " + what;
+        return "another mesh: " + what;
     if (report->regions != rounded.regions.size()) return "another number of regions";
     if (report->intersection_edges != rounded.mesh->intersection_edges.size())
         return "another number of intersection edges";

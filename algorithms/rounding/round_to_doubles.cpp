@@ -220,14 +220,30 @@ Result<RoundedMesh> round_once(const Arrangement& a, const Task& task) {
     return rounded;
 }
 
+/// Rounds within the limit of the task: where nothing is conforming, once more with a repair of places, and more
+/// attempts. Only then takes a mesh that is ill-joined or parted.
+Result<RoundedMesh> round_within(const Arrangement& a, Task task) {
+    std::optional<RoundedMesh> spare;
+    task.spare = &spare;
+    auto rounded = round_once(a, task);
+    const auto is_unclean = [&] { return rounded && !rounded->report.clean; };
+    if (is_unclean() && task.options.max_rounds > 0) {
+        task.repairs_places = true;
+        task.most_attempts *= rounding_tuning.more_attempts;
+        auto again = round_once(a, task);
+        if (!again || again->report.clean) rounded = std::move(again);
+    }
+    if (is_unclean() && spare) rounded = std::move(*spare);
+    return rounded;
+}
+
 /// Returns the least limit, a power of two times that of the task, with which the mesh is conforming; 0: it is with
-/// none of those that were tried.
+/// none of those that were tried. A rounding within that limit begins with the same attempts.
 Result<double> sufficient_limit(const Arrangement& a, Task task) {
     const double limit = task.limit;
-    task.repairs_places = false; // so that it takes less time
     const auto suffices = [&](int digits) -> Result<bool> {
         task.limit = std::ldexp(limit, digits);
-        const auto rounded = round_once(a, task);
+        const auto rounded = round_once(a, task); // without a repair of places, which takes longer
         if (!rounded) return rounded.error();
         return rounded->report.clean;
     };
@@ -250,19 +266,10 @@ Result<double> sufficient_limit(const Arrangement& a, Task task) {
 
 Result<RoundedMesh> round_all(const Arrangement& a, const RoundingOptions& options,
                               const Run& run) {
-    Task task{options, options.max_move.value_or(default_max_move(a)), a.state->kept_planes, run};
-    std::optional<RoundedMesh> spare;
-    task.spare = &spare;
-    auto rounded = round_once(a, task);
-    const auto is_unclean = [&] { return rounded && !rounded->report.clean; };
-    if (is_unclean() && options.max_rounds > 0) {
-        task.repairs_places = true;
-        task.most_attempts *= rounding_tuning.more_attempts;
-        auto again = round_once(a, task);
-        if (!again || again->report.clean) rounded = std::move(again);
-    }
-    if (is_unclean() && spare) rounded = std::move(*spare);
-    if (is_unclean() && options.max_rounds > 0 && !options.max_move) {
+    const Task task{options, options.max_move.value_or(default_max_move(a)), a.state->kept_planes,
+                    run};
+    auto rounded = round_within(a, task);
+    if (rounded && !rounded->report.clean && options.max_rounds > 0 && !options.max_move) {
         const auto limit = sufficient_limit(a, task);
         if (!limit) return limit.error();
         rounded->report.sufficient_limit = *limit;

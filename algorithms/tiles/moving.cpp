@@ -14,6 +14,7 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/rounding/moved_input.hpp>
 #include <terrane/algorithms/tiles/detail/frames.hpp>
+#include <terrane/algorithms/tiles/detail/joints.hpp>
 #include <terrane/algorithms/tiles/detail/over_tiles.hpp>
 #include <terrane/algorithms/tiles/detail/steps.hpp>
 
@@ -22,39 +23,6 @@ namespace terrane::tiles {
 using namespace detail;
 
 namespace {
-
-/// An input triangle, or an input vertex, to one who asked for it.
-struct AskedTriangle {
-    std::uint32_t id = 0;
-    Triangle corners{};
-};
-struct AskedVertex {
-    std::uint32_t id = 0, first = 0; ///< the first vertex at its place, before any was moved
-    Point3 at{};
-};
-
-/// A corner of triangles in contact.
-struct ChosenPoint {
-    std::uint32_t id = 0, unused = 0; ///< first vertex at its place
-    Point3 at{};
-
-    friend auto operator<=>(const ChosenPoint& p, const ChosenPoint& q) { return p.id <=> q.id; }
-    friend bool operator==(const ChosenPoint& p, const ChosenPoint& q) { return p.id == q.id; }
-};
-
-/// Tells all processes an array that the process of the first tile has.
-template <class T>
-Status tell_all(Supersteps& tiles, std::vector<T>& array) {
-    const auto bytes = tiles.relay([&](Tile& b, Bytes before) {
-        if (b.index == 0)
-            for (const T& record : array) append_record(before, record);
-        return before;
-    });
-    if (!bytes) return bytes.error();
-    array.resize(bytes->size() / sizeof(T));
-    if (!array.empty()) std::memcpy(array.data(), bytes->data(), bytes->size());
-    return Done{};
-}
 
 /// Notes the input as it is, before it is moved for the first time. Channel 0: duplicates, home.
 Status note_input(Tile& b, Inbox&, Outbox& out) {
@@ -104,6 +72,9 @@ public:
         report_(report), first_(std::move(first)), input_(input), run_(run) {}
 
     Status operator()() {
+        auto met = find_meetings(tiles_);
+        if (!met) return met.error();
+        met_ = std::move(*met);
         for (const auto& step : {note_input, note_repeated})
             if (auto done = tiles_.step("move", step); !done) return done;
         if (auto done = find_largest(); !done) return done;
@@ -136,11 +107,10 @@ private:
                               const StepsBeside& beside);
     Result<Attempted> arranged(double farthest);
     Status find_largest();
-    Status find_corners(const std::vector<std::uint32_t>& triangles);
     [[nodiscard]] std::vector<Point3> directions(double tolerance) const;
     [[nodiscard]] std::vector<Point3> chosen_points() const {
         std::vector<Point3> points;
-        for (const ChosenPoint& p : chosen_) points.push_back(p.at);
+        for (const GivenCorner& p : chosen_) points.push_back(p.at);
         return points;
     }
 
@@ -152,13 +122,14 @@ private:
     const KeptPlanes no_planes_;
     std::array<double, 3> largest_{}; ///< absolute coordinate of all input vertices, per axis
     double largest_of_triangles_ = 0; ///< absolute coordinate of input triangles
-    std::vector<ChosenPoint> chosen_; ///< ascending
+    std::vector<GivenCorner> chosen_; ///< ascending
     unsigned attempts_ = 0;
     bool is_left_ = false; ///< to the whole
+    Meetings met_;         ///< before the input was moved
 
     // In the process of the first tile.
-    std::map<std::uint32_t, std::array<ChosenPoint, 3>> corners_; ///< of triangles in contact
-    ParentsInContact last_;                                       ///< after the last attempt
+    GivenCorners corners_;  ///< of triangles in contact
+    ParentsInContact last_; ///< after the last attempt
 };
 
 Status MovedTiles::find_largest() {
@@ -179,63 +150,11 @@ Status MovedTiles::find_largest() {
     return Done{};
 }
 
-/// Lets the first tile learn the corners of input triangles; `triangles` counts there.
-Status MovedTiles::find_corners(const std::vector<std::uint32_t>& triangles) {
-    std::vector<AskedTriangle> found;
-    const Step ask = [&](Tile& b, Inbox&, Outbox& out) -> Status {
-        if (b.index == 0)
-            for (const std::uint32_t t : triangles)
-                out.put(home_of(t, b.triangle_total(), b.count), 0, t);
-        return Done{};
-    };
-    const Step tell = [](Tile& b, Inbox& in, Outbox& out) -> Status {
-        const std::uint32_t first = home_start(b, b.triangle_total());
-        in.take<std::uint32_t>(0, [&](std::uint32_t from, std::uint32_t t) {
-            out.put(from, 0, AskedTriangle{t, b.home_triangles[t - first]});
-        });
-        return Done{};
-    };
-    const Step ask_for_vertices = [&](Tile& b, Inbox& in, Outbox& out) -> Status {
-        if (b.index != 0) return Done{};
-        found = in.all<AskedTriangle>(0);
-        std::vector<std::uint32_t> vertices;
-        for (const AskedTriangle& t : found)
-            vertices.insert(vertices.end(), t.corners.begin(), t.corners.end());
-        sort_unique(vertices);
-        for (const std::uint32_t v : vertices) out.put(home_of(v, b.vertex_total(), b.count), 0, v);
-        return Done{};
-    };
-    const Step tell_vertices = [](Tile& b, Inbox& in, Outbox& out) -> Status {
-        const std::uint32_t first = home_start(b, b.vertex_total());
-        in.take<std::uint32_t>(0, [&](std::uint32_t from, std::uint32_t v) {
-            out.put(from, 0,
-                    AskedVertex{v, b.home_given_first[v - first], b.home_given[v - first]});
-        });
-        return Done{};
-    };
-    const Step take = [&](Tile& b, Inbox& in, Outbox&) -> Status {
-        if (b.index != 0) return Done{};
-        std::map<std::uint32_t, ChosenPoint> vertices;
-        in.take<AskedVertex>(0, [&](std::uint32_t, const AskedVertex& v) {
-            vertices[v.id] = {v.first, 0, v.at};
-        });
-        for (const AskedTriangle& t : found)
-            for (unsigned i = 0; i < 3; ++i) corners_[t.id][i] = vertices.at(t.corners[i]);
-        return Done{};
-    };
-    for (const Step* step : {&ask, &tell, &ask_for_vertices, &tell_vertices, &take})
-        if (auto done = tiles_.step("move", *step); !done) return done;
-    return Done{};
-}
-
 Result<bool> MovedTiles::choose_more() {
-    std::vector<std::uint32_t> unknown;
-    for (const std::uint32_t t : last_.all)
-        if (!corners_.contains(t)) unknown.push_back(t);
-    if (auto found = find_corners(unknown); !found) return found.error();
+    if (auto found = find_corners(tiles_, last_.all, corners_); !found) return found.error();
     const std::size_t before = chosen_.size();
     for (const std::uint32_t t : last_.all)
-        for (const ChosenPoint& p : corners_.at(t)) chosen_.push_back(p);
+        for (const GivenCorner& p : corners_.at(t)) chosen_.push_back(p);
     sort_unique(chosen_);
     if (auto told = tell_all(tiles_, chosen_); !told) return told.error();
     return chosen_.size() > before;
@@ -261,7 +180,7 @@ std::vector<Point3> MovedTiles::directions(double tolerance) const {
     std::vector<std::uint32_t> triangles, names;
     for (const auto& [id, corners] : corners_) {
         triangles.push_back(id);
-        for (const ChosenPoint& p : corners) names.push_back(p.id);
+        for (const GivenCorner& p : corners) names.push_back(p.id);
     }
     sort_unique(names);
     const auto place_in = [](const std::vector<std::uint32_t>& all, std::uint32_t id) {
@@ -370,6 +289,10 @@ Result<Attempted> MovedTiles::arranged(double farthest) {
         rounds = repaired->summary.rounds;
     }
     if (!after->clean || how.surface_deviation > report_.limit) return Attempted::in_contact;
+    const auto meetings = find_meetings(tiles_);
+    if (!meetings) return meetings.error();
+    is_left_ = may_be_parted(met_, *meetings, how.surface_deviation);
+    if (is_left_) return Error{ErrorCode::unsupported, "", ""};
     how.rounds += attempts_ + rounds;
     how.is_moved = true;
     after->repair = how;

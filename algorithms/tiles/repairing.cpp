@@ -4,7 +4,6 @@
 // asks for more until it knows all that the repair depends on, and tells all tiles what has changed.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <utility>
 
@@ -13,6 +12,8 @@
 #include <terrane/algorithms/rounding/repaired_part.hpp>
 #include <terrane/algorithms/search/box_cover.hpp>
 #include <terrane/algorithms/tiles/detail/edges.hpp>
+#include <terrane/algorithms/tiles/detail/joints.hpp>
+#include <terrane/algorithms/tiles/detail/over_tiles.hpp>
 #include <terrane/algorithms/tiles/detail/steps.hpp>
 #include <terrane/algorithms/tiles/tiled_arrangement.hpp>
 
@@ -108,10 +109,7 @@ public:
         send_boxes(out);
     }
 
-    /// Takes triangles and repairs them. Sends boxes as above, or, if nothing is missing any more, what
-    /// has changed: channel 0: GatheredPoint, those that moved, are new or are corners of changed
-    /// triangles; channel 1: names of points that are gone; channel 2: ChangedTriangle; channel 3:
-    /// ParentOfTriangle.
+    /// Takes triangles and repairs them. Sends boxes as above if something is missing.
     void advance(Tile& b, Inbox& in, Outbox& out, const Run& run) {
         take(in);
         is_waiting_ = false;
@@ -120,19 +118,35 @@ public:
         repaired_ = repair_part(part(b), run);
         b.work.near_boxes += repaired_.compared;
         is_waiting_ = !repaired_.missing.empty();
-        if (is_waiting_) {
-            covered_.insert(covered_.end(), repaired_.missing.begin(), repaired_.missing.end());
-            covered_ = united(std::move(covered_));
-            send_boxes(out);
-        } else if (repaired_.clean) {
-            tell(b, out);
-        }
+        if (!is_waiting_) return;
+        covered_.insert(covered_.end(), repaired_.missing.begin(), repaired_.missing.end());
+        covered_ = united(std::move(covered_));
+        send_boxes(out);
+    }
+
+    /// Sends what has changed, unless that may change joints: channel 0: GatheredPoint, those that moved, are
+    /// new or are corners of changed triangles; channel 1: names of points that are gone; channel 2:
+    /// ChangedTriangle; channel 3: ParentOfTriangle.
+    void end(const Tile& b, const GivenCorners& corners, Outbox& out) {
+        const PartOfDoubles before = part(b);
+        std::map<std::uint32_t, Triangle> names;
+        for (const auto& [id, c] : corners) names[id] = {c[0].id, c[1].id, c[2].id};
+        repaired_.clean = !may_change_joints(before.triangles, before.parents_of,
+                                             repaired_.triangles, repaired_.parents_of, names);
+        has_all_ = repaired_.clean; // otherwise other attempts come first
+        if (repaired_.clean) tell(b, out);
     }
 
     [[nodiscard]] bool is_waiting() const { return is_waiting_; }
     [[nodiscard]] bool has_all() const { return has_all_; }
     [[nodiscard]] RepairedPart& repaired() { return repaired_; }
     [[nodiscard]] std::size_t triangles() const { return triangles_.size(); }
+    [[nodiscard]] std::vector<std::uint32_t> parents() const {
+        std::vector<std::uint32_t> all;
+        for (const ParentOfTriangle& p : parents_) all.push_back(p.id);
+        sort_unique(all);
+        return all;
+    }
 
 private:
     struct Gathered {
@@ -403,23 +417,15 @@ struct Outcome {
 };
 
 Result<Outcome> outcome_of(Supersteps& tiles, Gathering& gathering) {
-    const auto bytes = tiles.relay([&](Tile& b, Bytes before) {
-        if (b.index != 0) return before;
+    return over_tiles<Outcome>(tiles, [&](Tile& b, Outcome& outcome) {
+        if (b.index != 0) return;
         const RepairedPart& r = gathering.repaired();
-        const Outcome outcome{
-            gathering.is_waiting(),
-            gathering.has_all(),
-            r.clean,
-            r.max_move,
-            {r.naive_contacts, gathering.triangles(), r.rounds, r.surface_deviation}};
-        Bytes next;
-        append_record(next, outcome);
-        return next;
+        outcome = {gathering.is_waiting(),
+                   gathering.has_all(),
+                   r.clean,
+                   r.max_move,
+                   {r.naive_contacts, gathering.triangles(), r.rounds, r.surface_deviation}};
     });
-    if (!bytes) return bytes.error();
-    Outcome outcome;
-    std::memcpy(&outcome, bytes->data(), sizeof outcome);
-    return outcome;
 }
 
 /// Lets the first tile gather triangles until it knows what changes, or that it can't repair them.
@@ -444,9 +450,16 @@ Result<Outcome> gather_and_repair(Supersteps& tiles, const TiledReport& report,
         if (auto sent = tiles.step("repair", send_near); !sent) return sent.error();
         if (auto advanced = in_first(advance); !advanced) return advanced.error();
         auto outcome = outcome_of(tiles, gathering);
-        if (outcome && outcome->is_waiting) continue;
+        if (!outcome) return outcome;
+        if (outcome->is_waiting) continue;
         in_contact = std::move(gathering.repaired().in_contact);
-        return outcome;
+        if (!outcome->is_clean) return outcome;
+        GivenCorners corners;
+        if (auto found = find_corners(tiles, gathering.parents(), corners); !found)
+            return found.error();
+        const auto end = [&](Tile& b, Inbox&, Outbox& out) { gathering.end(b, corners, out); };
+        if (auto ended = in_first(end); !ended) return ended.error();
+        return outcome_of(tiles, gathering);
     }
 }
 

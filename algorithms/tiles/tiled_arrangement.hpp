@@ -6,8 +6,8 @@
 // round_to_doubles(), with the same numbers, parents and regions, for any number of tiles; the digest
 // is the same. Where the nearest doubles are not a conforming mesh, few pairs in the way are repaired as
 // round_to_doubles() repairs them, with the triangles near them; or all tiles move the input as it does,
-// and arrange it again. Many pairs are reported: their repair needs the whole model
-// (docs/explanation/scale.md).
+// and arrange it again. Where pairs are many, none of that helps, or round_to_doubles() may prefer another
+// attempt, the report is not clean: that needs the whole model (docs/explanation/scale.md).
 // Cost: that of arrange(), divided by the number of tiles as far as they balance, and of the faces
 // that overlap several tiles.
 // Source: the paper, section 2 (structured grid); Valiant (1990) for the steps.

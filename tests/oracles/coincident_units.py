@@ -3,7 +3,7 @@
 """Arranges closed units that were cut from one volume and meshed apart, so that their contacts nearly coincide.
 
     tests/oracles/coincident_units.py --terrane build/release/cli/terrane [--count 2000] [--seed 1] [--kind NAME]
-        [--units N] [--cells N] [--keep DIR] [--options "..."] [--threads N]
+        [--units N] [--cells N] [--keep DIR] [--options "..."] [--threads N] [--page FILE]
 
 A model is a box of warped cells, each of which belongs to the unit of the nearest of N seeds. A unit is the boundary of its
 cells, in triangles that it divides by itself: at other points of the edges, about other points inside. So neighbours share no
@@ -16,7 +16,7 @@ moved     each vertex moved by up to 1, 1e2, 1e4 or 1e6 spacings of the doubles
 Each may be shifted to map coordinates of millions of metres (utm).
 
 Each model must end in a conforming mesh, as `terrane check` says of the file, within the default limit of moves, or with the limit named that would do, within which
-it must then end conforming.
+it must then end conforming. The greatest numbers of all models of a row are in the table.
 
 With --tolerance F, T is F times the largest distance of a vertex from where it was computed (1e-9 of the model where that
 is less). `terrane volume --tolerance T` must then find exactly the parts of units that hang together, each with the volume
@@ -38,6 +38,7 @@ import time
 
 import numpy as np
 
+BEGIN, END = "<!-- made by tests/oracles/coincident_units.py -->", "<!-- end of the table -->"
 KINDS = ("doubles", "float32", "decimals", "moved", "doubles_utm", "float32_utm", "decimals_utm", "moved_utm")
 CORNERS = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)])
 #: Faces of a cell, outward: four of its corners, and the neighbour across.
@@ -277,6 +278,19 @@ def judge_joined(args, made, tolerance, path, folder):
     return "joined", "", told, seconds
 
 
+def table_of(table, tolerance):
+    """The table in Markdown. Seconds are those of all runs of a model, --max-move as named included."""
+    ends = ("joined", "failed") if tolerance else ("conforming", "named", "failed")
+    lines = ["| kind | units | models | " + " | ".join(ends) + " | triangles | pairs | surfaces moved | seconds: median | most |",
+             "|---" * (8 + len(ends)) + "|"]
+    for (kind, size), row in sorted(table.items()):
+        lines.append("| %s | up to %d | %d | %s | %s | %s | %.2g | %.2g | %.2g |" % (
+            kind, size, len(row["seconds"]), " | ".join(str(len(row[end])) for end in ends),
+            *("{:,}".format(max(row[what])).replace(",", " ") for what in ("triangles", "pairs")), max(row["moves"]),
+            np.median(row["seconds"]), max(row["seconds"])))
+    return "\n".join(lines) + "\n"
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--terrane", required=True)
@@ -290,6 +304,7 @@ def main():
     parser.add_argument("--tetrahedra", action="store_true", help="with --tolerance: mesh the blocks, too")
     parser.add_argument("--options", default="", help="for terrane arrange")
     parser.add_argument("--keep", type=pathlib.Path, help="keep the models that fail in this folder")
+    parser.add_argument("--page", type=pathlib.Path, help="put the table between its two marks in this page")
     args = parser.parse_args()
     table = collections.defaultdict(lambda: collections.defaultdict(list))
     failures = 0
@@ -306,7 +321,8 @@ def main():
             else:
                 end, what, stats, seconds = judge(args, path, folder)
             rounding = stats.get("rounding", {})
-            row = table[kind]
+            size = next(most for most in (5, 10, 20, 40) if len(made[0]) <= most)
+            row = table[kind, size]
             row[end].append(seed)
             row["triangles"].append(stats.get("input", {}).get("triangles", 0))
             row["pairs"].append(rounding.get("naive_contacts", 0))
@@ -319,10 +335,12 @@ def main():
                     args.keep.mkdir(exist_ok=True)
                     path.replace(args.keep / path.name)
             path.unlink(missing_ok=True)
-    for kind, row in table.items():
-        print("%-13s %4d joined, %4d conforming, %4d named, %4d failed; up to %d triangles, %d pairs, moves %.3g, %.3g s" % (
-            kind, len(row["joined"]), len(row["conforming"]), len(row["named"]), len(row["failed"]), max(row["triangles"]), max(row["pairs"]),
-            max(row["moves"]), max(row["seconds"])))
+    text = table_of(table, args.tolerance)
+    print(text, end="")
+    if args.page:
+        page = args.page.read_text()
+        begin = page.index(BEGIN) + len(BEGIN)
+        args.page.write_text(page[:begin] + "\n\n" + text + "\n" + page[page.index(END, begin):])
     return 1 if failures else 0
 
 

@@ -2,10 +2,13 @@
 #include <terrane/algorithms/rounding/detail/closed_parts.hpp>
 
 #include <algorithm>
+#include <array>
+#include <compare>
 #include <iterator>
 #include <map>
 #include <set>
 
+#include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
 
@@ -56,6 +59,60 @@ std::set<Side> overlapping_neighbours(const EdgeSides& edges,
             }
     });
     return pairs;
+}
+
+/// A vertex {a, a, a}, an edge {a, b, b} or a triangle, and an input triangle that it is in.
+struct Element {
+    std::array<std::uint32_t, 3> corners{};
+    std::uint32_t parent = 0;
+
+    friend auto operator<=>(const Element&, const Element&) = default;
+    /// Returns its share of the Euler characteristic.
+    [[nodiscard]] int sign() const {
+        return corners[0] != corners[1] && corners[1] == corners[2] ? -1 : 1;
+    }
+};
+
+std::vector<Element> elements_of(std::span<const Triangle> triangles,
+                                 const IndexLists<std::uint32_t>& parents_of) {
+    std::vector<Element> all;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        auto c = triangles[t];
+        std::sort(c.begin(), c.end());
+        for (const std::uint32_t p : parents_of[t]) {
+            all.push_back({c, p});
+            for (unsigned i = 0; i < 3; ++i) {
+                const auto [a, b] = side_of(c, i);
+                all.push_back({{a, b, b}, p});
+                all.push_back({{a, a, a}, p});
+            }
+            all.push_back({{c[2], c[2], c[2]}, p});
+        }
+    }
+    sort_unique(all);
+    return all;
+}
+
+/// Returns the corners of elements that are in other input triangles before than after.
+std::set<std::array<std::uint32_t, 3>> changed_elements(std::span<const Element> before,
+                                                        std::span<const Element> after) {
+    std::vector<Element> changed;
+    std::ranges::set_symmetric_difference(before, after, std::back_inserter(changed));
+    std::set<std::array<std::uint32_t, 3>> all;
+    for (const Element& e : changed) all.insert(e.corners);
+    return all;
+}
+
+/// Returns the input triangles with a common side of each one.
+std::map<std::uint32_t, std::set<std::uint32_t>>
+neighbours_of(const std::map<std::uint32_t, Triangle>& corners) {
+    std::map<Side, std::vector<std::uint32_t>> with;
+    for (const auto& [p, c] : corners)
+        for (unsigned i = 0; i < 3; ++i) with[side_of(c, i)].push_back(p);
+    std::map<std::uint32_t, std::set<std::uint32_t>> all;
+    for (const auto& [side, around] : with)
+        for (const std::uint32_t p : around) all[p].insert(around.begin(), around.end());
+    return all;
 }
 
 /// Returns the Euler characteristic of what two sets of triangles have in common.
@@ -109,6 +166,32 @@ std::vector<Side> ill_joined(std::span<const Triangle> triangles,
         if (common_characteristic(triangles, parts[pair[0]], parts[pair[1]]) != 1)
             found.push_back(pair);
     return found;
+}
+
+/// Only elements that change count for the difference of two Euler characteristics.
+bool may_change_joints(std::span<const Triangle> before,
+                       const IndexLists<std::uint32_t>& parents_before,
+                       std::span<const Triangle> after,
+                       const IndexLists<std::uint32_t>& parents_after,
+                       const std::map<std::uint32_t, Triangle>& corners) {
+    const std::array elements{elements_of(before, parents_before),
+                              elements_of(after, parents_after)};
+    const auto changed = changed_elements(elements[0], elements[1]);
+    const auto neighbours = neighbours_of(corners);
+    std::map<Side, int> difference; // per pair of neighbours
+    for (const int times : {-1, 1}) {
+        const auto& all = elements[times < 0 ? 0 : 1];
+        for (std::size_t k = 0, end = 0; k < all.size(); k = end) {
+            std::set<std::uint32_t> parents;
+            for (; end < all.size() && all[end].corners == all[k].corners; ++end)
+                parents.insert(all[end].parent);
+            if (!changed.contains(all[k].corners)) continue;
+            for (const std::uint32_t p : parents)
+                for (const std::uint32_t q : neighbours.at(p))
+                    if (p < q && parents.contains(q)) difference[{p, q}] += times * all[k].sign();
+        }
+    }
+    return std::ranges::any_of(difference, [](const auto& d) { return d.second != 0; });
 }
 
 /// Reduces the boundary of each part, modulo 2, by those of earlier ones with the same last edge. What

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -31,5 +32,14 @@ std::vector<std::uint32_t> superfluous_parts(std::span<const Triangle> triangles
 std::vector<Side> ill_joined(std::span<const Triangle> triangles,
                              const IndexLists<std::uint32_t>& parents_of,
                              std::span<const Triangle> corners);
+
+/// Tells whether a change of triangles may have made two input triangles with a common side ill-joined that
+/// were not: whether the Euler characteristic of what they have in common is another. before, after:
+/// all triangles that have a vertex of a changed one, or more. corners: per input triangle of these.
+bool may_change_joints(std::span<const Triangle> before,
+                       const IndexLists<std::uint32_t>& parents_before,
+                       std::span<const Triangle> after,
+                       const IndexLists<std::uint32_t>& parents_after,
+                       const std::map<std::uint32_t, Triangle>& corners);
 
 } // namespace terrane::rounding::detail

@@ -109,7 +109,6 @@ void add_to_report(const MovedInput& moved, const Arrangement& a, const Rounding
 }
 
 bool are_parted(const Arrangement& a, const RoundedMesh& rounded) {
-    constexpr double stated = 4; // deviations in a certificate
     const Mesh& mesh = *rounded.mesh;
     std::set<SurfacePair> joined;
     for_each_meeting(mesh.vertices.size(), mesh.triangles, mesh.surfaces_of,
@@ -127,7 +126,7 @@ bool are_parted(const Arrangement& a, const RoundedMesh& rounded) {
                              return;
                          const Point3 p = a.state->points.nearest(a.vertices[v]);
                          const Point3& q = first.try_emplace(pair, p).first->second;
-                         any = move_bound(p, q) > stated * rounded.report.deviation;
+                         any = move_bound(p, q) > stated_deviations * rounded.report.deviation;
                      });
     return any;
 }

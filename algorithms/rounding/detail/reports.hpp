@@ -29,6 +29,9 @@ std::array<std::size_t, 32> decades_of(std::span<const double> moves);
 void add_to_report(const MovedInput& moved, const Arrangement& arrangement,
                    const RoundingReport& first, RoundedMesh& rounded);
 
+/// A certificate states at most this many deviations.
+inline constexpr double stated_deviations = 4;
+
 /// Tells whether two surfaces that meet in the arrangement, at points that are farther from each other
 /// than terrane verify accepts, have no vertex of the mesh in common. Surfaces of which a triangle
 /// vanished may be parted.

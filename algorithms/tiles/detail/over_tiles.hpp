@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstring>
+#include <vector>
 
 #include <terrane/algorithms/tiles/supersteps.hpp>
 
@@ -22,6 +23,20 @@ Result<Sum> over_tiles(Supersteps& tiles, const Add& add) {
     Sum sum{};
     std::memcpy(&sum, bytes->data(), sizeof sum);
     return sum;
+}
+
+/// Tells all processes an array that the process of the first tile has.
+template <class T>
+Status tell_all(Supersteps& tiles, std::vector<T>& array) {
+    const auto bytes = tiles.relay([&](Tile& b, Bytes before) {
+        if (b.index == 0)
+            for (const T& record : array) append_record(before, record);
+        return before;
+    });
+    if (!bytes) return bytes.error();
+    array.resize(bytes->size() / sizeof(T));
+    if (!array.empty()) std::memcpy(array.data(), bytes->data(), bytes->size());
+    return Done{};
 }
 
 } // namespace terrane::tiles::detail

@@ -104,7 +104,8 @@ struct RepairInput {
 
 /// The outcome of the repair of few pairs.
 struct RepairOfFew {
-    bool is_done = false; ///< whether the first tile could gather all that it takes
+    bool is_done =
+        false; ///< whether the first tile could gather all that it takes, and changes no joints
     RepairInTiles summary;
     /// The input triangles in contact, if it is done and the report is not clean. Only the process of the
     /// first tile has them.

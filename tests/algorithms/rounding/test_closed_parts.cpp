@@ -123,4 +123,19 @@ TEST_CASE("rounding: two triangles whose common side is two paths are ill-joined
     parents_of = {};
     for (std::uint32_t t = 0; t < 4; ++t) parents_of.push_back(std::array{t / 2});
     CHECK(found(corners).empty());
+
+    const auto may_change = [&](std::vector<Triangle> before, std::vector<Triangle> after,
+                                const Triangle& second) {
+        return may_change_joints(before, parents_of, after, parents_of,
+                                 {{0, corners[0]}, {1, second}});
+    };
+    auto torn = triangles; // only at one end
+    torn[3] = {1, 5, 3};
+    CHECK(may_change(triangles, torn, corners[1]));
+    CHECK(may_change(torn, triangles, corners[1]));
+    CHECK_FALSE(may_change(triangles, torn, {1, 6, 3})); // no common side
+    IndexLists<std::uint32_t> of_two;                    // 4 is merged with 0
+    for (std::uint32_t t = 0; t < 2; ++t) of_two.push_back(std::array{t});
+    CHECK_FALSE(may_change_joints(triangles, parents_of, corners, of_two,
+                                  {{0, corners[0]}, {1, corners[1]}}));
 }
