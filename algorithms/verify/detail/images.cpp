@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <terrane/algorithms/verify/detail/distance.hpp>
+#include <terrane/algorithms/verify/detail/edges.hpp>
 #include <terrane/algorithms/verify/detail/joined_sets.hpp>
 #include <terrane/algorithms/verify/detail/rounded_parts.hpp>
 
@@ -30,15 +31,10 @@ struct Common {
     Numbers triangles;
 };
 
-Edge edge_of(const Triangle& t, std::size_t side) {
-    return {std::min(t[side], t[(side + 1) % 3]), std::max(t[side], t[(side + 1) % 3])};
-}
-
 /// Sorts pairs {input triangle, value} and lists the values, each once.
 template <class T>
 IndexLists<T> lists_of(std::vector<std::pair<std::uint32_t, T>> pairs, std::size_t inputs) {
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    make_set(pairs);
     Numbers keys;
     for (const auto& [key, value] : pairs) keys.push_back(key);
     return lists_by_key<T>(inputs, keys, [&](std::size_t i) { return pairs[i].second; });
@@ -54,9 +50,9 @@ public:
         std::vector<std::pair<std::uint32_t, Edge>> edges;
         for (std::size_t t = 0; t < triangles_.size(); ++t)
             for (const std::uint32_t parent : parts.parents_of[t])
-                for (std::size_t side = 0; side < 3; ++side) {
-                    vertices.emplace_back(parent, triangles_[t][side]);
-                    edges.emplace_back(parent, edge_of(triangles_[t], side));
+                for (const HalfEdge& side : sides_of(triangles_[t])) {
+                    vertices.emplace_back(parent, side.apex);
+                    edges.emplace_back(parent, side.edge);
                 }
         vertices_ = lists_of(std::move(vertices), children_.size());
         edges_ = lists_of(std::move(edges), children_.size());
@@ -76,7 +72,7 @@ public:
     [[nodiscard]] std::vector<Edge> border(std::uint32_t input) const {
         std::map<Edge, int> uses;
         for (const std::uint32_t t : children_[input])
-            for (std::size_t side = 0; side < 3; ++side) ++uses[edge_of(triangles_[t], side)];
+            for (const HalfEdge& side : sides_of(triangles_[t])) ++uses[side.edge];
         std::vector<Edge> once;
         for (const auto& [edge, count] : uses)
             if (count == 1) once.push_back(edge);
@@ -118,8 +114,7 @@ private:
     [[nodiscard]] bool is_closed(const Numbers& which) const {
         std::map<Edge, Numbers> at;
         for (const std::uint32_t t : which)
-            for (std::size_t side = 0; side < 3; ++side)
-                at[edge_of(triangles_[t], side)].push_back(t);
+            for (const HalfEdge& side : sides_of(triangles_[t])) at[side.edge].push_back(t);
         std::vector<Edge> open;
         for (const auto& [edge, triangles] : at)
             if (triangles.size() == 1) open.push_back(edge);
@@ -129,10 +124,9 @@ private:
             open.pop_back();
             if (free.empty()) continue;
             --left;
-            for (std::size_t side = 0; side < 3; ++side) {
-                const Edge edge = edge_of(triangles_[free[0]], side);
-                std::erase(at[edge], free[0]);
-                if (at[edge].size() == 1) open.push_back(edge);
+            for (const HalfEdge& side : sides_of(triangles_[free[0]])) {
+                std::erase(at[side.edge], free[0]);
+                if (at[side.edge].size() == 1) open.push_back(side.edge);
             }
         }
         return left != 0;
@@ -152,9 +146,8 @@ struct Meetings {
         std::map<std::uint32_t, Numbers> at;
         std::map<Edge, Numbers> along;
         for (std::size_t t = 0; t < parts.triangles.size(); ++t)
-            for (std::size_t side = 0; side < 3; ++side)
-                for (Numbers* all :
-                     {&at[parts.triangles[t][side]], &along[edge_of(parts.triangles[t], side)]})
+            for (const HalfEdge& side : sides_of(parts.triangles[t]))
+                for (Numbers* all : {&at[side.apex], &along[side.edge]})
                     all->insert(all->end(), parts.parents_of[t].begin(), parts.parents_of[t].end());
         for (auto& [v, all] : at) add(in_vertices, all, vanished);
         for (auto& [edge, all] : along) add(along_edges, all, vanished);
@@ -162,8 +155,7 @@ struct Meetings {
 
 private:
     static void add(std::set<Numbers>& sets, Numbers& all, const Numbers& vanished) {
-        std::sort(all.begin(), all.end());
-        all.erase(std::unique(all.begin(), all.end()), all.end());
+        make_set(all);
         std::erase_if(all, [&](auto p) { return std::ranges::binary_search(vanished, p); });
         if (!all.empty()) sets.insert(std::move(all));
     }
@@ -266,15 +258,14 @@ private:
         for (std::size_t t = 0; t < triangles.size(); ++t)
             for (const std::uint32_t parent : parts_.exact.parents_of[t])
                 if (!parts_.children[parent].empty())
-                    for (std::size_t side = 0; side < 3; ++side)
-                        at.emplace_back(edge_of(triangles[t], side), parent);
+                    for (const HalfEdge& side : sides_of(triangles[t]))
+                        at.emplace_back(side.edge, parent);
         std::sort(at.begin(), at.end());
         std::vector<Edge> pairs;
         for (std::size_t i = 1; i < at.size(); ++i)
             if (at[i - 1].first == at[i].first && at[i - 1].second != at[i].second)
                 pairs.push_back({at[i - 1].second, at[i].second});
-        std::sort(pairs.begin(), pairs.end());
-        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+        make_set(pairs);
         return pairs;
     }
 
@@ -295,10 +286,9 @@ private:
     /// Tells whether all corners of one triangle are as near to the plane of another as is accepted.
     [[nodiscard]] bool is_flat(std::uint32_t one, std::uint32_t other) const {
         const auto corners = parts_.input_corners(other);
-        const Vector4 &a = *corners[0], &b = *corners[1], &c = *corners[2];
-        const Vector3 normal = cross(difference(b, a), difference(c, a));
+        const Vector3 normal = normal_of(corners);
         return std::ranges::all_of(parts_.input_corners(one), [&](const Vector4* corner) {
-            const mpz_class height = dot(normal, difference(*corner, a));
+            const mpz_class height = dot(normal, difference(*corner, *corners[0]));
             return within(Squared{height * height, dot(normal, normal)}, parts_.accepted);
         });
     }

@@ -11,6 +11,7 @@
 
 #include <terrane/algorithms/verify/detail/blocks.hpp>
 #include <terrane/algorithms/verify/detail/distance.hpp>
+#include <terrane/algorithms/verify/detail/extent.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/nearness.hpp>
 #include <terrane/algorithms/verify/verify.hpp>
@@ -172,19 +173,12 @@ private:
         return beside;
     }
 
-    /// Returns the box around triangles: low x, y, z, high x, y, z.
-    [[nodiscard]] std::array<mpz_class, 6> box_of(const std::vector<Triangle>& triangles,
-                                                  const Numbers& which) const {
-        std::array<mpz_class, 6> box;
-        for (std::size_t i = 0; i < 3; ++i) {
-            box[i] = box[i + 3] = exact_[triangles[which.front()][0]][i];
-            for (const std::uint32_t t : which)
-                for (const std::uint32_t v : triangles[t]) {
-                    box[i] = std::min(box[i], exact_[v][i]);
-                    box[i + 3] = std::max(box[i + 3], exact_[v][i]);
-                }
-        }
-        return box;
+    [[nodiscard]] Extent extent_of(const std::vector<Triangle>& triangles,
+                                   const Numbers& which) const {
+        Extent extent;
+        for (const std::uint32_t t : which)
+            for (const std::uint32_t v : triangles[t]) extent.add(exact_[v]);
+        return extent;
     }
 
     /// Checks that no closed sheet has left its place: the boxes around it before and now have points
@@ -195,10 +189,10 @@ private:
             bordered.insert(sheets.begin(), sheets.end());
         for (std::uint32_t s = 0; s < old_.triangles.size(); ++s) {
             if (bordered.contains(s)) continue;
-            const auto was = box_of(old_triangles_, old_.triangles[s]);
-            const auto is = box_of(new_triangles_, new_.triangles[s]);
+            const Extent was = extent_of(old_triangles_, old_.triangles[s]);
+            const Extent is = extent_of(new_triangles_, new_.triangles[s]);
             for (std::size_t i = 0; i < 3; ++i)
-                if (was[i + 3] < is[i] || is[i + 3] < was[i]) {
+                if (was.high[i] < is.low[i] || is.high[i] < was.low[i]) {
                     report(Rule::R39_beside, {new_.triangles[s].front()},
                            "the region of improved triangle " + text(new_.triangles[s].front()) +
                                " is not where it was");
@@ -311,18 +305,13 @@ private:
 
     // --- R27: sides ------------------------------------------------------------------------------
 
-    [[nodiscard]] Vector3 corner(std::uint32_t v) const {
-        return {exact_[v][0], exact_[v][1], exact_[v][2]};
-    }
-
     /// Returns twice the vector area of triangles.
     [[nodiscard]] Vector3 area_of(const std::vector<Triangle>& triangles,
                                   const Numbers& which) const {
         Vector3 sum;
         for (const std::uint32_t t : which) {
             const auto& [a, b, c] = triangles[t];
-            const Vector3 area =
-                cross(difference(exact_[b], exact_[a]), difference(exact_[c], exact_[a]));
+            const Vector3 area = normal_of({&exact_[a], &exact_[b], &exact_[c]});
             for (std::size_t i = 0; i < 3; ++i) sum[i] += area[i];
         }
         return sum;
@@ -334,7 +323,7 @@ private:
         mpz_class sum = 0;
         for (const std::uint32_t t : which) {
             const auto& [a, b, c] = triangles[t];
-            sum += dot(corner(a), cross(corner(b), corner(c)));
+            sum += determinant(exact_[a], exact_[b], exact_[c]);
         }
         return sum;
     }

@@ -63,6 +63,13 @@ struct ScaledPoints {
 /// Scales points to integers. Precondition: all coordinates are finite.
 ScaledPoints scale_to_integers(std::span<const Point3> points);
 
+/// Returns the integers nearest to the coordinates of a point, multiplied by a factor; w = 1.
+Vector4 rounded_to_integers(const Vector4& point, const mpz_class& factor = 1);
+
+/// Returns the determinant of three points: six times the volume of the tetrahedron that they span with the origin, if
+/// w = 1.
+mpz_class determinant(const Vector4& a, const Vector4& b, const Vector4& c);
+
 /// A box of doubles that encloses a point; it is used only to skip pairs that cannot touch.
 struct Box {
     std::array<double, 3> low;  ///< <= the exact coordinates

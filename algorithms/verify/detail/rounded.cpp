@@ -25,7 +25,7 @@ using verifier::Violations;
 
 // --- R10: indices -----------------------------------------------------------------------------
 
-void check_numbers(const Inputs& inputs, const RoundedClaim& rounded, Violations& found) {
+void check_rounded_numbers(const Inputs& inputs, const RoundedClaim& rounded, Violations& found) {
     constexpr Rule rule = Rule::R10_rounded_indices;
     verifier::check_finite(rounded.vertices, "vertex", rule, found);
     verifier::check_corners(rounded.triangles, rounded.vertices.size(), rule, found);
@@ -164,7 +164,7 @@ Verdict verifier::verify_rounded_part(std::span<const Surface> surfaces,
                                       const VerifyOptions& options, std::vector<bool> is_cut) {
     Verdict verdict;
     const Inputs inputs = verifier::join_inputs(surfaces, verdict.violations);
-    check_numbers(inputs, rounded, verdict.violations);
+    check_rounded_numbers(inputs, rounded, verdict.violations);
     if (verdict.violations.empty()) {
         const double accepted =
             options.max_deviation.value_or(verifier::default_max_deviation(inputs));

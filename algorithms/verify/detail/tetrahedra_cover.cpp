@@ -152,15 +152,13 @@ public:
     [[nodiscard]] bool is_simple() const {
         const auto n = static_cast<std::uint32_t>(nodes_.size());
         std::vector<Box> boxes;
-        Numbers sides;
         for (std::uint32_t i = 0; i < n; ++i) {
             boxes.push_back(enclose(at(i), 1));
             extend(boxes.back(), enclose(at(i + 1), 1));
             boxes.back().low[axis_] = boxes.back().high[axis_] = 0;
-            sides.push_back(i);
         }
-        const BoxTree tree(std::move(boxes), sides);
-        for (const std::uint32_t i : sides)
+        const BoxTree tree(std::move(boxes));
+        for (std::uint32_t i = 0; i < n; ++i)
             for (const std::uint32_t j : tree.touching_others(i)) {
                 if (j <= i) continue;
                 const bool meet = j == i + 1         ? folds(i, j)
