@@ -3,6 +3,7 @@
 // check_images of rounded_parts.hpp.
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -68,10 +69,14 @@ public:
         return !shared(edges_, inputs).empty();
     }
 
-    /// Returns the edges of which one triangle belongs to the image of an input triangle.
-    [[nodiscard]] std::vector<Edge> border(std::uint32_t input) const {
+    /// Returns the edges of which one triangle belongs to the images of input triangles.
+    [[nodiscard]] std::vector<Edge> border(const Numbers& inputs) const {
+        Numbers triangles;
+        for (const std::uint32_t input : inputs)
+            triangles.insert(triangles.end(), children_[input].begin(), children_[input].end());
+        make_set(triangles);
         std::map<Edge, int> uses;
-        for (const std::uint32_t t : children_[input])
+        for (const std::uint32_t t : triangles)
             for (const HalfEdge& side : sides_of(triangles_[t])) ++uses[side.edge];
         std::vector<Edge> once;
         for (const auto& [edge, count] : uses)
@@ -172,11 +177,15 @@ public:
         for (std::uint32_t t = 0; t < parts_.inputs.triangles.size(); ++t)
             if (!parts_.children[t].empty() && !parts_.exact_children[t].empty()) {
                 check({t});
-                if (is_slit(t)) ++slit_;
+                if (is_slit({t})) ++slit_;
             }
         for (const Edge& pair : neighbours()) {
             if (doubles_.meet({pair[0], pair[1]})) {
-                if (have_common_side(pair)) check({pair[0], pair[1]});
+                const auto side = common_side(pair);
+                if (side.size() < 2) continue;
+                check({pair[0], pair[1]});
+                if (side.size() == 2 && ends_early(pair, side) && is_slit({pair[0], pair[1]}))
+                    ++slit_;
             } else if (!is_thinned({pair[0], pair[1]}) && !do_surfaces_meet(pair) &&
                        is_crossing(pair)) {
                 report({pair[0], pair[1]}, "meet no more, nor do their surfaces");
@@ -215,18 +224,29 @@ private:
             report(inputs, common + (common.empty() ? "have" : "has") + " a hole");
     }
 
-    /// Tells whether an image has a border far from the sides of its input triangle. A slit that begins at a side is
-    /// no hole.
-    [[nodiscard]] bool is_slit(std::uint32_t input) const {
-        if (is_thinned({input}) || (!parts_.is_cut.empty() && parts_.is_cut[input])) return false;
-        const auto corners = parts_.input_corners(input);
+    /// Tells whether the images of input triangles together have a border far from the sides that one of these has. A slit
+    /// that begins at a side is no hole.
+    [[nodiscard]] bool is_slit(const Numbers& inputs) const {
+        if (is_thinned(inputs)) return false;
+        using Side = std::array<Vector4, 2>;
+        std::map<Side, int> sides;
+        for (const std::uint32_t input : inputs) {
+            if (!parts_.is_cut.empty() && parts_.is_cut[input]) return false;
+            const auto corners = parts_.input_corners(input);
+            for (std::size_t i = 0; i < 3; ++i) {
+                Side side{*corners[i], *corners[(i + 1) % 3]};
+                std::ranges::sort(side);
+                ++sides[std::move(side)];
+            }
+        }
         const auto is_far = [&](std::uint32_t v) {
-            const Vector4& p = parts_.points[v];
-            return !within_of_segment(p, *corners[0], *corners[1], parts_.deviation) &&
-                   !within_of_segment(p, *corners[1], *corners[2], parts_.deviation) &&
-                   !within_of_segment(p, *corners[2], *corners[0], parts_.deviation);
+            return std::ranges::none_of(sides, [&](const auto& side) {
+                const auto& [start, end] = side.first;
+                return side.second == 1 &&
+                       within_of_segment(parts_.points[v], start, end, parts_.deviation);
+            });
         };
-        return std::ranges::any_of(doubles_.border(input), [&](const Edge& edge) {
+        return std::ranges::any_of(doubles_.border(inputs), [&](const Edge& edge) {
             return is_far(edge[0]) || is_far(edge[1]);
         });
     }
@@ -243,12 +263,25 @@ private:
         return std::ranges::any_of(ours, [&](std::uint32_t v) { return theirs.contains(v); });
     }
 
-    [[nodiscard]] bool have_common_side(const Edge& pair) const {
+    /// Returns the corners that two input triangles have in common.
+    [[nodiscard]] std::vector<const Vector4*> common_side(const Edge& pair) const {
         const auto ours = parts_.input_corners(pair[0]), theirs = parts_.input_corners(pair[1]);
-        return std::ranges::count_if(ours, [&](const Vector4* corner) {
-                   return std::ranges::any_of(
-                       theirs, [&](const Vector4* other) { return *corner == *other; });
-               }) >= 2;
+        std::vector<const Vector4*> common;
+        std::ranges::copy_if(ours, std::back_inserter(common), [&](const Vector4* corner) {
+            return std::ranges::any_of(theirs,
+                                       [&](const Vector4* other) { return *corner == *other; });
+        });
+        return common;
+    }
+
+    /// Tells whether what two images have in common ends before an end of the common side.
+    [[nodiscard]] bool ends_early(const Edge& pair, const std::vector<const Vector4*>& side) const {
+        const Numbers vertices = doubles_.common({pair[0], pair[1]}).vertices;
+        return std::ranges::any_of(side, [&](const Vector4* end) {
+            return std::ranges::none_of(vertices, [&](std::uint32_t v) {
+                return within(parts_.points[v], *end, parts_.deviation);
+            });
+        });
     }
 
     /// Returns pairs of input triangles that link all those at each exact edge.
@@ -318,7 +351,8 @@ private:
     const Numbers& thinned_;
     Violations& found_;
     Images exact_, doubles_;
-    std::size_t slit_ = 0; ///< number of input triangles that are slit
+    std::size_t slit_ =
+        0; ///< number of input triangles, and of pairs with a common side, that are slit
     std::map<std::uint32_t, std::set<std::uint32_t>> vertices_of_surface_; ///< of the doubles
 };
 
