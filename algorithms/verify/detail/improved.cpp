@@ -31,8 +31,8 @@ public:
         old_ = find_sheets(before, numbers_);
         new_ = find_sheets(after_, numbers_);
         for (Sheets* sheets : {&old_, &new_}) {
-            sheets->triangles.resize(numbers_.sheets.size());
-            sheets->shapes.resize(numbers_.sheets.size());
+            sheets->triangles.resize(numbers_.sheets.all().size());
+            sheets->shapes.resize(numbers_.sheets.all().size());
         }
         offset_ = static_cast<std::uint32_t>(before.vertices.size());
         points_ = before.vertices;
@@ -49,8 +49,8 @@ public:
         old_triangles_ = before.triangles;
         new_triangles_ = improved.triangles;
         for (Triangle& t : new_triangles_) t = moved(t);
-        find_surfaces_of_sheets(before.surfaces_of, old_);
-        find_surfaces_of_sheets(improved.surfaces_of, new_);
+        surfaces_of_sheet_.resize(numbers_.sheets.all().size());
+        for (const auto& [name, sheet] : numbers_.sheets.all()) surfaces_of_sheet_[sheet] = name[0];
     }
 
     void check() {
@@ -68,16 +68,6 @@ public:
 private:
     [[nodiscard]] Triangle moved(const Triangle& t) const {
         return {t[0] + offset_, t[1] + offset_, t[2] + offset_};
-    }
-
-    void find_surfaces_of_sheets(const IndexLists<std::uint32_t>& surfaces_of,
-                                 const Sheets& sheets) {
-        surfaces_of_sheet_.resize(numbers_.sheets.size());
-        for (std::size_t s = 0; s < sheets.triangles.size(); ++s)
-            if (!sheets.triangles[s].empty()) {
-                const auto surfaces = surfaces_of[sheets.triangles[s].front()];
-                surfaces_of_sheet_[s].assign(surfaces.begin(), surfaces.end());
-            }
     }
 
     void report(Rule rule, Numbers elements, std::string sentence) {

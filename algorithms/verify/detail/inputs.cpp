@@ -126,14 +126,12 @@ std::vector<Edge> find_intersection_edges(const Parts& parts, const Inputs& inpu
 
 void check_intersection_edges(const std::vector<Edge>& truth, const std::vector<Edge>& listed,
                               Rule rule, Violations& found) {
-    const auto report = [&](const Edge& edge, const std::string& what) {
-        found.push_back({rule, {edge[0], edge[1]}, "the edge of vertices " + text(edge) + what});
-    };
-    for_each_missing(truth, listed, [&](const Edge& edge) {
-        report(edge, " is an intersection edge, but not listed");
-    });
-    for_each_missing(listed, truth, [&](const Edge& edge) {
-        report(edge, " is listed, but no intersection edge");
+    compare_lists(truth, listed, [&](const Edge& edge, bool is_listed) {
+        found.push_back({rule,
+                         {edge[0], edge[1]},
+                         "the edge of vertices " + text(edge) +
+                             (is_listed ? " is listed, but no intersection edge"
+                                        : " is an intersection edge, but not listed")});
     });
 }
 

@@ -48,6 +48,14 @@ mpz_class turn(const Vector4& a, const Vector4& b, const Vector4& c, std::size_t
 /// drops it is one-to-one on the plane; none iff the normal is zero.
 std::optional<std::size_t> projection_axis(const Vector4& plane);
 
+/// Returns the first of the axes on which a normal is longest.
+std::size_t longest_axis(const auto& normal) {
+    std::size_t axis = 0;
+    for (const std::size_t i : {1U, 2U})
+        if (abs(normal[i]) > abs(normal[axis])) axis = i;
+    return axis;
+}
+
 /// Returns the point that a construction defines; none if it is undefined (the line misses the
 /// plane, lies in it or has equal points; planes share a line; the lines of line_line are not
 /// coplanar). Precondition: its indices are < inputs.size().

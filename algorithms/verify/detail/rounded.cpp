@@ -85,16 +85,13 @@ void check_vanished_list(const RoundedParts& parts, Violations& found) {
         }
     Numbers vanished;
     std::ranges::set_difference(gone, parts.set_aside.degenerate, std::back_inserter(vanished));
-    verifier::for_each_missing(vanished, listed, [&](std::uint32_t t) {
+    verifier::compare_lists(vanished, listed, [&](std::uint32_t t, bool is_listed) {
         found.push_back(
             {Rule::R12_rounded_parents,
              {t},
-             "nothing is left of input triangle " + text(t) + ", but it is not listed"});
-    });
-    verifier::for_each_missing(listed, vanished, [&](std::uint32_t t) {
-        found.push_back({Rule::R12_rounded_parents,
-                         {t},
-                         "input triangle " + text(t) + " is listed as vanished, which it is not"});
+             is_listed
+                 ? "input triangle " + text(t) + " is listed as vanished, which it is not"
+                 : "nothing is left of input triangle " + text(t) + ", but it is not listed"});
     });
 }
 

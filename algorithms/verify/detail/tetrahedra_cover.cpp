@@ -87,14 +87,6 @@ bool near_plane(const Point3& point, const std::array<Point3, 3>& triangle) {
     return abs(height) <= allowed;
 }
 
-/// Returns the axis on which the normal is longest.
-std::size_t longest_axis(const Vector& n) {
-    std::size_t axis = 0;
-    for (const std::size_t i : {1U, 2U})
-        if (abs(n[i]) > abs(n[axis])) axis = i;
-    return axis;
-}
-
 /// Returns a number that is at least the square root, and exceeds it by a part of 2^-60 at most.
 mpq_class root_above(const mpq_class& square) {
     if (sgn(square) == 0) return 0;
