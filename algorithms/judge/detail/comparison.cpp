@@ -4,14 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
+#include <terrane/algorithms/judge/detail/crowding.hpp>
 #include <terrane/algorithms/judge/detail/placing.hpp>
 #include <terrane/algorithms/judge/detail/separation.hpp>
-#include <terrane/algorithms/mesh/triangle_tree.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 
 namespace terrane::judging {
@@ -52,13 +54,13 @@ class Comparer {
 public:
     Comparer(const Target& target, const OutputMesh& output, double bound, std::size_t most) :
         target_(target), output_(output), points_(output.soup.points), bound_(bound), found_(most),
-        cells_(find_cells(target)), matching_(match_vertices(target, cells_, output, bound)),
+        cells_(find_cells(target)), crowding_(find_crowding(target, cells_, bound)),
+        matching_(match_vertices(target, cells_, output, bound)),
         separation_(target, cells_, output, matching_, bound),
-        placing_(place(target, cells_, output, matching_, separation_, bound)) {}
+        placing_(place(target, cells_, crowding_, output, matching_, separation_, bound)) {}
 
     Comparison operator()() {
         found_.largest_move = matching_.largest_move;
-        find_crowded();
         find_torn();
         find_missing_points();
         find_missing_curves();
@@ -89,36 +91,18 @@ private:
         return {p.x / 2 + q.x / 2, p.y / 2 + q.y / 2, p.z / 2 + q.z / 2};
     }
 
-    /// Finds exact points nearer to triangles of others than rounding can tell apart.
-    void find_crowded() {
-        std::vector<Point3> places;
-        std::vector<std::uint32_t> used;
-        for (std::uint32_t x = 0; x < target_.exact.vertices.size(); ++x) {
-            places.push_back(nearest(x));
-            if (!cells_.at_vertex[x].empty()) used.push_back(x);
-        }
-        crowded_.assign(places.size(), false);
-        const TriangleTree tree(places, target_.triangles);
-        for (const std::uint32_t x : used)
-            for (const auto& near : tree.within(places[x], 16 * bound_)) {
-                if (std::ranges::count(near.triangle, x) != 0) continue;
-                crowded_[x] = true;
-                for (const std::uint32_t y : near.triangle) crowded_[y] = true;
-            }
-        for (const auto& [a, b, c] : target_.triangles) {
-            const Point3 u = minus(places[b], places[a]), v = minus(places[c], places[a]);
-            const double longest = std::max({length(u), length(v), length(minus(u, v))});
-            if (length(cross(u, v)) > 16 * bound_ * longest) continue;
-            crowded_[a] = crowded_[b] = crowded_[c] = true;
-        }
-        doubtful_.assign(cells_.cells.size(), false);
-        for (const std::uint32_t x : used)
-            for (const std::uint32_t c : cells_.at_vertex[x])
-                if (crowded_[x]) doubtful_[c] = true;
-    }
     [[nodiscard]] bool is_crowded(std::uint32_t v) const {
-        return std::ranges::any_of(matching_.preimages[v],
-                                   [this](std::uint32_t x) { return crowded_[x]; });
+        const auto exact = matching_.preimages[v];
+        return exact.empty() ? crowding_.is_near_others(points_[v])
+                             : std::ranges::any_of(
+                                   exact, [this](std::uint32_t x) { return crowding_.crowded[x]; });
+    }
+    /// Whether rounding may have made a triangle, or turned it over, where it may do so to an area.
+    [[nodiscard]] bool is_doubtful(std::uint32_t t, double area_in_doubt) const {
+        const Triangle& k = output_.soup.triangles[t];
+        if (is_thin(points_[k[0]], points_[k[1]], points_[k[2]], crowding_.reach)) return true;
+        return area(t) <= area_in_doubt &&
+               std::ranges::any_of(k, [this](std::uint32_t v) { return is_crowded(v); });
     }
     /// Finds edges of one triangle where the exact regions have no border.
     void find_torn() {
@@ -144,7 +128,7 @@ private:
     void find_missing_points() {
         for (const std::uint32_t x : separation_.missing())
             found_.vertices.add({"no vertex is at a corner of the exact regions", nearest(x)},
-                                crowded_[x]);
+                                crowding_.crowded[x]);
     }
 
     void find_missing_curves() {
@@ -159,7 +143,7 @@ private:
                                     nearest(low).z / 2 + nearest(high).z / 2},
                                    {},
                                    length(minus(nearest(low), nearest(high)))},
-                                  crowded_[low] || crowded_[high]);
+                                  crowding_.crowded[low] || crowding_.crowded[high]);
         }
     }
     /// Whether the mesh leaves out both ends of an edge, as points of a longer straight one.
@@ -170,11 +154,19 @@ private:
                !std::ranges::binary_search(missing, high);
     }
 
+    /// Whether the area of a triangle may be in doubt as well: not if that of all others is used up.
+    [[nodiscard]] bool takes_doubt(std::uint32_t t) {
+        if (!is_doubtful(t, most_moved_ - moved_area_)) return false;
+        moved_area_ += area(t);
+        return true;
+    }
+
     void find_extra_triangles() {
-        // Rounding joins parts that are near each other to triangles which are in neither.
-        const bool any_crowded = std::ranges::find(crowded_, true) != crowded_.end();
         std::vector<bool> is_off(output_.soup.triangles.size());
         for (const std::uint32_t t : placing_.off) is_off[t] = true;
+        std::vector<std::uint32_t> unsure;
+        for (const std::uint32_t t : placing_.unsure)
+            if (placing_.cell_of[t] != no_index && takes_doubt(t)) unsure.push_back(t);
         for (std::uint32_t t = 0; t < is_off.size(); ++t) {
             if (placing_.cell_of[t] != no_index) continue;
             found_.extra_area += area(t);
@@ -183,8 +175,10 @@ private:
                  middle(t),
                  {number(t)},
                  area(t)},
-                any_crowded);
+                takes_doubt(t)); // rounding joins near parts to triangles in neither
         }
+        for (const std::uint32_t t : unsure)
+            crowding_.area_in_doubt[placing_.cell_of[t]] += area(t);
     }
 
     /// Finds triangles that are there more often than there are inputs at their place.
@@ -200,7 +194,7 @@ private:
             found_.extra_area += area(kept);
             found_.coverage.add(
                 {"a triangle covers its place again", middle(kept), {t, first}, area(kept)},
-                doubtful_[cell]);
+                is_doubtful(kept, crowding_.area_in_doubt[cell]));
         }
     }
 
@@ -221,21 +215,23 @@ private:
             while (end < edges.size() && edges[end].cell == edges[i].cell) ++end;
             differences[edges[i].cell] = std::span(edges).subspan(i, end - i);
         }
-        const auto unknown = cells_without_vertices();
+        const auto lacking = lacking_corners();
         const auto covered = covered_areas();
         for (std::uint32_t c = 0; c < differences.size(); ++c)
-            if (unknown[c])
-                report_unknown(c, covered[c]);
+            if (lacking[c])
+                report_unknown(c, *lacking[c], covered[c]);
             else if (!differences[c].empty())
                 report_difference(differences[c]);
     }
 
-    /// Tells which cells have a corner without a vertex, so that their boundaries are known in part.
-    [[nodiscard]] std::vector<bool> cells_without_vertices() const {
-        std::vector<bool> unknown(cells_.cells.size());
+    /// Returns, of cells whose boundaries are known in part, a corner without a vertex: one that must have
+    /// one, if there is such a corner.
+    [[nodiscard]] std::vector<std::optional<std::uint32_t>> lacking_corners() const {
+        std::vector<std::optional<std::uint32_t>> corners(cells_.cells.size());
         for (const std::uint32_t x : separation_.missing())
-            for (const std::uint32_t c : cells_.at_vertex[x]) unknown[c] = true;
-        return unknown;
+            for (const std::uint32_t c : cells_.at_vertex[x])
+                if (!corners[c] || crowding_.crowded[*corners[c]]) corners[c] = x;
+        return corners;
     }
     [[nodiscard]] std::vector<double> covered_areas() const {
         std::vector<double> areas(cells_.cells.size());
@@ -244,21 +240,25 @@ private:
         return areas;
     }
 
-    void report_unknown(std::uint32_t c, double covered) {
+    void report_unknown(std::uint32_t c, std::uint32_t corner, double covered) {
         const Cell& cell = cells_.cells[c];
         const Triangle& k = target_.triangles[cell.triangle];
         const Point3& at = nearest(k[0]);
-        found_.topology.add({"a region lacks a corner", at, {}, cell.area}, doubtful_[c]);
+        found_.topology.add({"a region lacks a corner", at, {}, cell.area},
+                            crowding_.crowded[corner]);
         add_area(c, cell.area - covered, length(minus(nearest(k[0]), nearest(k[1]))), at);
     }
     /// Adds an area that is missing, or too much if it is negative, unless rounding may make it.
     void add_area(std::uint32_t c, double net, double perimeter, const Point3& at) {
-        if (std::abs(net) <= 2 * bound_ * perimeter) return;
+        const double by_rounding = 2 * bound_ * perimeter;
+        if (std::abs(net) <= by_rounding) return;
         (net > 0 ? found_.missing_area : found_.extra_area) += std::abs(net);
         const char* const what = net > 0
                                      ? "a part of a region is not covered"
                                      : "a region is covered more than once, or beyond its boundary";
-        found_.coverage.add({what, at, {}, std::abs(net)}, doubtful_[c]);
+        found_.coverage.add({what, at, {}, std::abs(net)},
+                            std::abs(net) <= by_rounding + crowding_.area_in_doubt[c] +
+                                                 (net > 0 ? moved_area_ : 0));
     }
 
     /// Divides edges at the vertices that they pass along edges of cells.
@@ -292,8 +292,26 @@ private:
                              middle(edges[0]),
                              {},
                              perimeter},
-                            doubtful_[edges[0].cell]);
+                            begins_crowded(edges));
         add_area(edges[0].cell, net, perimeter, middle(edges[0]));
+    }
+
+    /// Whether each connected part of a difference has a crowded vertex.
+    [[nodiscard]] bool begins_crowded(std::span<const ChainEdge> edges) const {
+        std::vector<std::uint32_t> vertices;
+        for (const ChainEdge& e : edges) vertices.insert(vertices.end(), {e.low, e.high});
+        sort_unique(vertices);
+        const auto number = [&](std::uint32_t v) {
+            return static_cast<std::uint32_t>(std::ranges::lower_bound(vertices, v) -
+                                              vertices.begin());
+        };
+        DisjointSets parts(vertices.size());
+        for (const ChainEdge& e : edges) parts.join(number(e.low), number(e.high));
+        std::vector<bool> crowded(vertices.size());
+        for (std::uint32_t i = 0; i < vertices.size(); ++i)
+            if (is_crowded(vertices[i])) crowded[parts.find(i)] = true;
+        return std::ranges::all_of(
+            edges, [&](const ChainEdge& e) { return crowded[parts.find(number(e.low))]; });
     }
 
     void find_turned() {
@@ -301,7 +319,7 @@ private:
             const auto cell = placing_.cell_of[t];
             if (cell == no_index || placing_.facing[t] > 0 || cells_.cells[cell].either) continue;
             found_.orientation.add({"a triangle faces the other way", middle(t), {number(t)}, 0},
-                                   doubtful_[cell]);
+                                   is_doubtful(t, crowding_.area_in_doubt[cell]));
         }
     }
 
@@ -311,11 +329,13 @@ private:
     double bound_;
     Comparison found_;
     Cells cells_;
+    Crowding crowding_;
+    double most_moved_ =
+        std::accumulate(crowding_.area_in_doubt.begin(), crowding_.area_in_doubt.end(), 0.0);
+    double moved_area_ = 0; ///< of triangles that rounding may have moved out of their cells
     Matching matching_;
     Separation separation_;
     Placing placing_;
-    std::vector<bool> crowded_;  ///< per exact vertex
-    std::vector<bool> doubtful_; ///< per cell: it has a crowded vertex
 };
 
 } // namespace

@@ -64,11 +64,12 @@ private:
 
 class Placer {
 public:
-    Placer(const Target& target, const Cells& cells, const OutputMesh& output,
-           const Matching& matching, const Separation& separation, double bound) :
+    Placer(const Target& target, const Cells& cells, const Crowding& crowding,
+           const OutputMesh& output, const Matching& matching, const Separation& separation,
+           double bound) :
         target_(target),
-        cells_(cells), output_(output), matching_(matching), separation_(separation), bound_(bound),
-        positions_(target.exact, output, matching) {}
+        cells_(cells), crowding_(crowding), output_(output), matching_(matching),
+        separation_(separation), bound_(bound), positions_(target.exact, output, matching) {}
 
     Placing operator()() {
         const auto& triangles = output_.soup.triangles;
@@ -104,14 +105,17 @@ private:
         return lists;
     }
 
-    /// Keeps the candidates that are cells at a vertex, unless nothing is known of that. The first
-    /// vertex gives them.
-    void restrict(Numbers& candidates, bool& any, std::uint32_t v) const {
+    /// Keeps the candidates that are cells at a vertex or, if `near`, near it, unless nothing is known of that.
+    /// The first vertex gives them.
+    void restrict(Numbers& candidates, bool& any, std::uint32_t v, bool near) const {
         if (matching_.preimages[v].empty()) return;
         Numbers here;
         for (const std::uint32_t x : matching_.preimages[v]) {
             const auto cells = cells_.at_vertex[x];
             here.insert(here.end(), cells.begin(), cells.end());
+            if (!near) continue;
+            const auto others = crowding_.cells_near[x];
+            here.insert(here.end(), others.begin(), others.end());
         }
         sort_unique(here);
         if (!any) {
@@ -124,28 +128,37 @@ private:
         candidates = std::move(both);
     }
 
-    [[nodiscard]] Numbers candidates_of(std::span<const std::uint32_t> triangles) const {
+    [[nodiscard]] Numbers candidates_of(std::span<const std::uint32_t> triangles, bool near) const {
         Numbers candidates;
         bool any = false;
         for (const std::uint32_t t : triangles)
             for (const std::uint32_t v : corners(t)) {
-                restrict(candidates, any, v);
+                restrict(candidates, any, v, near);
                 if (any && candidates.empty()) return {};
             }
         return candidates;
     }
 
     void place_patch(const Numbers& patch) {
-        Numbers candidates = candidates_of(patch);
-        if (!candidates.empty()) {
-            put(patch, best_of(candidates, patch));
-            return;
-        }
+        if (put_in_one_of(patch, false)) return;
         for (const std::uint32_t t : patch) { // a curve may be missing: each for itself
-            candidates = candidates_of(std::span(&t, 1));
             const Numbers one{t};
-            if (!candidates.empty()) put(one, best_of(candidates, one));
+            // Rounding may have moved an edge to a vertex near it.
+            if (!put_in_one_of(one, false)) put_in_one_of(one, true);
         }
+    }
+
+    /// Puts triangles in the cell that fits them best, if there is a candidate.
+    bool put_in_one_of(const Numbers& triangles, bool near) {
+        const Numbers candidates = candidates_of(triangles, near);
+        if (candidates.empty()) return false;
+        for (const std::uint32_t t : triangles)
+            if (near || candidates.size() > 1 ||
+                std::ranges::any_of(corners(t),
+                                    [&](std::uint32_t v) { return positions_.is_own(v); }))
+                placing_.unsure.push_back(t);
+        put(triangles, best_of(candidates, triangles));
+        return true;
     }
 
     /// Returns the candidate of whose oriented boundary the patch has most edges.
@@ -224,6 +237,7 @@ private:
 
     const Target& target_;
     const Cells& cells_;
+    const Crowding& crowding_;
     const OutputMesh& output_;
     const Matching& matching_;
     const Separation& separation_;
@@ -235,9 +249,10 @@ private:
 
 } // namespace
 
-Placing place(const Target& target, const Cells& cells, const OutputMesh& output,
-              const Matching& matching, const Separation& separation, double bound) {
-    return Placer(target, cells, output, matching, separation, bound)();
+Placing place(const Target& target, const Cells& cells, const Crowding& crowding,
+              const OutputMesh& output, const Matching& matching, const Separation& separation,
+              double bound) {
+    return Placer(target, cells, crowding, output, matching, separation, bound)();
 }
 
 } // namespace terrane::judging

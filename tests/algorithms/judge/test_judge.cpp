@@ -224,6 +224,25 @@ TEST_CASE("judge: meshes of random models raise no false alarm") {
           meshes - 12); // of the others, the exact result has parts thinner than the bound
 }
 
+TEST_CASE("judge: a large flaw is found beside parts that rounding may join") {
+    // The second surface is nearer to the first than rounding can tell apart, in a corner of it.
+    const std::vector<Surface> inputs{level(0, 0, 0, 8, 8), level(1e-13, 1, 1, 2, 2)};
+    const Surface whole = as_surface(mesh_of(inputs));
+    CHECK(judged({whole}, inputs).holds());
+    Surface torn = whole;
+    torn.triangles.erase(torn.triangles.begin());
+    CHECK(fails(judged({torn}, inputs), "coverage"));
+    Surface turned = whole;
+    std::swap(turned.triangles[0][0], turned.triangles[0][1]);
+    CHECK(fails(judged({turned}, inputs), "orientation"));
+    Surface more = whole;
+    for (const Point3& p : {Point3{1, 1, 0}, Point3{8, 1, 3}, Point3{1, 8, 3}})
+        more.vertices.push_back(p);
+    const auto n = static_cast<std::uint32_t>(more.vertices.size());
+    more.triangles.push_back({n - 3, n - 2, n - 1});
+    CHECK(fails(judged({more}, inputs), "coverage"));
+}
+
 TEST_CASE("judge: CGAL's corefinements and Booleans raise no false alarm") {
     std::size_t corefined = 0, booleans = 0;
     for (std::uint64_t seed = 1; seed <= 120; ++seed) {
