@@ -116,6 +116,22 @@ TEST_CASE("certificates of blocks: with the same vertices, the least side decide
     }
 }
 
+TEST_CASE("certificates of blocks: the least coordinate decides the numbers, by one double") {
+    const auto box = [](const std::string& name, const std::string& x, const std::string& y) {
+        std::string text;
+        for (const char* z : {"0", "1"})
+            for (const std::string& to_y : {y, y + ".5"})
+                for (const std::string& to_x : {x, std::string("3")})
+                    text += "v " + to_x + " " + to_y + " " + z + "\n";
+        const std::string whole = cube(name, "0", "1");
+        return File{name + ".obj", text + whole.substr(whole.find("g "))};
+    };
+    const Subject s =
+        block_subject({box("first", "1.0000000000000002", "0"), box("second", "1", "5")});
+    CHECK(judged(s) == "");
+    CHECK(s.certificate["blocks"]["volumes"][1] == "1"); // the second box
+}
+
 TEST_CASE("forged certificates of blocks") {
     const Subject s = block_subject(nested());
     check_forgeries(
