@@ -15,6 +15,7 @@
 #   kept       kept stages that were changed, exchanged and cut: an hour
 #   many       surfaces and parts in number: an hour
 #   threads    ThreadSanitizer
+#   corpus     all answers of tests/corpus, derived by brute force and found by Terrane
 #   fuzz       all fuzz targets, FUZZ_SECONDS (default 540) each: six hours of one core
 # FOLDER (default: build/nightly) gets a log for each part, and keeps the fuzz corpora. It ends with a
 # table; the status is 1 if a part found something.
@@ -23,7 +24,7 @@ cd "$(dirname "$0")/.."
 folder=${1:-build/nightly}
 shift || true
 parts=("$@")
-[[ ${#parts[@]} -gt 0 ]] || parts=(cases soups decimals mpi models stacks signals memory arguments kept many threads fuzz)
+[[ ${#parts[@]} -gt 0 ]] || parts=(cases soups decimals mpi models stacks signals memory arguments kept many threads corpus fuzz)
 mkdir -p "$folder"
 
 cmake --preset release >/dev/null && cmake --build --preset release || exit 2
@@ -67,6 +68,9 @@ run_part() {
     kept) scripts/kept_stages.py --terrane $terrane --seconds 3600 ;;
     many) /usr/bin/python3 tests/oracles/many.py --terrane $terrane --seconds 3600 ;;
     threads) scripts/thread_sanitizer.sh ;;
+    corpus)
+        /usr/bin/python3 -B docs/examples/python/check_case.py tests/corpus/*.json &&
+            PYTHONPATH=$PWD/build/release/python /usr/bin/python3 -B tests/corpus/make.py --compare ;;
     fuzz)
         fuzz/check_plants.py build/release/compile_commands.json &&
             FUZZ_CORPUS=$PWD/$folder/corpus scripts/fuzz.sh "${FUZZ_SECONDS:-540}" ;;

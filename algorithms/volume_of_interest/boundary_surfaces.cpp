@@ -15,6 +15,7 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/mesh/cosine_and_sine.hpp>
 #include <terrane/algorithms/mesh/edges.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/search/search.hpp>
@@ -203,22 +204,11 @@ std::vector<Triangle> Polygon::triangles() const {
 
 // ---- Rotation
 
-/// Computes cosine and sine, exactly for multiples of 90 degrees.
-std::array<double, 2> cos_sin(double degrees) {
-    const double azimuth = std::remainder(degrees, 360.0);
-    if (azimuth == 0) return {1, 0};
-    if (azimuth == 90) return {0, 1};
-    if (azimuth == -90) return {0, -1};
-    if (std::fabs(azimuth) == 180) return {-1, 0};
-    const double radians = azimuth / 180 * std::acos(-1.0);
-    return {std::cos(radians), std::sin(radians)};
-}
-
 /// Returns the directions across, along and up.
 std::array<Point3, 3> axes_of(const RotatedBox& box) {
-    const auto [ca, sa] = cos_sin(box.azimuth);
-    const auto [cp, sp] = cos_sin(box.plunge);
-    const auto [cr, sr] = cos_sin(box.roll);
+    const auto [ca, sa] = cosine_and_sine(box.azimuth);
+    const auto [cp, sp] = cosine_and_sine(box.plunge);
+    const auto [cr, sr] = cosine_and_sine(box.roll);
     const Point3 along{sa * cp, ca * cp, -sp};
     const Point3 right{ca, -sa, 0};        // before the roll
     const Point3 up{sa * sp, ca * sp, cp}; // right x along

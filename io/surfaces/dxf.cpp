@@ -5,12 +5,12 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/mesh/cosine_and_sine.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/io/surfaces/detail/point_numbering.hpp>
@@ -101,15 +101,6 @@ std::array<Point3, 3> axes_along(const Point3& extrusion) {
     const bool steep = std::fabs(z.x) < 1.0 / 64 && std::fabs(z.y) < 1.0 / 64;
     const Point3 x = unit_vector(cross(steep ? Point3{0, 1, 0} : Point3{0, 0, 1}, z));
     return {x, cross(z, x), z};
-}
-
-/// Cosine and sine, exact for multiples of 90 degrees.
-std::array<double, 2> cosine_and_sine(double degrees) {
-    const double angle = std::remainder(degrees, 360.0);
-    if (angle == 0) return {1, 0};
-    if (std::fabs(angle) == 180) return {-1, 0};
-    if (std::fabs(angle) == 90) return {0, angle / 90};
-    return {std::cos(angle / 180 * std::numbers::pi), std::sin(angle / 180 * std::numbers::pi)};
 }
 
 class DxfReader {

@@ -175,12 +175,12 @@ class Arrangement:
                 boundary = frozenset(tuple(sorted(e)) for loop in loops for e in zip(loop, loop[1:] + loop[:1]))
                 self.faces.setdefault(boundary, (loops, plane, []))[2].append(i)
 
-    def curves(self):
-        """Edges of more than two faces, or of two that differ in the number of parents."""
+    def curves(self, inputs_of):
+        """Edges of more than two faces, or of two that differ in the number of parents in some input."""
         around = {}
         for loops, _, parents in self.faces.values():
             for a, b in (e for loop in loops for e in zip(loop, loop[1:] + loop[:1])):  # twice where it ends inside
-                around.setdefault((min(a, b), max(a, b)), []).append(len(parents))
+                around.setdefault((min(a, b), max(a, b)), []).append(sorted(n for i in parents for n in inputs_of[i]))
         return sorted(e for e, n in around.items() if len(n) > 2 or (len(n) == 2 and n[0] != n[1]))
 
 
@@ -337,7 +337,7 @@ class Blocks:
         _, (loops, plane, _) = self.faces[f]
         return sum(dot(plane.corners[0], cross(a, b)) for loop in loops for a, b in zip(loop, loop[1:] + loop[:1]))
 
-    def booleans(self, planes, operand_of, operands):
+    def booleans(self, copies, operands):
         """Volumes of the solids whose winding numbers of the operands are not 0 in any, all, the first alone, an odd number."""
         rules = {"union": any, "intersection": all, "difference": lambda w: w[0] and not any(w[1:]),
                  "symmetric-difference": lambda w: sum(map(bool, w)) % 2 == 1}
@@ -347,8 +347,8 @@ class Blocks:
             windings = [0] * operands
             for _, face, from_front in hits:
                 before = list(windings)
-                for parent in self.faces[face][1][2]:
-                    windings[operand_of[parent]] += 1 if dot(planes[parent].normal, direction) < 0 else -1
+                for plane, operand in itertools.chain.from_iterable(copies[parent] for parent in self.faces[face][1][2]):
+                    windings[operand] += 1 if dot(plane.normal, direction) < 0 else -1
                 if face == f:
                     front, behind = (before, list(windings)) if from_front else (list(windings), before)
             assert not any(windings), "an operand is not closed"
@@ -362,12 +362,13 @@ def derived(case, folder):
     files = [read_off(folder / name) for name in case["inputs"]]
     triangles = [t for file in files for t in file]
     file_of = [n for n, file in enumerate(files) for _ in file]
-    first, planes, numbers = {}, [], []
-    for n, corners in enumerate(triangles):
-        plane = Plane(corners)
-        if plane.normal != (0, 0, 0) and first.setdefault(frozenset(corners), n) == n:
-            planes.append(plane)
-            numbers.append(n)
+    alike = {}  # triangles with area and the same corners; of these, the first has answers, and solids need all
+    for n, plane in enumerate(map(Plane, triangles)):
+        if plane.normal != (0, 0, 0):
+            alike.setdefault(frozenset(triangles[n]), []).append((n, plane))
+    numbers, planes = zip(*(same[0] for same in alike.values()))
+    copies = [[(plane, file_of[n]) for n, plane in same] for same in alike.values()]
+    inputs_of = [{file_of[n] for n, _ in same} for same in alike.values()]
     made = Arrangement(planes)
     points = sorted(made.points)
     number = {p: i for i, p in enumerate(points)}
@@ -376,10 +377,10 @@ def derived(case, folder):
     answers = {"points": text,
                "points_on": {str(n): sorted(number[p] for p in on) for n, on in zip(numbers, made.points_on)},
                "contacts": [[numbers[i], numbers[j]] for i, j in made.contacts],
-               "curves": sorted([number[a], number[b]] for a, b in made.curves()),
+               "curves": sorted([number[a], number[b]] for a, b in made.curves(inputs_of)),
                "blocks": [str(v) for v in blocks.volumes()]}
     if "booleans" in case:
-        answers["booleans"] = blocks.booleans(planes, file_of, len(files))
+        answers["booleans"] = blocks.booleans(copies, len(files))
     return answers
 
 
