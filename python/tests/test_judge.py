@@ -1,10 +1,17 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Meshes judged by their inputs."""
 
+import pathlib
+import shutil
+import subprocess
+import sys
+import textwrap
+
 import pytest
 
 import terrane
 from conftest import stack
+from terrane.testing import assert_conforming, assert_judged, cases
 
 
 def octahedron(x, name="solid"):
@@ -52,3 +59,44 @@ def test_points_may_be_rounded_as_far_as_is_stated():
 def test_triangles_alone():
     assert terrane.judge(octahedron(0))
     assert terrane.judge(octahedron(0).replace(triangles=octahedron(0).triangles[1:]))["closed"].flaw_count == 3
+
+
+def test_assertions_name_the_property_and_the_place():
+    a, far = octahedron(0), octahedron(9)
+    assert_conforming(a.vertices, a.triangles, closed=True)
+    assert_conforming(a.vertices, a.triangles[1:])
+    with pytest.raises(AssertionError, match="^closed: 3 edges"):
+        assert_conforming(a.vertices, a.triangles[1:], closed=True)
+    with pytest.raises(AssertionError, match="^conforming: .*\n  two triangles meet improperly: crossing at "):
+        near = octahedron(1)
+        assert_conforming([*a.vertices, *near.vertices], [*a.triangles, *(near.triangles + len(a.vertices))])
+    assert_judged([a, far], [a, far], "union")
+    with pytest.raises(AssertionError, match="volume"):
+        assert_judged(a, [a, far], "union")
+
+
+def test_tests_run_for_each_case(tmp_path):
+    folder = pathlib.Path(__file__).resolve().parents[2] / "tests" / "corpus"
+    for name in ("cubes-share-a-face", "triangle-twice"):
+        for path in folder.glob(f"{name}*"):
+            shutil.copy(path, tmp_path)
+    assert [case.name for case in cases(tmp_path)] == ["cubes-share-a-face", "triangle-twice"]
+    with pytest.raises(FileNotFoundError, match="has no cases"):
+        cases(tmp_path / "none")
+    (tmp_path / "conftest.py").write_text('pytest_plugins = ["terrane.testing"]\n')
+    (tmp_path / "test_engine.py").write_text(textwrap.dedent("""
+        import terrane
+        from terrane.testing import assert_judged
+
+        def test_arrangement(certified_case):
+            exact = terrane.arrange(certified_case.surfaces)
+            assert len(exact.vertices) == len(certified_case.answers["points"])
+            assert_judged(terrane.round(exact), certified_case.surfaces)
+
+        def test_engine_that_does_nothing(certified_case):
+            assert_judged(certified_case.surfaces, certified_case.surfaces)
+    """))
+    run = subprocess.run([sys.executable, "-B", "-W", "ignore", "-m", "pytest", "-q", "-p", "no:cacheprovider", "--rootdir", tmp_path,
+                          "--certified-cases", tmp_path, tmp_path], capture_output=True, text=True)
+    assert run.returncode == 1 and "2 failed, 2 passed" in run.stdout, run.stdout + run.stderr
+    assert "FAILED test_engine.py::test_engine_that_does_nothing[cubes-share-a-face]" in run.stdout
