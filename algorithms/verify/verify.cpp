@@ -21,7 +21,6 @@ namespace {
 
 using verifier::all_below;
 using verifier::ExactMesh;
-using verifier::for_each_missing;
 using verifier::Inputs;
 using verifier::Numbers;
 using verifier::Partition;
@@ -104,9 +103,9 @@ std::vector<Vector4> construct_all(const ArrangementClaim& claim, std::span<cons
     return points;
 }
 
-/// Returns the numbers of the items, sorted by the items, equal items in ascending order.
-template <class T>
-Numbers sorted_numbers(std::span<const T> items) {
+/// Calls visit(pair) for equal items, each with the next one.
+template <class T, class Visit>
+void for_each_equal_pair(std::span<const T> items, const Visit& visit) {
     Numbers order(items.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -114,18 +113,16 @@ Numbers sorted_numbers(std::span<const T> items) {
         if (items[a] != items[b]) return items[a] < items[b];
         return a < b;
     });
-    return order;
+    for (std::size_t i = 1; i < order.size(); ++i)
+        if (items[order[i - 1]] == items[order[i]]) visit(Edge{order[i - 1], order[i]});
 }
 
 void check_distinct(const ExactMesh& mesh, Violations& found) {
-    const Numbers order = sorted_numbers(std::span(mesh.points));
-    for (std::size_t i = 1; i < order.size(); ++i) {
-        if (mesh.points[order[i - 1]] != mesh.points[order[i]]) continue;
-        const Edge pair{order[i - 1], order[i]};
+    for_each_equal_pair(std::span(mesh.points), [&](const Edge& pair) {
         found.push_back({Rule::R3_distinct,
                          {pair[0], pair[1]},
                          "vertices " + text(pair) + " are the same point"});
-    }
+    });
     std::vector<bool> used(mesh.points.size());
     for (const Triangle& t : mesh.triangles) {
         for (const std::uint32_t corner : t) used[corner] = true;
@@ -143,14 +140,11 @@ void check_triangles(const ExactMesh& mesh, Violations& found) {
     }
     std::vector<Triangle> sets = mesh.triangles;
     for (Triangle& t : sets) std::sort(t.begin(), t.end());
-    const Numbers order = sorted_numbers(std::span<const Triangle>(sets));
-    for (std::size_t i = 1; i < order.size(); ++i) {
-        if (sets[order[i - 1]] != sets[order[i]]) continue;
-        const Edge pair{order[i - 1], order[i]};
+    for_each_equal_pair(std::span<const Triangle>(sets), [&](const Edge& pair) {
         found.push_back({Rule::R4_triangles,
                          {pair[0], pair[1]},
                          "triangles " + text(pair) + " have the same vertices"});
-    }
+    });
 }
 
 // --- R5: contacts -----------------------------------------------------------------------------
@@ -249,29 +243,24 @@ void check_all_parents(const Inputs& inputs, std::span<const Vector4> input_poin
 // --- R8: set aside ----------------------------------------------------------------------------
 
 void check_set_aside(const SetAside& truth, const ArrangementClaim& claim, Violations& found) {
-    for_each_missing(truth.degenerate, claim.degenerate, [&](std::uint32_t t) {
-        found.push_back({Rule::R8_set_aside,
-                         {t},
-                         "input triangle " + text(t) + " has no area, but is not listed as such"});
-    });
-    for_each_missing(claim.degenerate, truth.degenerate, [&](std::uint32_t t) {
-        found.push_back({Rule::R8_set_aside,
-                         {t},
-                         "input triangle " + text(t) + " is listed as degenerate, but has area"});
-    });
-    using Duplicate = std::array<std::uint32_t, 2>;
-    for_each_missing(truth.duplicates, claim.duplicates, [&](const Duplicate& pair) {
-        found.push_back({Rule::R8_set_aside,
-                         {pair[0], pair[1]},
-                         "input triangle " + text(pair[0]) + " is a duplicate of " + text(pair[1]) +
-                             ", but not listed as such"});
-    });
-    for_each_missing(claim.duplicates, truth.duplicates, [&](const Duplicate& pair) {
-        found.push_back({Rule::R8_set_aside,
-                         {pair[0], pair[1]},
-                         "input triangle " + text(pair[0]) + " is listed as a duplicate of " +
-                             text(pair[1]) + ", whose first it is not"});
-    });
+    verifier::compare_lists(
+        truth.degenerate, claim.degenerate, [&](std::uint32_t t, bool is_listed) {
+            found.push_back({Rule::R8_set_aside,
+                             {t},
+                             "input triangle " + text(t) +
+                                 (is_listed ? " is listed as degenerate, but has area"
+                                            : " has no area, but is not listed as such")});
+        });
+    verifier::compare_lists(
+        truth.duplicates, claim.duplicates, [&](const Edge& pair, bool is_listed) {
+            found.push_back({Rule::R8_set_aside,
+                             {pair[0], pair[1]},
+                             "input triangle " + text(pair[0]) +
+                                 (is_listed ? " is listed as a duplicate of " + text(pair[1]) +
+                                                  ", whose first it is not"
+                                            : " is a duplicate of " + text(pair[1]) +
+                                                  ", but not listed as such")});
+        });
 }
 
 /// Tells whether a violation leaves open which input triangles contain a vertex.

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include <terrane/algorithms/verify/detail/edges.hpp>
 #include <terrane/algorithms/verify/detail/joined_sets.hpp>
 
 namespace terrane::verifier {
@@ -22,38 +23,19 @@ InterfaceKey interface_key(const WrittenMesh& mesh, const std::vector<BlockSides
     return {{std::min(front, back), std::max(front, back)}, {surfaces.begin(), surfaces.end()}};
 }
 
-/// Returns the rank of each vertex in the lexicographic order of the points.
-Numbers ranks_of(const std::vector<Point3>& vertices) {
-    Numbers order(vertices.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return vertices[a] < vertices[b]; });
-    Numbers rank(order.size());
-    for (std::uint32_t r = 0; r < order.size(); ++r) rank[order[r]] = r;
-    return rank;
-}
-
 /// Returns the ranks of the vertices of triangles, ascending.
 Numbers ranks_in(const WrittenMesh& mesh, const Numbers& rank, const Numbers& triangles) {
     Numbers all;
     for (const std::uint32_t t : triangles)
         for (const std::uint32_t v : mesh.triangles[t]) all.push_back(rank[v]);
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    make_set(all);
     return all;
 }
 
 /// Groups the triangles by patches, in the order of their first triangles.
 std::vector<Numbers> connected(const WrittenMesh& mesh, const Numbers& interface_of) {
-    std::map<Edge, Numbers> at_edge;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto& corners = mesh.triangles[t];
-            const auto [low, high] = std::minmax(corners[i], corners[(i + 1) % 3]);
-            at_edge[{low, high}].push_back(t);
-        }
     JoinedSets sets(mesh.triangles.size());
-    for (const auto& [edge, around] : at_edge)
+    for (const auto& [edge, around] : triangles_at_edges(mesh.triangles))
         if (around.size() == 2 && interface_of[around[0]] == interface_of[around[1]])
             sets.join(around[0], around[1]);
     std::map<std::uint32_t, Numbers> groups;
@@ -63,44 +45,17 @@ std::vector<Numbers> connected(const WrittenMesh& mesh, const Numbers& interface
     return all;
 }
 
-/// A triangle of the mesh, and whether a part has it turned over.
-struct Taken {
-    std::uint32_t triangle;
-    bool turned;
-};
-
-/// Takes triangles out of the mesh.
-PartMesh cut(const WrittenMesh& mesh, const std::vector<Taken>& taken) {
-    PartMesh part;
-    Numbers used;
-    for (const auto& [t, turned] : taken)
-        used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    for (const std::uint32_t v : used) part.vertices.push_back(mesh.vertices[v]);
-    const auto number = [&](std::uint32_t v) {
-        return static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) -
-                                          used.begin());
-    };
-    for (const auto& [t, turned] : taken) {
-        auto [a, b, c] = mesh.triangles[t];
-        if (turned) std::swap(b, c);
-        part.triangles.push_back({number(a), number(b), number(c)});
-        part.surfaces_of.push_back(mesh.surfaces_of[t]);
-        part.regions_of.push_back(mesh.regions_of[t]);
-        part.parents_of.push_back(mesh.parents_of[t]);
-        part.numbers.push_back(t);
-    }
-    return part;
-}
-
-void take_interface(const std::vector<BlockSides>& sides, const Interface& interface,
-                    std::vector<Taken>& taken) {
-    for (const std::uint32_t t : interface.triangles)
-        taken.push_back({t, sides[t][0] < sides[t][1]});
-}
-
 } // namespace
+
+Numbers ranks_of(const std::vector<Point3>& vertices) {
+    Numbers order(vertices.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return vertices[a] < vertices[b]; });
+    Numbers rank(order.size());
+    for (std::uint32_t r = 0; r < order.size(); ++r) rank[order[r]] = r;
+    return rank;
+}
 
 BlockParts find_parts(const WrittenMesh& mesh, const std::vector<BlockSides>& sides) {
     const Numbers rank = ranks_of(mesh.vertices);
@@ -141,36 +96,38 @@ BlockParts find_parts(const WrittenMesh& mesh, const std::vector<BlockSides>& si
     return parts;
 }
 
-PartMesh block_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
-                    const BlockParts& parts, std::uint32_t block) {
-    std::vector<Taken> taken;
+void take_block(const std::vector<BlockSides>& sides, const BlockParts& parts, std::uint32_t block,
+                std::vector<Taken>& taken) {
     for (const std::uint32_t t : parts.around.at(block)) taken.push_back({t, sides[t][0] == block});
-    return cut(mesh, taken);
 }
 
-PartMesh interface_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
-                        const Interface& interface) {
-    std::vector<Taken> taken;
-    take_interface(sides, interface, taken);
-    return cut(mesh, taken);
+void take_interface(const std::vector<BlockSides>& sides, const Interface& interface,
+                    std::vector<Taken>& taken) {
+    for (const std::uint32_t t : interface.triangles)
+        taken.push_back({t, sides[t][0] < sides[t][1]});
 }
 
-PartMesh all_blocks_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
-                         const BlockParts& parts, Numbers& part_of) {
-    std::vector<Taken> taken;
-    for (const auto& [block, triangles] : parts.around) {
-        if (block == 0) continue;
-        for (const std::uint32_t t : triangles) taken.push_back({t, sides[t][0] == block});
-        part_of.resize(taken.size(), block);
+PartMesh part_of(const WrittenMesh& mesh, const std::vector<Taken>& taken) {
+    PartMesh part;
+    Numbers used;
+    for (const auto& [t, turned] : taken)
+        used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+    make_set(used);
+    for (const std::uint32_t v : used) part.vertices.push_back(mesh.vertices[v]);
+    const auto number = [&](std::uint32_t v) {
+        return static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) -
+                                          used.begin());
+    };
+    for (const auto& [t, turned] : taken) {
+        auto [a, b, c] = mesh.triangles[t];
+        if (turned) std::swap(b, c);
+        part.triangles.push_back({number(a), number(b), number(c)});
+        part.surfaces_of.push_back(mesh.surfaces_of[t]);
+        part.regions_of.push_back(mesh.regions_of[t]);
+        part.parents_of.push_back(mesh.parents_of[t]);
+        part.numbers.push_back(t);
     }
-    return cut(mesh, taken);
-}
-
-PartMesh all_interfaces_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
-                             const std::vector<Interface>& interfaces) {
-    std::vector<Taken> taken;
-    for (const Interface& interface : interfaces) take_interface(sides, interface, taken);
-    return cut(mesh, taken);
+    return part;
 }
 
 } // namespace terrane::verifier

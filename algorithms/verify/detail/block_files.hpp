@@ -43,6 +43,9 @@ struct BlockParts {
     Numbers patch_of;                        ///< per triangle
 };
 
+/// Returns the rank of each vertex in the lexicographic order of the points.
+Numbers ranks_of(const std::vector<Point3>& vertices);
+
 BlockParts find_parts(const WrittenMesh& mesh, const std::vector<BlockSides>& sides);
 
 /// A part of the mesh as a file holds it.
@@ -53,22 +56,22 @@ struct PartMesh {
     Numbers numbers; ///< per triangle: its number in the mesh
 };
 
-/// Returns the triangles around a block, wound outward; none that has the block on both sides.
-PartMesh block_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
-                    const BlockParts& parts, std::uint32_t block);
+/// A triangle of the mesh, and whether a part has it turned over.
+struct Taken {
+    std::uint32_t triangle = 0;
+    bool turned = false;
+};
 
-/// Returns the triangles of an interface, so wound that the block with the higher number is in
-/// front.
-PartMesh interface_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
-                        const Interface& interface);
+/// Adds the triangles around a block, wound outward; none that has the block on both sides.
+void take_block(const std::vector<BlockSides>& sides, const BlockParts& parts, std::uint32_t block,
+                std::vector<Taken>& taken);
 
-/// Returns all blocks but the outside, one after the other, each as block_mesh() does; `part_of` gets
-/// the block of each triangle.
-PartMesh all_blocks_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
-                         const BlockParts& parts, Numbers& part_of);
-/// Returns all interfaces, one after the other, each as interface_mesh() does.
-PartMesh all_interfaces_mesh(const WrittenMesh& mesh, const std::vector<BlockSides>& sides,
-                             const std::vector<Interface>& interfaces);
+/// Adds the triangles of an interface, so wound that the block with the higher number is in front.
+void take_interface(const std::vector<BlockSides>& sides, const Interface& interface,
+                    std::vector<Taken>& taken);
+
+/// Takes triangles out of the mesh.
+PartMesh part_of(const WrittenMesh& mesh, const std::vector<Taken>& taken);
 
 /// The contents of model.json.
 struct ModelLists {

@@ -16,10 +16,10 @@ namespace terrane::verifier {
 
 /// The subject of a file of a folder with blocks.
 struct FolderFile {
-    enum class Subject { model, result, all_blocks, all_interfaces, block, interface };
+    enum class Subject { model, result, blocks, interfaces };
     Subject subject;
     std::string_view format;
-    std::uint32_t number = 0; ///< of the block or the interface
+    std::uint32_t number = no_number; ///< of the block or the interface; no_number: all are in it
 };
 
 /// The data that all files of a folder with blocks need, and its files.
@@ -37,7 +37,7 @@ using Subject = FolderFile::Subject;
 
 // --- Blocks -------------------------------------------------------------------------------------
 
-std::vector<BlockSides> sides_of(const BlocksClaim& claim, std::size_t triangles) {
+std::vector<BlockSides> blocks_at_sides(const BlocksClaim& claim, std::size_t triangles) {
     std::vector<BlockSides> sides(triangles);
     for (std::size_t s = 0; s < claim.shells.size(); ++s)
         for (const std::uint32_t side : claim.shells[s])
@@ -69,18 +69,18 @@ void add_files(const std::string& path, Folder& folder) {
     add("model.json", {Subject::model, "json"});
     add("result.vtp", {Subject::result, "vtp"});
     if (format.empty()) {
-        add("blocks.vtp", {Subject::all_blocks, "vtp"});
-        return add("interfaces.vtp", {Subject::all_interfaces, "vtp"});
+        add("blocks.vtp", {Subject::blocks, "vtp"});
+        return add("interfaces.vtp", {Subject::interfaces, "vtp"});
     }
     for (const auto& [block, triangles] : folder.parts.around)
-        if (block > 0) add(part_name("block", block, format), {Subject::block, format, block});
+        if (block > 0) add(part_name("block", block, format), {Subject::blocks, format, block});
     for (std::uint32_t i = 0; i < folder.parts.interfaces.size(); ++i)
-        add(part_name("interface", i, format), {Subject::interface, format, i});
+        add(part_name("interface", i, format), {Subject::interfaces, format, i});
 }
 
 Folder make_folder(const Certificate& certificate) {
     Folder folder{rounded_mesh(certificate).value(), {}, {}, part_format(certificate), {}};
-    folder.sides = sides_of(*certificate.blocks(), folder.mesh.triangles.size());
+    folder.sides = blocks_at_sides(*certificate.blocks(), folder.mesh.triangles.size());
     folder.parts = find_parts(folder.mesh, folder.sides);
     constexpr std::string_view model = "model.json";
     for (const CertifiedOutput& output : certificate.outputs)
@@ -126,30 +126,17 @@ public:
         check_(check) {}
 
     std::string operator()(const FolderFile& file) const {
-        const auto& [mesh, sides, parts, format, files] = folder_;
         switch (file.subject) {
         case Subject::model:
             return model();
         case Subject::result:
             return result();
-        case Subject::all_blocks: {
-            Numbers part_of;
-            const PartMesh all = all_blocks_mesh(mesh, sides, parts, part_of);
-            return part("vtp", all, surfaces_, names_, {{"block", as_cells(part_of)}});
-        }
-        case Subject::all_interfaces:
-            return part("vtp", all_interfaces_mesh(mesh, sides, parts.interfaces), surfaces_,
-                        names_);
-        case Subject::block:
-            return single(file.format, block_mesh(mesh, sides, parts, file.number),
-                          names_.subspan(file.number, 1));
-        case Subject::interface:
+        case Subject::blocks:
+            return blocks(file);
+        case Subject::interfaces:
             break;
         }
-        const Interface& interface = parts.interfaces[file.number];
-        const auto [low, high] = interface.blocks;
-        return single(file.format, interface_mesh(mesh, sides, interface),
-                      std::array{names_[low], names_[high]});
+        return interfaces(file);
     }
 
 private:
@@ -180,26 +167,50 @@ private:
                           check_);
     }
 
-    /// Compares with a part, or with many; `cells` come before those that all parts have.
-    [[nodiscard]] std::string part(std::string_view format, const PartMesh& part,
-                                   std::span<const SurfaceInfo> surfaces,
+    [[nodiscard]] std::string blocks(const FolderFile& file) const {
+        std::vector<Taken> taken;
+        if (file.number != no_number) {
+            take_block(folder_.sides, folder_.parts, file.number, taken);
+            return part(file, taken, names_.subspan(file.number, 1));
+        }
+        std::vector<std::int32_t> block_of;
+        for (const auto& [block, triangles] : folder_.parts.around) {
+            if (block == 0) continue;
+            take_block(folder_.sides, folder_.parts, block, taken);
+            block_of.resize(taken.size(), static_cast<std::int32_t>(block));
+        }
+        return part(file, taken, names_, {{"block", std::move(block_of)}});
+    }
+
+    [[nodiscard]] std::string interfaces(const FolderFile& file) const {
+        std::vector<Taken> taken;
+        const auto& all = folder_.parts.interfaces;
+        if (file.number != no_number) {
+            const auto [low, high] = all[file.number].blocks;
+            take_interface(folder_.sides, all[file.number], taken);
+            return part(file, taken, std::array{names_[low], names_[high]});
+        }
+        for (const Interface& interface : all) take_interface(folder_.sides, interface, taken);
+        return part(file, taken, names_);
+    }
+
+    /// Compares with a part, or with all parts; `cells` come before those that all parts have. VTP names only the surfaces
+    /// of a single part.
+    [[nodiscard]] std::string part(const FolderFile& file, const std::vector<Taken>& taken,
                                    std::span<const std::string> block_names,
                                    std::vector<CellNumbers> cells = {}) const {
+        PartMesh part = part_of(folder_.mesh, taken);
+        std::vector<SurfaceInfo> own;
+        const bool is_single = file.format == "vtp" && file.number != no_number;
+        if (is_single) own = own_surfaces(part, surfaces_);
         const WrittenMesh mesh{part.vertices,   part.triangles,   part.regions_of,
                                part.parents_of, part.surfaces_of, true};
         cells.push_back({"triangle", as_cells(part.numbers)});
         cells.push_back({"interface", cells_of(folder_.parts.interface_of, part.numbers)});
         cells.push_back({"patch", cells_of(folder_.parts.patch_of, part.numbers)});
-        return difference(contents_, format,
-                          ExpectedMesh{mesh, surfaces, std::move(cells), block_names}, check_);
-    }
-
-    /// Compares with a block or an interface alone, of which VTP names only its own surfaces.
-    [[nodiscard]] std::string single(std::string_view format, PartMesh mesh,
-                                     std::span<const std::string> block_names) const {
-        if (format != "vtp") return part(format, mesh, surfaces_, block_names);
-        const auto surfaces = own_surfaces(mesh, surfaces_);
-        return part(format, mesh, surfaces, block_names);
+        return difference(
+            contents_, file.format,
+            ExpectedMesh{mesh, is_single ? own : surfaces_, std::move(cells), block_names}, check_);
     }
 
     std::string_view contents_;

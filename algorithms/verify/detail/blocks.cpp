@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include <terrane/algorithms/verify/detail/edges.hpp>
 #include <terrane/algorithms/verify/detail/joined_sets.hpp>
 
 namespace terrane::verifier {
@@ -19,7 +20,7 @@ namespace {
 // --- Numbers ----------------------------------------------------------------------------------
 
 /// Returns the rank of each point in the lexicographic order.
-Numbers ranks_of(const ExactMesh& mesh) {
+Numbers ranks_of_points(const ExactMesh& mesh) {
     std::vector<Box> boxes;
     boxes.reserve(mesh.points.size());
     for (const Vector4& p : mesh.points) boxes.push_back(enclose(p, mesh.scale));
@@ -40,32 +41,18 @@ Numbers ranks_of(const ExactMesh& mesh) {
     return rank;
 }
 
-/// A side: the ranks of its corners, ascending, and whether they are counterclockwise in this order
-/// as seen from the side.
-using SideKey = std::tuple<Triangle, bool>;
-
-SideKey key_of(const Triangle& ranks, bool front) {
-    Triangle sorted = ranks;
-    std::sort(sorted.begin(), sorted.end());
-    std::size_t least = 0;
-    while (ranks[least] != sorted[0]) ++least;
-    return {sorted, (ranks[(least + 1) % 3] == sorted[1]) == front};
-}
-
 /// The points that decide the order of blocks.
 struct BlockKey {
-    Numbers vertices; ///< ranks, ascending
-    SideKey least{{no_number, no_number, no_number}, true};
+    Numbers vertices;                                       ///< ranks, ascending
+    SortedCorners least{{no_number, no_number, no_number}}; ///< ranks of a side, as seen from it
 
-    friend bool operator<(const BlockKey& a, const BlockKey& b) {
-        return std::tie(a.vertices, a.least) < std::tie(b.vertices, b.least);
-    }
+    friend auto operator<=>(const BlockKey&, const BlockKey&) = default;
 };
 
 /// Returns the key of each block, by the shell that represents it.
 std::map<std::uint32_t, BlockKey> keys_of(const ExactMesh& mesh, const Shells& shells,
                                           JoinedSets& joined) {
-    const Numbers rank = ranks_of(mesh);
+    const Numbers rank = ranks_of_points(mesh);
     const auto shell_count = static_cast<std::uint32_t>(shells.sides_of.size());
     std::map<std::uint32_t, BlockKey> keys;
     for (std::uint32_t shell = 0; shell < shell_count; ++shell) {
@@ -73,15 +60,14 @@ std::map<std::uint32_t, BlockKey> keys_of(const ExactMesh& mesh, const Shells& s
         BlockKey& key = keys[joined.find(shell)];
         for (const std::uint32_t side : shells.sides_of[shell]) {
             const auto& [a, b, c] = mesh.triangles[side / 2];
-            const Triangle ranks{rank[a], rank[b], rank[c]};
-            key.vertices.insert(key.vertices.end(), ranks.begin(), ranks.end());
-            key.least = std::min(key.least, key_of(ranks, side % 2 == 0));
+            key.vertices.insert(key.vertices.end(), {rank[a], rank[b], rank[c]});
+            SortedCorners corners = sorted_corners({rank[a], rank[b], rank[c]});
+            if (side % 2 == 1) corners.even = !corners.even;
+            key.least = std::min(key.least, corners);
         }
     }
     for (auto& [shell, key] : keys) {
-        std::sort(key.vertices.begin(), key.vertices.end());
-        key.vertices.erase(std::unique(key.vertices.begin(), key.vertices.end()),
-                           key.vertices.end());
+        make_set(key.vertices);
     }
     return keys;
 }
@@ -96,12 +82,6 @@ Point3 nearest(const Vector4& point, const mpz_class& scale) {
         return nearest_double(exact) + 0.0;
     };
     return {coordinate(0), coordinate(1), coordinate(2)};
-}
-
-/// Rotates the least corner to the front.
-Triangle turned(Triangle t) {
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    return t;
 }
 
 /// Returns, per vertex of the exact mesh, the vertex of the rounded one at its nearest doubles.
@@ -122,7 +102,7 @@ std::map<Edge, std::size_t> common_sides(const ExactMesh& exact, const Blocks& o
                                          const ExactMesh& rounded, const Blocks& of_rounded) {
     std::map<Triangle, std::uint32_t> triangle_with;
     for (std::uint32_t t = 0; t < rounded.triangles.size(); ++t)
-        triangle_with.emplace(turned(rounded.triangles[t]), t);
+        triangle_with.emplace(with_least_first(rounded.triangles[t]), t);
     const Numbers vertex = vertices_in(exact, rounded);
     std::map<Edge, std::size_t> sides;
     for (std::uint32_t t = 0; t < exact.triangles.size(); ++t) {
@@ -130,7 +110,7 @@ std::map<Edge, std::size_t> common_sides(const ExactMesh& exact, const Blocks& o
         const auto there = of_exact.of_sides(t);
         for (const bool same : {true, false}) {
             const Triangle corners{vertex[i], vertex[same ? j : k], vertex[same ? k : j]};
-            const auto found = triangle_with.find(turned(corners));
+            const auto found = triangle_with.find(with_least_first(corners));
             if (found == triangle_with.end()) continue;
             const auto here = of_rounded.of_sides(found->second);
             ++sides[{here[0], there[same ? 0 : 1]}];
@@ -191,10 +171,7 @@ std::vector<mpz_class> six_volumes(const ExactMesh& mesh, const Blocks& blocks) 
         const auto [front, back] = blocks.of_sides(t);
         if (front == back) continue;
         const auto& [i, j, k] = mesh.triangles[t];
-        const Vector4 &a = mesh.points[i], &b = mesh.points[j], &c = mesh.points[k];
-        const mpz_class part = a[0] * (b[1] * c[2] - b[2] * c[1]) +
-                               a[1] * (b[2] * c[0] - b[0] * c[2]) +
-                               a[2] * (b[0] * c[1] - b[1] * c[0]);
+        const mpz_class part = determinant(mesh.points[i], mesh.points[j], mesh.points[k]);
         sums[back] += part;
         sums[front] -= part;
     }

@@ -18,8 +18,6 @@
 
 namespace terrane::verifier {
 
-constexpr std::uint32_t no_number = UINT32_MAX;
-
 /// The shells of a mesh, numbered by their first sides.
 struct Shells {
     Numbers of_side;               ///< per side

@@ -2,6 +2,8 @@
 #include <terrane/algorithms/verify/detail/box_tree.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include <terrane/algorithms/verify/stoppable.hpp>
 
@@ -21,6 +23,35 @@ void extend(Box& box, const Box& other) {
     }
 }
 
+Box widened_by(Box box, double distance) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        box.low[i] = std::nextafter(box.low[i] - distance, -infinity);
+        box.high[i] = std::nextafter(box.high[i] + distance, infinity);
+    }
+    return box;
+}
+
+Box box_of(const Point3& point) {
+    return {{point.x, point.y, point.z}, {point.x, point.y, point.z}};
+}
+
+Box box_of(std::span<const Point3> points, const Triangle& triangle) {
+    Box box = box_of(points[triangle[0]]);
+    for (const std::uint32_t corner : triangle) extend(box, box_of(points[corner]));
+    return box;
+}
+
+Box box_of(std::span<const Vector4> points, const Triangle& triangle) {
+    Box box = enclose(points[triangle[0]], 1);
+    for (const std::size_t i : {1U, 2U}) extend(box, enclose(points[triangle[i]], 1));
+    return box;
+}
+
+BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), items_(boxes_.size()) {
+    std::iota(items_.begin(), items_.end(), 0U);
+    if (!items_.empty()) build(0, items_.size());
+}
+
 BoxTree::BoxTree(std::vector<Box> boxes, std::vector<std::uint32_t> items,
                  std::vector<std::uint32_t> groups) :
     boxes_(std::move(boxes)),
@@ -31,7 +62,7 @@ BoxTree::BoxTree(std::vector<Box> boxes, std::vector<std::uint32_t> items,
 }
 
 std::uint32_t BoxTree::group_of(std::size_t position) const {
-    return groups_.empty() ? no_group : groups_[items_[position]];
+    return groups_.empty() ? no_number : groups_[items_[position]];
 }
 
 std::vector<std::uint32_t> BoxTree::touching(const Box& box, std::uint32_t but) const {
@@ -39,7 +70,7 @@ std::vector<std::uint32_t> BoxTree::touching(const Box& box, std::uint32_t but) 
     for (std::size_t n = 0; n < nodes_.size();) {
         look_for_stop();
         const Node& node = nodes_[n];
-        if ((node.group == but && but != no_group) || !touch(node.box, box)) {
+        if ((node.group == but && but != no_number) || !touch(node.box, box)) {
             n = node.after;
             continue;
         }
@@ -52,7 +83,7 @@ std::vector<std::uint32_t> BoxTree::touching(const Box& box, std::uint32_t but) 
 }
 
 std::vector<std::uint32_t> BoxTree::touching_others(std::uint32_t item) const {
-    return touching(boxes_[item], groups_.empty() ? no_group : groups_[item]);
+    return touching(boxes_[item], groups_.empty() ? no_number : groups_[item]);
 }
 
 void BoxTree::build(std::size_t first, std::size_t last) {
@@ -61,7 +92,7 @@ void BoxTree::build(std::size_t first, std::size_t last) {
     Box box = boxes_[items_[first]];
     for (std::size_t i = first; i < last; ++i) extend(box, boxes_[items_[i]]);
     const bool is_one_group = group_of(first) == group_of(last - 1);
-    nodes_.push_back({box, 0, 0, 0, is_one_group ? group_of(first) : no_group});
+    nodes_.push_back({box, 0, 0, 0, is_one_group ? group_of(first) : no_number});
     if (is_one_group && last - first <= leaf_size) {
         nodes_[n].first = first;
         nodes_[n].last = last;

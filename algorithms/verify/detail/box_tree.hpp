@@ -5,10 +5,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/verify/detail/rational.hpp>
+#include <terrane/algorithms/verify/detail/violations.hpp>
 
 namespace terrane::verifier {
 
@@ -16,21 +19,29 @@ namespace terrane::verifier {
 bool touch(const Box& a, const Box& b);
 /// Enlarges a box to contain another one.
 void extend(Box& box, const Box& other);
+/// Enlarges a box by a distance on all sides, or a little more.
+Box widened_by(Box box, double distance);
 
-inline constexpr std::uint32_t no_group = UINT32_MAX;
+Box box_of(const Point3& point);
+/// Returns the box around the corners of a triangle.
+Box box_of(std::span<const Point3> points, const Triangle& triangle);
+/// Precondition: all points have w = 1.
+Box box_of(std::span<const Vector4> points, const Triangle& triangle);
 
 /// A tree of boxes over some items: the box of a node contains the boxes of all items below it.
 class BoxTree {
 public:
     BoxTree() = default;
-    /// Item i has box boxes[i], and belongs to the group groups[i] if there are any. A group, which may be no_group,
+    /// Item i has box boxes[i], and belongs to the group groups[i] if there are any. A group, which may be no_number,
     /// has a subtree of its own.
     BoxTree(std::vector<Box> boxes, std::vector<std::uint32_t> items,
             std::vector<std::uint32_t> groups = {});
+    /// All boxes are items.
+    explicit BoxTree(std::vector<Box> boxes);
 
-    /// Returns the items whose boxes touch a box, sorted; except those of a group, unless that is no_group.
+    /// Returns the items whose boxes touch a box, sorted; except those of a group, unless that is no_number.
     [[nodiscard]] std::vector<std::uint32_t> touching(const Box& box,
-                                                      std::uint32_t but = no_group) const;
+                                                      std::uint32_t but = no_number) const;
 
     /// Does the same for the box and the group of an item.
     [[nodiscard]] std::vector<std::uint32_t> touching_others(std::uint32_t item) const;
@@ -41,8 +52,8 @@ private:
         Box box;
         std::size_t first = 0; ///< of a leaf: its items are items_[first, last)
         std::size_t last = 0;
-        std::size_t after = 0;          ///< the node that follows the whole subtree
-        std::uint32_t group = no_group; ///< of all items below it
+        std::size_t after = 0;           ///< the node that follows the whole subtree
+        std::uint32_t group = no_number; ///< of all items below it
     };
     static constexpr std::size_t leaf_size = 4;
 

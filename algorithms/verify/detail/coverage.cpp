@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include <terrane/algorithms/verify/detail/edges.hpp>
+
 namespace terrane::verifier {
 
 namespace {
@@ -31,8 +33,7 @@ Vector4 weighted(const Vector4& a, const mpz_class& s, const Vector4& b, const m
 Coverage::Coverage(const std::array<const Vector4*, 3>& parent, std::span<const Vector4> points,
                    const mpz_class& collar) :
     parent_(parent),
-    points_(points), collar_(collar),
-    normal_(cross(difference(*parent[1], *parent[0]), difference(*parent[2], *parent[0]))),
+    points_(points), collar_(collar), normal_(normal_of(parent)),
     along_(difference(*parent[1], *parent[0])), across_(cross(normal_, along_)) {}
 
 Coverage::Coverage(const std::array<const Vector4*, 3>& parent, std::span<const Vector4> points,
@@ -58,15 +59,13 @@ Coverage::Facing::Facing(const Coverage& coverage, std::span<const Triangle> chi
         if (sign != 0) triangles.push_back(t);
     }
     std::vector<Box> boxes;
-    std::vector<std::uint32_t> items;
     for (const Triangle& t : triangles) {
         if (triangles.size() <= few) break;
         Box box = coverage.box_of(coverage.points_[t[0]]);
         for (const std::size_t i : {1U, 2U}) extend(box, coverage.box_of(coverage.points_[t[i]]));
-        items.push_back(static_cast<std::uint32_t>(boxes.size()));
         boxes.push_back(box);
     }
-    tree_ = BoxTree(std::move(boxes), std::move(items));
+    tree_ = BoxTree(std::move(boxes));
     left_ = first_looks + looks_per_child * triangles.size();
 }
 
@@ -202,25 +201,17 @@ bool Coverage::reaches(const Vector4& from, const Vector4& to, const Facing& chi
 
 bool Coverage::holds(const Facing& children) const {
     if (!covers_centroids(children)) return false;
-    std::vector<Side> sides;
-    for (const Triangle& t : children.triangles)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
-            sides.push_back({{low, high}, low == t[i] ? 1 : -1});
-        }
-    std::ranges::sort(sides, [](const Side& a, const Side& b) {
-        return std::pair(a.edge, a.sign) < std::pair(b.edge, b.sign);
+    bool covered = true;
+    for_each_edge(half_edges(children.triangles), [&](std::span<const HalfEdge> sides) {
+        const Edge& edge = sides[0].edge;
+        const bool on_both_sides = std::ranges::any_of(
+            sides, [&](const HalfEdge& side) { return side.ascends != sides[0].ascends; });
+        if (!covered || on_both_sides || near_border(edge)) return;
+        covered =
+            is_covered(points_[edge[0]], points_[edge[1]], sides[0].ascends ? -1 : 1, children,
+                       [&](const Vector4& a, const Vector4& b) { return near_border(a, b); });
     });
-    for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
-        while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
-        const Side& side = sides[first];
-        if (side.sign != sides[last - 1].sign) continue; // children on both sides
-        if (near_border(side.edge)) continue;
-        if (!is_covered(points_[side.edge[0]], points_[side.edge[1]], -side.sign, children,
-                        [&](const Vector4& a, const Vector4& b) { return near_border(a, b); }))
-            return false;
-    }
-    return true;
+    return covered;
 }
 
 } // namespace terrane::verifier

@@ -59,7 +59,7 @@ public:
 
     private:
         const Coverage& coverage_;
-        BoxTree tree_{{}, {}};
+        BoxTree tree_;
         mutable std::optional<NearTriangles> near_; ///< made for the first one that asks
         mutable std::size_t left_ = 0;              ///< that around() may still return
     };
@@ -76,11 +76,6 @@ public:
                                const Facing& children) const;
 
 private:
-    struct Side {
-        Edge edge;
-        int sign; ///< side of the edge on which the child lies: 1 or -1
-    };
-
     [[nodiscard]] int side_of(const Vector4& from, const Vector4& to, const Vector4& point) const;
     [[nodiscard]] Box box_of(const Vector4& point) const;
     [[nodiscard]] bool covers_centroid(const std::array<const Vector4*, 3>& part,

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -12,12 +11,13 @@
 #include <string>
 #include <utility>
 
-#include <terrane/algorithms/verify/detail/box_tree.hpp>
 #include <terrane/algorithms/verify/detail/contacts.hpp>
 #include <terrane/algorithms/verify/detail/distance.hpp>
+#include <terrane/algorithms/verify/detail/edges.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/joined_sets.hpp>
 #include <terrane/algorithms/verify/detail/output.hpp>
+#include <terrane/algorithms/verify/detail/rays.hpp>
 #include <terrane/algorithms/verify/verify.hpp>
 
 namespace terrane::verifier {
@@ -50,27 +50,20 @@ Shell joined_shell(const std::vector<Surface>& boundary) {
 
 /// Tells whether each edge has an even number of triangles; `once`: one in each direction.
 bool is_closed(const Shell& shell, bool once) {
-    std::map<Edge, std::array<int, 2>> uses;
-    for (const Triangle& t : shell.triangles)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-            ++uses[{std::min(a, b), std::max(a, b)}][a < b ? 0 : 1];
-        }
-    return std::ranges::all_of(uses, [&](const auto& use) {
-        const auto& [along, against] = use.second;
-        return once ? along == 1 && against == 1 : (along + against) % 2 == 0;
+    bool closed = true;
+    for_each_edge(half_edges(shell.triangles), [&](std::span<const HalfEdge> sides) {
+        closed = closed && sides.size() % 2 == 0 &&
+                 (!once || (sides.size() == 2 && sides[0].ascends != sides[1].ascends));
     });
+    return closed;
 }
 
 /// Tells whether a closed shell faces outwards: its volume is positive.
 bool faces_outwards(const Shell& shell) {
     const auto points = scale_to_integers(shell.vertices).points;
     mpz_class volume;
-    for (const Triangle& t : shell.triangles) {
-        const Vector4 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
-        volume += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-                  a[2] * (b[0] * c[1] - b[1] * c[0]);
-    }
+    for (const auto& [a, b, c] : shell.triangles)
+        volume += determinant(points[a], points[b], points[c]);
     return sgn(volume) > 0;
 }
 
@@ -231,57 +224,6 @@ Located located(const ExactMesh& mesh, const IndexLists<std::uint32_t>& parents_
     return result;
 }
 
-/// Tells which points are inside a boundary, by casting rays upwards. Each ray is moved aside by e in
-/// x and e^2 in y, where e is smaller than any length in the mesh, so that it meets no edge.
-class Rays {
-public:
-    explicit Rays(const Located& located) : mesh_(located.mesh), tree_({}, {}) {
-        std::vector<Box> boxes;
-        Numbers odd;
-        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-            Box box{};
-            if (located.is_odd[t]) {
-                box = enclose(mesh_.points[mesh_.triangles[t][0]], mesh_.scale);
-                for (const std::size_t i : {1U, 2U})
-                    extend(box, enclose(mesh_.points[mesh_.triangles[t][i]], mesh_.scale));
-                odd.push_back(t);
-            }
-            boxes.push_back(box);
-        }
-        tree_ = BoxTree(std::move(boxes), std::move(odd));
-    }
-
-    [[nodiscard]] bool is_inside(const Vector4& point) const {
-        Box box = enclose(point, mesh_.scale);
-        box.high[up] = std::numeric_limits<double>::infinity();
-        bool inside = false;
-        for (const std::uint32_t t : tree_.touching(box))
-            if (is_under(point, t)) inside = !inside;
-        return inside;
-    }
-
-private:
-    static constexpr std::size_t up = 2;
-
-    static int side_of(const Vector4& a, const Vector4& b, const Vector4& point) {
-        if (const int side = sgn(turn(a, b, point, up)); side != 0) return side;
-        // moved by (e, e^2): the edge's direction tells
-        if (const int y = sgn(mpz_class(b[1] * a[3] - a[1] * b[3])); y != 0) return -y;
-        return sgn(mpz_class(b[0] * a[3] - a[0] * b[3]));
-    }
-
-    [[nodiscard]] bool is_under(const Vector4& point, std::uint32_t t) const {
-        const auto& [i, j, k] = mesh_.triangles[t];
-        const Vector4 &a = mesh_.points[i], &b = mesh_.points[j], &c = mesh_.points[k];
-        const int side = side_of(a, b, point);
-        if (side == 0 || side_of(b, c, point) != side || side_of(c, a, point) != side) return false;
-        return sgn(dot(mesh_.planes[t], point)) * side < 0;
-    }
-
-    const ExactMesh& mesh_;
-    BoxTree tree_;
-};
-
 /// Returns, for each triangle, whether it is inside or on the boundary.
 std::vector<bool> find_inside(const Located& located, const EdgeTriangles& at_edge) {
     const auto& triangles = located.mesh.triangles;
@@ -289,13 +231,16 @@ std::vector<bool> find_inside(const Located& located, const EdgeTriangles& at_ed
     for (const auto& [edge, list] : at_edge)
         if (std::ranges::none_of(list, [&](auto t) { return located.is_boundary[t]; }))
             for (const std::uint32_t t : list) sets.join(list.front(), t);
-    const Rays rays(located);
+    Numbers odd;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        if (located.is_odd[t]) odd.push_back(t);
+    const Rays rays(located.mesh, odd, 2);
     std::map<std::uint32_t, bool> is_inside;
     std::vector<bool> inside(triangles.size(), true);
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         if (located.is_boundary[t]) continue;
         const auto [at, added] = is_inside.try_emplace(sets.find(t), false);
-        if (added) at->second = rays.is_inside(centroid_of(located.mesh, t));
+        if (added) at->second = rays.cast(centroid_of(located.mesh, t)).size() % 2 == 1;
         inside[t] = at->second;
     }
     return inside;
@@ -323,16 +268,6 @@ ExactMesh exact_mesh_of(std::span<const Surface> surfaces, const ArrangementClai
     for (const Construction& how : exact.vertices)
         points.push_back(construct(how, input_points).value());
     return make_exact_mesh(std::move(points), scale, exact.triangles);
-}
-
-EdgeTriangles triangles_at_edges(const std::vector<Triangle>& triangles) {
-    EdgeTriangles result;
-    for (std::uint32_t t = 0; t < triangles.size(); ++t)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t a = triangles[t][i], b = triangles[t][(i + 1) % 3];
-            result[{std::min(a, b), std::max(a, b)}].push_back(t);
-        }
-    return result;
 }
 
 std::vector<bool> find_outside(std::span<const Surface> surfaces, std::size_t boundary_count,
@@ -380,9 +315,8 @@ void check_inside(std::span<const Surface> surfaces, std::size_t boundary_count,
 }
 
 ArrangementClaim without(const ArrangementClaim& exact, const Numbers& dropped) {
-    constexpr std::uint32_t none = UINT32_MAX;
     ArrangementClaim kept;
-    std::vector<std::uint32_t> number_of(exact.vertices.size(), none);
+    std::vector<std::uint32_t> number_of(exact.vertices.size(), no_number);
     for (std::uint32_t t = 0; t < exact.triangles.size(); ++t) {
         if (std::ranges::binary_search(dropped, t)) continue;
         kept.triangles.push_back(exact.triangles[t]);
@@ -390,7 +324,7 @@ ArrangementClaim without(const ArrangementClaim& exact, const Numbers& dropped) 
         for (const std::uint32_t v : exact.triangles[t]) number_of[v] = 0;
     }
     for (std::uint32_t v = 0; v < number_of.size(); ++v) {
-        if (number_of[v] == none) continue;
+        if (number_of[v] == no_number) continue;
         number_of[v] = static_cast<std::uint32_t>(kept.vertices.size());
         kept.vertices.push_back(exact.vertices[v]);
     }

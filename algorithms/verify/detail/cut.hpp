@@ -3,7 +3,6 @@
 // Rules R50 to R52 of the verifier: an arrangement of which a volume of interest was cut out.
 #pragma once
 
-#include <map>
 #include <span>
 #include <vector>
 
@@ -32,10 +31,6 @@ void check_volume(const VolumeClaim& volume, std::span<const Surface> files, Vio
 /// Returns the exact part of a claim as a mesh. `surfaces` are all that it is about. Precondition:
 /// R1 and R2 hold.
 ExactMesh exact_mesh_of(std::span<const Surface> surfaces, const ArrangementClaim& exact);
-
-/// The triangles at each edge, by its vertices, the lower first.
-using EdgeTriangles = std::map<Edge, Numbers>;
-EdgeTriangles triangles_at_edges(const std::vector<Triangle>& triangles);
 
 /// Tells which exact triangles are outside of a volume. `surfaces` are the inputs and the boundary,
 /// of which there are `boundary_count` surfaces; none: nothing is outside. A triangle without a

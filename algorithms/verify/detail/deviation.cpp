@@ -2,9 +2,7 @@
 //
 // check_distances of rounded_parts.hpp.
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +10,7 @@
 #include <terrane/algorithms/verify/detail/box_tree.hpp>
 #include <terrane/algorithms/verify/detail/coverage.hpp>
 #include <terrane/algorithms/verify/detail/distance.hpp>
+#include <terrane/algorithms/verify/detail/edges.hpp>
 #include <terrane/algorithms/verify/detail/rounded_parts.hpp>
 
 namespace terrane::verifier {
@@ -52,8 +51,7 @@ std::vector<Edge> parents_and_corners(const RoundedClaim& rounded) {
         for (const std::uint32_t parent : rounded.parents_of[t])
             for (const std::uint32_t corner : rounded.triangles[t])
                 pairs.push_back({parent, corner});
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    make_set(pairs);
     return pairs;
 }
 
@@ -82,37 +80,20 @@ public:
     /// of an input triangle.
     [[nodiscard]] Triangles near(std::uint32_t input) const {
         if (!tree_) tree_ = tree_of_mesh();
-        const double reach = parts_.rounded.deviation / 4;
-        Box box = box_of(parts_.inputs.triangles[input], parts_.inputs.vertices);
-        for (std::size_t i = 0; i < 3; ++i) {
-            box.low[i] = std::nextafter(box.low[i] - reach, -infinity);
-            box.high[i] = std::nextafter(box.high[i] + reach, infinity);
-        }
         Triangles result;
-        for (const std::uint32_t t : tree_->touching(box))
+        for (const std::uint32_t t : tree_->touching(
+                 widened_by(box_of(parts_.inputs.vertices, parts_.inputs.triangles[input]),
+                            parts_.rounded.deviation / 4)))
             result.push_back(parts_.rounded.triangles[t]);
         return result;
     }
 
 private:
-    static Box box_of(const Triangle& t, std::span<const Point3> points) {
-        Box box;
-        for (const std::uint32_t corner : t) {
-            const auto& [x, y, z] = points[corner];
-            const Box at{{x, y, z}, {x, y, z}};
-            if (corner == t[0]) box = at;
-            extend(box, at);
-        }
-        return box;
-    }
-
     [[nodiscard]] BoxTree tree_of_mesh() const {
         std::vector<Box> boxes;
         for (const Triangle& t : parts_.rounded.triangles)
-            boxes.push_back(box_of(t, parts_.rounded.vertices));
-        Numbers items(boxes.size());
-        std::iota(items.begin(), items.end(), 0U);
-        return {std::move(boxes), std::move(items)};
+            boxes.push_back(box_of(parts_.rounded.vertices, t));
+        return BoxTree(std::move(boxes));
     }
 
     const RoundedParts& parts_;
@@ -184,15 +165,6 @@ struct KeptRegion {
     Triangles borders; ///< edges {a, b, b} of one triangle
 };
 
-/// Returns the integers nearest to the coordinates of a point.
-Vector4 nearest_integers(const Vector4& point) {
-    Vector4 result{0, 0, 0, 1};
-    for (std::size_t i = 0; i < 3; ++i)
-        mpz_fdiv_q(result[i].get_mpz_t(), mpz_class(2 * point[i] + point[3]).get_mpz_t(),
-                   mpz_class(2 * point[3]).get_mpz_t());
-    return result;
-}
-
 KeptRegion kept_region(const RoundedParts& parts, std::uint32_t input) {
     KeptRegion region;
     std::map<std::uint32_t, std::uint32_t> number_of;
@@ -203,14 +175,12 @@ KeptRegion kept_region(const RoundedParts& parts, std::uint32_t input) {
             const auto [at, added] =
                 number_of.try_emplace(corner, static_cast<std::uint32_t>(region.points.size()));
             if (added)
-                region.points.push_back(nearest_integers(
+                region.points.push_back(rounded_to_integers(
                     construct(parts.exact.vertices[corner], parts.input_points).value()));
             corner = at->second;
         }
         region.triangles.push_back(corners);
-        for (std::size_t i = 0; i < 3; ++i)
-            ++uses[{std::min(corners[i], corners[(i + 1) % 3]),
-                    std::max(corners[i], corners[(i + 1) % 3])}];
+        for (const HalfEdge& side : sides_of(corners)) ++uses[side.edge];
     }
     for (const auto& [edge, count] : uses) {
         if (region.points[edge[0]] == region.points[edge[1]]) continue;

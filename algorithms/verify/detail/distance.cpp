@@ -10,11 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include <terrane/algorithms/verify/detail/violations.hpp>
 #include <terrane/algorithms/verify/stoppable.hpp>
 
 namespace terrane::verifier {
-
-namespace {} // namespace
 
 Vector3 difference(const Vector4& a, const Vector4& b) {
     look_for_stop();
@@ -29,6 +28,10 @@ Vector3 cross(const Vector3& a, const Vector3& b) {
 
 mpz_class dot(const Vector3& a, const Vector3& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vector3 normal_of(const std::array<const Vector4*, 3>& triangle) {
+    return cross(difference(*triangle[1], *triangle[0]), difference(*triangle[2], *triangle[0]));
 }
 
 Squared squared_distance(const Vector4& a, const Vector4& b) {
@@ -55,8 +58,7 @@ Squared squared_distance(const Vector4& point, const Vector4& start, const Vecto
 }
 
 Squared squared_distance(const Vector4& point, const std::array<const Vector4*, 3>& triangle) {
-    const Vector3 normal =
-        cross(difference(*triangle[1], *triangle[0]), difference(*triangle[2], *triangle[0]));
+    const Vector3 normal = normal_of(triangle);
     const mpz_class size = dot(normal, normal);
     std::optional<Squared> least; // to the sides beyond which the point projects along the normal
     for (std::size_t i = 0; i < 3; ++i) {
@@ -78,8 +80,7 @@ bool within(const Squared& distance, const mpz_class& bound) {
 }
 
 Squared squared_height(const std::array<const Vector4*, 3>& triangle) {
-    const Vector3 normal =
-        cross(difference(*triangle[1], *triangle[0]), difference(*triangle[2], *triangle[0]));
+    const Vector3 normal = normal_of(triangle);
     mpz_class longest = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const Vector3 side = difference(*triangle[(i + 1) % 3], *triangle[i]);
@@ -131,8 +132,6 @@ struct Stop {
     std::uint32_t corner; ///< the point that projects there; none for the ends
 };
 
-constexpr std::uint32_t no_corner = UINT32_MAX;
-
 } // namespace
 
 /// A segment that is judged.
@@ -155,25 +154,16 @@ NearTriangles::NearTriangles(std::span<const Vector4> points, std::span<const Tr
                              const mpz_class& bound) :
     points_(points),
     triangles_(triangles), bound_(bound) {
-    std::vector<std::uint32_t> items(triangles.size());
-    std::iota(items.begin(), items.end(), 0U);
-    all_ = items;
-    for (const std::uint32_t t : items)
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
         for (const std::uint32_t corner : triangles[t]) at_corner_.push_back({corner, t});
     std::ranges::sort(at_corner_);
+    all_.resize(triangles.size());
+    std::iota(all_.begin(), all_.end(), 0U);
     if (triangles.size() <= few) return;
+    const double by = enclose({bound, bound, bound, 1}, 1).high[0];
     std::vector<Box> boxes;
-    for (const Triangle& t : triangles) {
-        Box box = enclose(points[t[0]], 1);
-        for (const std::size_t i : {1U, 2U}) extend(box, enclose(points[t[i]], 1));
-        const Box by = enclose({bound, bound, bound, 1}, 1);
-        for (std::size_t i = 0; i < 3; ++i) {
-            box.low[i] = std::nextafter(box.low[i] - by.high[i], -infinity);
-            box.high[i] = std::nextafter(box.high[i] + by.high[i], infinity);
-        }
-        boxes.push_back(box);
-    }
-    tree_ = BoxTree(std::move(boxes), std::move(items));
+    for (const Triangle& t : triangles) boxes.push_back(widened_by(box_of(points, t), by));
+    tree_ = BoxTree(std::move(boxes));
 }
 
 bool NearTriangles::is_near(const Vector4& point, std::uint32_t t) const {
@@ -198,9 +188,8 @@ bool NearTriangles::reach(const Vector4& start, const Vector4& end) const {
     std::vector<std::uint32_t> corners;
     for (const std::uint32_t t : around(start, end))
         corners.insert(corners.end(), triangles_[t].begin(), triangles_[t].end());
-    std::ranges::sort(corners);
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    std::vector<Stop> stops{{0, no_corner}, {segment.length, no_corner}};
+    make_set(corners);
+    std::vector<Stop> stops{{0, no_number}, {segment.length, no_number}};
     for (const std::uint32_t corner : corners) {
         mpz_class place = dot(difference(points_[corner], start), segment.along);
         if (sgn(place) <= 0 || place >= segment.length) continue;

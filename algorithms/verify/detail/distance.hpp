@@ -20,6 +20,8 @@ using Vector3 = std::array<mpz_class, 3>;
 Vector3 difference(const Vector4& a, const Vector4& b); ///< a - w b. Precondition: b has w = 1
 Vector3 cross(const Vector3& a, const Vector3& b);
 mpz_class dot(const Vector3& a, const Vector3& b);
+/// Returns the normal of a triangle, as long as twice its area. Precondition: its corners have w = 1.
+Vector3 normal_of(const std::array<const Vector4*, 3>& triangle);
 
 /// The square of a distance, above / below, in the unit of the points; not reduced.
 struct Squared {
@@ -94,7 +96,7 @@ private:
     mpz_class bound_;
     std::vector<std::uint32_t> all_;
     std::vector<Edge> at_corner_; ///< {corner, triangle}, sorted
-    BoxTree tree_{{}, {}};
+    BoxTree tree_;
 };
 
 } // namespace terrane::verifier

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <utility>
 
+#include <terrane/algorithms/verify/detail/box_tree.hpp>
+
 namespace terrane::verifier {
 
 ExactMesh make_exact_mesh(std::vector<Vector4> points, const mpz_class& scale,
@@ -15,6 +17,21 @@ ExactMesh make_exact_mesh(std::vector<Vector4> points, const mpz_class& scale,
         make_primitive(mesh.planes.back());
     }
     return mesh;
+}
+
+std::vector<Box> boxes_of_triangles(const ExactMesh& mesh) {
+    std::vector<Box> corners;
+    corners.reserve(mesh.points.size());
+    for (const Vector4& point : mesh.points) corners.push_back(enclose(point, mesh.scale));
+    std::vector<Box> boxes;
+    boxes.reserve(mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) {
+        Box box = corners[t[0]];
+        extend(box, corners[t[1]]);
+        extend(box, corners[t[2]]);
+        boxes.push_back(box);
+    }
+    return boxes;
 }
 
 Vector4 centroid_of(const ExactMesh& mesh, std::uint32_t triangle) {

@@ -23,6 +23,9 @@ struct ExactMesh {
 ExactMesh make_exact_mesh(std::vector<Vector4> points, const mpz_class& scale,
                           std::span<const Triangle> triangles);
 
+/// Returns the box around each triangle.
+std::vector<Box> boxes_of_triangles(const ExactMesh& mesh);
+
 /// Returns the centroid of a triangle.
 Vector4 centroid_of(const ExactMesh& mesh, std::uint32_t triangle);
 

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace terrane::verifier {
 
 namespace {
 
-/// Returns per triangle the corner, other than `but`, that most of these triangles have, or no_group if these are not
+/// Returns per triangle the corner, other than `but`, that most of these triangles have, or no_number if these are not
 /// more than the root of their number. So there are few such corners.
 Numbers common_corners(const ExactMesh& mesh, const Numbers& triangles, std::uint32_t but) {
     constexpr std::size_t least = 17; // fewer are tested by pairs
@@ -22,24 +23,9 @@ Numbers common_corners(const ExactMesh& mesh, const Numbers& triangles, std::uin
         const std::uint32_t most = std::ranges::max(
             mesh.triangles[t], {}, [&](std::uint32_t v) { return std::pair(count[v], v); });
         const std::size_t n = count[most];
-        common.push_back(n >= least && n * n > triangles.size() ? most : no_group);
+        common.push_back(n >= least && n * n > triangles.size() ? most : no_number);
     }
     return common;
-}
-
-std::vector<Box> boxes_of_triangles(const ExactMesh& mesh) {
-    std::vector<Box> corners;
-    corners.reserve(mesh.points.size());
-    for (const Vector4& point : mesh.points) corners.push_back(enclose(point, mesh.scale));
-    std::vector<Box> boxes;
-    boxes.reserve(mesh.triangles.size());
-    for (const Triangle& t : mesh.triangles) {
-        Box box = corners[t[0]];
-        extend(box, corners[t[1]]);
-        extend(box, corners[t[2]]);
-        boxes.push_back(box);
-    }
-    return boxes;
 }
 
 Numbers triangles_with_area(const ExactMesh& mesh) {
@@ -59,12 +45,6 @@ Box direction(const Vector4& from, const Vector4& to) {
     return enclose(way, 1);
 }
 
-Numbers positions(std::size_t count) {
-    Numbers all(count);
-    for (std::uint32_t i = 0; i < count; ++i) all[i] = i;
-    return all;
-}
-
 } // namespace
 
 Fan::Fan(const ExactMesh& mesh, std::uint32_t hub, Numbers triangles) :
@@ -73,10 +53,12 @@ Fan::Fan(const ExactMesh& mesh, std::uint32_t hub, Numbers triangles) :
     std::vector<Box> boxes;
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
         boxes.push_back(directions(triangles_[i]));
-        if (ends_[i] != no_group)
+        if (ends_[i] != no_number)
             half_planes_[half_plane(triangles_[i], ends_[i])].push_back(triangles_[i]);
     }
-    tree_ = BoxTree(std::move(boxes), positions(triangles_.size()), ends_);
+    Numbers positions(triangles_.size());
+    std::iota(positions.begin(), positions.end(), 0U);
+    tree_ = BoxTree(std::move(boxes), std::move(positions), ends_);
 }
 
 /// Encloses the points of the cube around the hub in the directions of a triangle. The directions of its corners, a
@@ -111,19 +93,19 @@ void Fan::add_near(std::uint32_t triangle, Numbers& found) const {
     const auto at = static_cast<std::uint32_t>(std::ranges::lower_bound(triangles_, triangle) -
                                                triangles_.begin());
     for (const std::uint32_t i : tree_.touching_others(at)) found.push_back(triangles_[i]);
-    if (ends_[at] == no_group) return;
+    if (ends_[at] == no_number) return;
     const Numbers& others = half_planes_.at(half_plane(triangle, ends_[at]));
     found.insert(found.end(), others.begin(), others.end());
 }
 
 ContactSearch::ContactSearch(const ExactMesh& mesh) :
     mesh_(mesh), with_area_(triangles_with_area(mesh)) {
-    const Numbers common = common_corners(mesh, with_area_, no_group);
-    hubs_.assign(mesh.triangles.size(), no_group);
+    const Numbers common = common_corners(mesh, with_area_, no_number);
+    hubs_.assign(mesh.triangles.size(), no_number);
     std::map<std::uint32_t, Numbers> around;
     for (std::size_t i = 0; i < with_area_.size(); ++i) {
         hubs_[with_area_[i]] = common[i];
-        if (common[i] != no_group) around[common[i]];
+        if (common[i] != no_number) around[common[i]];
     }
     for (const std::uint32_t t : with_area_)
         for (const std::uint32_t v : mesh.triangles[t])
@@ -137,8 +119,7 @@ Numbers ContactSearch::near(std::uint32_t triangle) const {
     for (const std::uint32_t v : mesh_.triangles[triangle])
         if (const auto fan = fans_.find(v); fan != fans_.end())
             fan->second.add_near(triangle, found);
-    std::ranges::sort(found);
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    make_set(found);
     return found;
 }
 

@@ -38,7 +38,7 @@ private:
     std::uint32_t hub_;
     Numbers triangles_;
     Numbers
-        ends_; ///< per triangle the group in the tree: a second vertex that many have in common, or no_group
+        ends_; ///< per triangle the group in the tree: a second vertex that many have in common, or no_number
     std::map<HalfPlane, Numbers> half_planes_; ///< triangles at those second vertices
     BoxTree tree_;                             ///< over positions in triangles_
 };
@@ -56,7 +56,7 @@ public:
 private:
     const ExactMesh& mesh_;
     Numbers with_area_;
-    Numbers hubs_; ///< per triangle the vertex that most have in common, if many do, or no_group
+    Numbers hubs_; ///< per triangle the vertex that most have in common, if many do, or no_number
     std::map<std::uint32_t, Fan> fans_; ///< by their hubs
     BoxTree tree_;
 };

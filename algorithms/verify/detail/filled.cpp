@@ -11,6 +11,8 @@
 #include <vector>
 
 #include <terrane/algorithms/verify/detail/contacts.hpp>
+#include <terrane/algorithms/verify/detail/edges.hpp>
+#include <terrane/algorithms/verify/detail/extent.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/joined_sets.hpp>
 #include <terrane/algorithms/verify/detail/output.hpp>
@@ -21,31 +23,6 @@ namespace {
 
 /// An edge with the triangles that use it from the lower to the higher vertex, and the reverse.
 using Uses = std::array<Numbers, 2>;
-
-/// The box around points.
-struct Extent {
-    bool any = false;
-    std::array<mpz_class, 3> low, high;
-
-    void add(const Vector4& point) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (!any || point[i] < low[i]) low[i] = point[i];
-            if (!any || point[i] > high[i]) high[i] = point[i];
-        }
-        any = true;
-    }
-    [[nodiscard]] bool has(const Vector4& point, const mpz_class& limit) const {
-        for (std::size_t i = 0; i < 3; ++i)
-            if (point[i] > high[i] + limit || point[i] < low[i] - limit) return false;
-        return any;
-    }
-    /// Returns the square of the diagonal.
-    [[nodiscard]] mpz_class size() const {
-        mpz_class sum = 0;
-        for (std::size_t i = 0; i < 3; ++i) sum += (high[i] - low[i]) * (high[i] - low[i]);
-        return sum;
-    }
-};
 
 /// Tells whether a square of a diagonal is larger than another one, by more than those that were
 /// compared in doubles can be off.
@@ -139,11 +116,8 @@ private:
     }
 
     void find_uses() {
-        for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-            for (std::size_t i = 0; i < 3; ++i) {
-                const std::uint32_t from = triangles_[t][i], to = triangles_[t][(i + 1) % 3];
-                uses_[{std::min(from, to), std::max(from, to)}][from < to ? 0 : 1].push_back(t);
-            }
+        for (const HalfEdge& side : half_edges(triangles_))
+            uses_[side.edge][side.ascends ? 0 : 1].push_back(side.triangle);
         for (const auto& [edge, uses] : uses_) {
             const auto given = [&](const Numbers& way) {
                 return std::ranges::count_if(way, [&](auto t) { return t < new_from(); });
@@ -316,8 +290,8 @@ private:
     JoinedSets joined_{part_.triangles}; ///< of new triangles of the same filling
 };
 
-void check_numbers(const FilledClaim& filled, std::size_t surfaces, double accepted,
-                   Violations& found) {
+void check_filled_numbers(const FilledClaim& filled, std::size_t surfaces, double accepted,
+                          Violations& found) {
     constexpr Rule rule = Rule::R28_filled_indices;
     check_finite(filled.vertices, "vertex", rule, found);
     check_corners(filled.triangles, filled.vertices.size(), rule, found);
@@ -365,7 +339,7 @@ void check_expected_errors(const Surface& given, const FilledClaim& filled, std:
 void check_filled(std::span<const Surface> surfaces, const FilledClaim& filled, double accepted,
                   Violations& found) {
     join_inputs(surfaces, found);
-    check_numbers(filled, surfaces.size(), accepted, found);
+    check_filled_numbers(filled, surfaces.size(), accepted, found);
     if (!found.empty()) return;
     std::array<std::size_t, 2> first{0, 0};
     std::set<std::uint32_t> holes;

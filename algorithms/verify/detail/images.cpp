@@ -3,12 +3,14 @@
 // check_images of rounded_parts.hpp.
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include <terrane/algorithms/verify/detail/distance.hpp>
+#include <terrane/algorithms/verify/detail/edges.hpp>
 #include <terrane/algorithms/verify/detail/joined_sets.hpp>
 #include <terrane/algorithms/verify/detail/rounded_parts.hpp>
 
@@ -30,15 +32,10 @@ struct Common {
     Numbers triangles;
 };
 
-Edge edge_of(const Triangle& t, std::size_t side) {
-    return {std::min(t[side], t[(side + 1) % 3]), std::max(t[side], t[(side + 1) % 3])};
-}
-
 /// Sorts pairs {input triangle, value} and lists the values, each once.
 template <class T>
 IndexLists<T> lists_of(std::vector<std::pair<std::uint32_t, T>> pairs, std::size_t inputs) {
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    make_set(pairs);
     Numbers keys;
     for (const auto& [key, value] : pairs) keys.push_back(key);
     return lists_by_key<T>(inputs, keys, [&](std::size_t i) { return pairs[i].second; });
@@ -54,9 +51,9 @@ public:
         std::vector<std::pair<std::uint32_t, Edge>> edges;
         for (std::size_t t = 0; t < triangles_.size(); ++t)
             for (const std::uint32_t parent : parts.parents_of[t])
-                for (std::size_t side = 0; side < 3; ++side) {
-                    vertices.emplace_back(parent, triangles_[t][side]);
-                    edges.emplace_back(parent, edge_of(triangles_[t], side));
+                for (const HalfEdge& side : sides_of(triangles_[t])) {
+                    vertices.emplace_back(parent, side.apex);
+                    edges.emplace_back(parent, side.edge);
                 }
         vertices_ = lists_of(std::move(vertices), children_.size());
         edges_ = lists_of(std::move(edges), children_.size());
@@ -72,11 +69,15 @@ public:
         return !shared(edges_, inputs).empty();
     }
 
-    /// Returns the edges of which one triangle belongs to the image of an input triangle.
-    [[nodiscard]] std::vector<Edge> border(std::uint32_t input) const {
+    /// Returns the edges of which one triangle belongs to the images of input triangles.
+    [[nodiscard]] std::vector<Edge> border(const Numbers& inputs) const {
+        Numbers triangles;
+        for (const std::uint32_t input : inputs)
+            triangles.insert(triangles.end(), children_[input].begin(), children_[input].end());
+        make_set(triangles);
         std::map<Edge, int> uses;
-        for (const std::uint32_t t : children_[input])
-            for (std::size_t side = 0; side < 3; ++side) ++uses[edge_of(triangles_[t], side)];
+        for (const std::uint32_t t : triangles)
+            for (const HalfEdge& side : sides_of(triangles_[t])) ++uses[side.edge];
         std::vector<Edge> once;
         for (const auto& [edge, count] : uses)
             if (count == 1) once.push_back(edge);
@@ -118,8 +119,7 @@ private:
     [[nodiscard]] bool is_closed(const Numbers& which) const {
         std::map<Edge, Numbers> at;
         for (const std::uint32_t t : which)
-            for (std::size_t side = 0; side < 3; ++side)
-                at[edge_of(triangles_[t], side)].push_back(t);
+            for (const HalfEdge& side : sides_of(triangles_[t])) at[side.edge].push_back(t);
         std::vector<Edge> open;
         for (const auto& [edge, triangles] : at)
             if (triangles.size() == 1) open.push_back(edge);
@@ -129,10 +129,9 @@ private:
             open.pop_back();
             if (free.empty()) continue;
             --left;
-            for (std::size_t side = 0; side < 3; ++side) {
-                const Edge edge = edge_of(triangles_[free[0]], side);
-                std::erase(at[edge], free[0]);
-                if (at[edge].size() == 1) open.push_back(edge);
+            for (const HalfEdge& side : sides_of(triangles_[free[0]])) {
+                std::erase(at[side.edge], free[0]);
+                if (at[side.edge].size() == 1) open.push_back(side.edge);
             }
         }
         return left != 0;
@@ -152,9 +151,8 @@ struct Meetings {
         std::map<std::uint32_t, Numbers> at;
         std::map<Edge, Numbers> along;
         for (std::size_t t = 0; t < parts.triangles.size(); ++t)
-            for (std::size_t side = 0; side < 3; ++side)
-                for (Numbers* all :
-                     {&at[parts.triangles[t][side]], &along[edge_of(parts.triangles[t], side)]})
+            for (const HalfEdge& side : sides_of(parts.triangles[t]))
+                for (Numbers* all : {&at[side.apex], &along[side.edge]})
                     all->insert(all->end(), parts.parents_of[t].begin(), parts.parents_of[t].end());
         for (auto& [v, all] : at) add(in_vertices, all, vanished);
         for (auto& [edge, all] : along) add(along_edges, all, vanished);
@@ -162,8 +160,7 @@ struct Meetings {
 
 private:
     static void add(std::set<Numbers>& sets, Numbers& all, const Numbers& vanished) {
-        std::sort(all.begin(), all.end());
-        all.erase(std::unique(all.begin(), all.end()), all.end());
+        make_set(all);
         std::erase_if(all, [&](auto p) { return std::ranges::binary_search(vanished, p); });
         if (!all.empty()) sets.insert(std::move(all));
     }
@@ -180,11 +177,15 @@ public:
         for (std::uint32_t t = 0; t < parts_.inputs.triangles.size(); ++t)
             if (!parts_.children[t].empty() && !parts_.exact_children[t].empty()) {
                 check({t});
-                if (is_slit(t)) ++slit_;
+                if (is_slit({t})) ++slit_;
             }
         for (const Edge& pair : neighbours()) {
             if (doubles_.meet({pair[0], pair[1]})) {
-                if (have_common_side(pair)) check({pair[0], pair[1]});
+                const auto side = common_side(pair);
+                if (side.size() < 2) continue;
+                check({pair[0], pair[1]});
+                if (side.size() == 2 && ends_early(pair, side) && is_slit({pair[0], pair[1]}))
+                    ++slit_;
             } else if (!is_thinned({pair[0], pair[1]}) && !do_surfaces_meet(pair) &&
                        is_crossing(pair)) {
                 report({pair[0], pair[1]}, "meet no more, nor do their surfaces");
@@ -223,18 +224,29 @@ private:
             report(inputs, common + (common.empty() ? "have" : "has") + " a hole");
     }
 
-    /// Tells whether an image has a border far from the sides of its input triangle. A slit that begins at a side is
-    /// no hole.
-    [[nodiscard]] bool is_slit(std::uint32_t input) const {
-        if (is_thinned({input}) || (!parts_.is_cut.empty() && parts_.is_cut[input])) return false;
-        const auto corners = parts_.input_corners(input);
+    /// Tells whether the images of input triangles together have a border far from the sides that one of these has. A slit
+    /// that begins at a side is no hole.
+    [[nodiscard]] bool is_slit(const Numbers& inputs) const {
+        if (is_thinned(inputs)) return false;
+        using Side = std::array<Vector4, 2>;
+        std::map<Side, int> sides;
+        for (const std::uint32_t input : inputs) {
+            if (!parts_.is_cut.empty() && parts_.is_cut[input]) return false;
+            const auto corners = parts_.input_corners(input);
+            for (std::size_t i = 0; i < 3; ++i) {
+                Side side{*corners[i], *corners[(i + 1) % 3]};
+                std::ranges::sort(side);
+                ++sides[std::move(side)];
+            }
+        }
         const auto is_far = [&](std::uint32_t v) {
-            const Vector4& p = parts_.points[v];
-            return !within_of_segment(p, *corners[0], *corners[1], parts_.deviation) &&
-                   !within_of_segment(p, *corners[1], *corners[2], parts_.deviation) &&
-                   !within_of_segment(p, *corners[2], *corners[0], parts_.deviation);
+            return std::ranges::none_of(sides, [&](const auto& side) {
+                const auto& [start, end] = side.first;
+                return side.second == 1 &&
+                       within_of_segment(parts_.points[v], start, end, parts_.deviation);
+            });
         };
-        return std::ranges::any_of(doubles_.border(input), [&](const Edge& edge) {
+        return std::ranges::any_of(doubles_.border(inputs), [&](const Edge& edge) {
             return is_far(edge[0]) || is_far(edge[1]);
         });
     }
@@ -251,12 +263,25 @@ private:
         return std::ranges::any_of(ours, [&](std::uint32_t v) { return theirs.contains(v); });
     }
 
-    [[nodiscard]] bool have_common_side(const Edge& pair) const {
+    /// Returns the corners that two input triangles have in common.
+    [[nodiscard]] std::vector<const Vector4*> common_side(const Edge& pair) const {
         const auto ours = parts_.input_corners(pair[0]), theirs = parts_.input_corners(pair[1]);
-        return std::ranges::count_if(ours, [&](const Vector4* corner) {
-                   return std::ranges::any_of(
-                       theirs, [&](const Vector4* other) { return *corner == *other; });
-               }) >= 2;
+        std::vector<const Vector4*> common;
+        std::ranges::copy_if(ours, std::back_inserter(common), [&](const Vector4* corner) {
+            return std::ranges::any_of(theirs,
+                                       [&](const Vector4* other) { return *corner == *other; });
+        });
+        return common;
+    }
+
+    /// Tells whether what two images have in common ends before an end of the common side.
+    [[nodiscard]] bool ends_early(const Edge& pair, const std::vector<const Vector4*>& side) const {
+        const Numbers vertices = doubles_.common({pair[0], pair[1]}).vertices;
+        return std::ranges::any_of(side, [&](const Vector4* end) {
+            return std::ranges::none_of(vertices, [&](std::uint32_t v) {
+                return within(parts_.points[v], *end, parts_.deviation);
+            });
+        });
     }
 
     /// Returns pairs of input triangles that link all those at each exact edge.
@@ -266,15 +291,14 @@ private:
         for (std::size_t t = 0; t < triangles.size(); ++t)
             for (const std::uint32_t parent : parts_.exact.parents_of[t])
                 if (!parts_.children[parent].empty())
-                    for (std::size_t side = 0; side < 3; ++side)
-                        at.emplace_back(edge_of(triangles[t], side), parent);
+                    for (const HalfEdge& side : sides_of(triangles[t]))
+                        at.emplace_back(side.edge, parent);
         std::sort(at.begin(), at.end());
         std::vector<Edge> pairs;
         for (std::size_t i = 1; i < at.size(); ++i)
             if (at[i - 1].first == at[i].first && at[i - 1].second != at[i].second)
                 pairs.push_back({at[i - 1].second, at[i].second});
-        std::sort(pairs.begin(), pairs.end());
-        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+        make_set(pairs);
         return pairs;
     }
 
@@ -295,10 +319,9 @@ private:
     /// Tells whether all corners of one triangle are as near to the plane of another as is accepted.
     [[nodiscard]] bool is_flat(std::uint32_t one, std::uint32_t other) const {
         const auto corners = parts_.input_corners(other);
-        const Vector4 &a = *corners[0], &b = *corners[1], &c = *corners[2];
-        const Vector3 normal = cross(difference(b, a), difference(c, a));
+        const Vector3 normal = normal_of(corners);
         return std::ranges::all_of(parts_.input_corners(one), [&](const Vector4* corner) {
-            const mpz_class height = dot(normal, difference(*corner, a));
+            const mpz_class height = dot(normal, difference(*corner, *corners[0]));
             return within(Squared{height * height, dot(normal, normal)}, parts_.accepted);
         });
     }
@@ -328,7 +351,8 @@ private:
     const Numbers& thinned_;
     Violations& found_;
     Images exact_, doubles_;
-    std::size_t slit_ = 0; ///< number of input triangles that are slit
+    std::size_t slit_ =
+        0; ///< number of input triangles, and of pairs with a common side, that are slit
     std::map<std::uint32_t, std::set<std::uint32_t>> vertices_of_surface_; ///< of the doubles
 };
 

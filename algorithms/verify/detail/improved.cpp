@@ -11,6 +11,7 @@
 
 #include <terrane/algorithms/verify/detail/blocks.hpp>
 #include <terrane/algorithms/verify/detail/distance.hpp>
+#include <terrane/algorithms/verify/detail/extent.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/nearness.hpp>
 #include <terrane/algorithms/verify/verify.hpp>
@@ -30,8 +31,8 @@ public:
         old_ = find_sheets(before, numbers_);
         new_ = find_sheets(after_, numbers_);
         for (Sheets* sheets : {&old_, &new_}) {
-            sheets->triangles.resize(numbers_.sheets.size());
-            sheets->shapes.resize(numbers_.sheets.size());
+            sheets->triangles.resize(numbers_.sheets.all().size());
+            sheets->shapes.resize(numbers_.sheets.all().size());
         }
         offset_ = static_cast<std::uint32_t>(before.vertices.size());
         points_ = before.vertices;
@@ -48,8 +49,8 @@ public:
         old_triangles_ = before.triangles;
         new_triangles_ = improved.triangles;
         for (Triangle& t : new_triangles_) t = moved(t);
-        find_surfaces_of_sheets(before.surfaces_of, old_);
-        find_surfaces_of_sheets(improved.surfaces_of, new_);
+        surfaces_of_sheet_.resize(numbers_.sheets.all().size());
+        for (const auto& [name, sheet] : numbers_.sheets.all()) surfaces_of_sheet_[sheet] = name[0];
     }
 
     void check() {
@@ -67,16 +68,6 @@ public:
 private:
     [[nodiscard]] Triangle moved(const Triangle& t) const {
         return {t[0] + offset_, t[1] + offset_, t[2] + offset_};
-    }
-
-    void find_surfaces_of_sheets(const IndexLists<std::uint32_t>& surfaces_of,
-                                 const Sheets& sheets) {
-        surfaces_of_sheet_.resize(numbers_.sheets.size());
-        for (std::size_t s = 0; s < sheets.triangles.size(); ++s)
-            if (!sheets.triangles[s].empty()) {
-                const auto surfaces = surfaces_of[sheets.triangles[s].front()];
-                surfaces_of_sheet_[s].assign(surfaces.begin(), surfaces.end());
-            }
     }
 
     void report(Rule rule, Numbers elements, std::string sentence) {
@@ -172,19 +163,12 @@ private:
         return beside;
     }
 
-    /// Returns the box around triangles: low x, y, z, high x, y, z.
-    [[nodiscard]] std::array<mpz_class, 6> box_of(const std::vector<Triangle>& triangles,
-                                                  const Numbers& which) const {
-        std::array<mpz_class, 6> box;
-        for (std::size_t i = 0; i < 3; ++i) {
-            box[i] = box[i + 3] = exact_[triangles[which.front()][0]][i];
-            for (const std::uint32_t t : which)
-                for (const std::uint32_t v : triangles[t]) {
-                    box[i] = std::min(box[i], exact_[v][i]);
-                    box[i + 3] = std::max(box[i + 3], exact_[v][i]);
-                }
-        }
-        return box;
+    [[nodiscard]] Extent extent_of(const std::vector<Triangle>& triangles,
+                                   const Numbers& which) const {
+        Extent extent;
+        for (const std::uint32_t t : which)
+            for (const std::uint32_t v : triangles[t]) extent.add(exact_[v]);
+        return extent;
     }
 
     /// Checks that no closed sheet has left its place: the boxes around it before and now have points
@@ -195,10 +179,10 @@ private:
             bordered.insert(sheets.begin(), sheets.end());
         for (std::uint32_t s = 0; s < old_.triangles.size(); ++s) {
             if (bordered.contains(s)) continue;
-            const auto was = box_of(old_triangles_, old_.triangles[s]);
-            const auto is = box_of(new_triangles_, new_.triangles[s]);
+            const Extent was = extent_of(old_triangles_, old_.triangles[s]);
+            const Extent is = extent_of(new_triangles_, new_.triangles[s]);
             for (std::size_t i = 0; i < 3; ++i)
-                if (was[i + 3] < is[i] || is[i + 3] < was[i]) {
+                if (was.high[i] < is.low[i] || is.high[i] < was.low[i]) {
                     report(Rule::R39_beside, {new_.triangles[s].front()},
                            "the region of improved triangle " + text(new_.triangles[s].front()) +
                                " is not where it was");
@@ -311,18 +295,13 @@ private:
 
     // --- R27: sides ------------------------------------------------------------------------------
 
-    [[nodiscard]] Vector3 corner(std::uint32_t v) const {
-        return {exact_[v][0], exact_[v][1], exact_[v][2]};
-    }
-
     /// Returns twice the vector area of triangles.
     [[nodiscard]] Vector3 area_of(const std::vector<Triangle>& triangles,
                                   const Numbers& which) const {
         Vector3 sum;
         for (const std::uint32_t t : which) {
             const auto& [a, b, c] = triangles[t];
-            const Vector3 area =
-                cross(difference(exact_[b], exact_[a]), difference(exact_[c], exact_[a]));
+            const Vector3 area = normal_of({&exact_[a], &exact_[b], &exact_[c]});
             for (std::size_t i = 0; i < 3; ++i) sum[i] += area[i];
         }
         return sum;
@@ -334,7 +313,7 @@ private:
         mpz_class sum = 0;
         for (const std::uint32_t t : which) {
             const auto& [a, b, c] = triangles[t];
-            sum += dot(corner(a), cross(corner(b), corner(c)));
+            sum += determinant(exact_[a], exact_[b], exact_[c]);
         }
         return sum;
     }

@@ -42,12 +42,13 @@ void check_edge_list(std::span<const Edge> edges, std::size_t vertex_count, Rule
 void check_limit(double limit, std::uint32_t surface, double accepted, Rule rule,
                  Violations& found);
 
-/// Calls visit(value) for each value that is in `of` but not in `in`. Both are sorted.
-template <class T, class Visit>
-void for_each_missing(const std::vector<T>& of, const std::vector<T>& in, Visit visit) {
-    std::vector<T> missing;
-    std::set_difference(of.begin(), of.end(), in.begin(), in.end(), std::back_inserter(missing));
-    std::for_each(missing.begin(), missing.end(), visit);
+/// Calls report(value, is_listed) for each value that is only in one of two sorted lists.
+template <class T, class Report>
+void compare_lists(const std::vector<T>& truth, const std::vector<T>& listed,
+                   const Report& report) {
+    std::vector<T> different;
+    std::ranges::set_symmetric_difference(truth, listed, std::back_inserter(different));
+    for (const T& value : different) report(value, std::ranges::binary_search(listed, value));
 }
 
 } // namespace terrane::verifier

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include <terrane/algorithms/verify/detail/edges.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 
 namespace terrane::verifier {
@@ -70,6 +71,18 @@ IndexLists<std::uint32_t> children_of(const IndexLists<std::uint32_t>& parents_o
     return children;
 }
 
+IndexLists<std::uint32_t> surfaces_of_parents(const Numbers& surface_of,
+                                              const IndexLists<std::uint32_t>& parents_of) {
+    IndexLists<std::uint32_t> surfaces_of;
+    for (std::size_t t = 0; t < parents_of.size(); ++t) {
+        Numbers surfaces;
+        for (const std::uint32_t parent : parents_of[t]) surfaces.push_back(surface_of[parent]);
+        make_set(surfaces);
+        surfaces_of.push_back(surfaces);
+    }
+    return surfaces_of;
+}
+
 namespace {
 
 /// {surface, number of geometrically distinct parents in it}, sorted.
@@ -81,39 +94,13 @@ Signature signature(std::span<const std::uint32_t> parents, const Inputs& inputs
     for (const std::uint32_t parent : parents) {
         different.push_back({inputs.surface_of[parent], set_aside.first_of[parent]});
     }
-    std::sort(different.begin(), different.end());
-    different.erase(std::unique(different.begin(), different.end()), different.end());
+    make_set(different);
     Signature result;
     for (const auto& [surface, first] : different) {
         if (result.empty() || result.back()[0] != surface) result.push_back({surface, 0});
         ++result.back()[1];
     }
     return result;
-}
-
-struct EdgeUse {
-    Edge edge;
-    std::uint32_t triangle;
-
-    friend bool operator==(const EdgeUse&, const EdgeUse&) = default;
-};
-
-/// Returns the edges of all triangles, sorted and unique.
-std::vector<EdgeUse> edge_uses(std::span<const Triangle> triangles) {
-    std::vector<EdgeUse> uses;
-    uses.reserve(3 * triangles.size());
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto [low, high] = std::minmax(triangles[t][i], triangles[t][(i + 1) % 3]);
-            uses.push_back({{low, high}, t});
-        }
-    }
-    std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
-        return std::tie(a.edge, a.triangle) < std::tie(b.edge, b.triangle);
-    });
-    uses.erase(std::unique(uses.begin(), uses.end()),
-               uses.end()); // a triangle without area may repeat one
-    return uses;
 }
 
 } // namespace
@@ -123,29 +110,28 @@ std::vector<Edge> find_intersection_edges(const Parts& parts, const Inputs& inpu
     const auto signature_of = [&](std::uint32_t triangle) {
         return signature(parts.parents_of[triangle], inputs, set_aside);
     };
-    const std::vector<EdgeUse> uses = edge_uses(parts.triangles);
+    auto sides = half_edges(parts.triangles);
+    const auto repeated = std::ranges::unique(sides, [](const HalfEdge& a, const HalfEdge& b) {
+        return a.edge == b.edge && a.triangle == b.triangle; // in a triangle without area
+    });
+    sides.erase(repeated.begin(), repeated.end());
     std::vector<Edge> edges;
-    for (std::size_t first = 0, last = 0; first < uses.size(); first = last) {
-        while (last < uses.size() && uses[last].edge == uses[first].edge) ++last;
-        const std::size_t count = last - first;
-        if (count > 2 || (count == 2 && signature_of(uses[first].triangle) !=
-                                            signature_of(uses[first + 1].triangle))) {
-            edges.push_back(uses[first].edge);
-        }
-    }
+    for_each_edge(sides, [&](std::span<const HalfEdge> at) {
+        if (at.size() > 2 ||
+            (at.size() == 2 && signature_of(at[0].triangle) != signature_of(at[1].triangle)))
+            edges.push_back(at[0].edge);
+    });
     return edges;
 }
 
 void check_intersection_edges(const std::vector<Edge>& truth, const std::vector<Edge>& listed,
                               Rule rule, Violations& found) {
-    const auto report = [&](const Edge& edge, const std::string& what) {
-        found.push_back({rule, {edge[0], edge[1]}, "the edge of vertices " + text(edge) + what});
-    };
-    for_each_missing(truth, listed, [&](const Edge& edge) {
-        report(edge, " is an intersection edge, but not listed");
-    });
-    for_each_missing(listed, truth, [&](const Edge& edge) {
-        report(edge, " is listed, but no intersection edge");
+    compare_lists(truth, listed, [&](const Edge& edge, bool is_listed) {
+        found.push_back({rule,
+                         {edge[0], edge[1]},
+                         "the edge of vertices " + text(edge) +
+                             (is_listed ? " is listed, but no intersection edge"
+                                        : " is an intersection edge, but not listed")});
     });
 }
 

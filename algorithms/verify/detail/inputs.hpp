@@ -43,6 +43,10 @@ SetAside find_set_aside(const Inputs& inputs, std::span<const Vector4> points);
 IndexLists<std::uint32_t> children_of(const IndexLists<std::uint32_t>& parents_of,
                                       std::size_t input_count);
 
+/// Returns the surfaces of each triangle, those of its parents, sorted. `surface_of` is per input triangle, ascending.
+IndexLists<std::uint32_t> surfaces_of_parents(const Numbers& surface_of,
+                                              const IndexLists<std::uint32_t>& parents_of);
+
 /// Returns the intersection edges as rule R7 defines them, sorted.
 std::vector<Edge> find_intersection_edges(const Parts& parts, const Inputs& inputs,
                                           const SetAside& set_aside);

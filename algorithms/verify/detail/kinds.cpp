@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include <terrane/algorithms/verify/detail/box_tree.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 
 namespace terrane::verifier {
@@ -40,21 +41,12 @@ const Kind& find_kind(CertificateKind kind) {
 }
 
 double default_max_change(std::span<const Surface> surfaces) {
-    std::array<double, 3> low{infinity, infinity, infinity};
-    std::array<double, 3> high{-infinity, -infinity, -infinity};
+    Box box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
     for (const Surface& surface : surfaces)
-        for (const Triangle& t : surface.triangles)
-            for (const std::uint32_t corner : t) {
-                const Point3& p = surface.vertices[corner];
-                const std::array<double, 3> at{p.x, p.y, p.z};
-                for (std::size_t i = 0; i < 3; ++i) {
-                    low[i] = std::min(low[i], at[i]);
-                    high[i] = std::max(high[i], at[i]);
-                }
-            }
+        for (const Triangle& t : surface.triangles) extend(box, box_of(surface.vertices, t));
     double part = 0;
     for (std::size_t i = 0; i < 3; ++i)
-        if (low[i] < high[i]) part = std::hypot(part, high[i] / 20 - low[i] / 20);
+        if (box.low[i] < box.high[i]) part = std::hypot(part, box.high[i] / 20 - box.low[i] / 20);
     return part;
 }
 
@@ -83,15 +75,7 @@ std::vector<CertifiedSurface> surfaces_of_mesh(const Certificate& certificate) {
 
 IndexLists<std::uint32_t> surfaces_of_parents(const Certificate& certificate,
                                               const IndexLists<std::uint32_t>& parents_of) {
-    const auto surface_of = surfaces_of_inputs(certificate);
-    IndexLists<std::uint32_t> surfaces_of;
-    for (std::size_t t = 0; t < parents_of.size(); ++t) {
-        Numbers surfaces;
-        for (const std::uint32_t parent : parents_of[t]) surfaces.push_back(surface_of[parent]);
-        surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
-        surfaces_of.push_back(surfaces); // parents are sorted, and so are their surfaces
-    }
-    return surfaces_of;
+    return surfaces_of_parents(surfaces_of_inputs(certificate), parents_of);
 }
 
 } // namespace terrane::verifier

@@ -4,6 +4,7 @@
 // "inputs" and "outputs", and a file NAME_kind.cpp that reads and judges them.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -56,6 +57,10 @@ struct Kind {
     /// It can have the keys "cut" and "sealed", too, which parse() and judge() look for.
     bool can_be_cut = false;
 };
+
+/// In the order of Role.
+inline constexpr std::array<std::string_view, 4> names_of_roles{"unknown", "horizon", "fault",
+                                                                "boundary"};
 
 /// Returns the kind with this name; nullptr if there is none.
 const Kind* find_kind(std::string_view name);

@@ -40,7 +40,7 @@ private:
     void check_order() {
         std::vector<Box> downward = s_.boxes;
         for (Box& box : downward) box.low[2] = -infinity;
-        const BoxTree tree = tree_of(downward);
+        const BoxTree tree(std::move(downward));
         for (std::uint32_t s = 0; s < s_.boxes.size(); ++s) {
             Box above = s_.boxes[s];
             above.high[2] = infinity;
@@ -188,7 +188,7 @@ private:
             from[2] = to[2] = 0;
             std::vector<Triangle> near;
             for (const std::uint32_t b :
-                 s_.borders_near(box_around(layered_.vertices, {edge[0], edge[1], edge[1]})))
+                 s_.borders_near(box_of(layered_.vertices, {edge[0], edge[1], edge[1]})))
                 near.push_back(s_.border_edges[b]);
             if (from == to || NearTriangles(s_.border_points, near, s_.deviation).reach(from, to))
                 continue;

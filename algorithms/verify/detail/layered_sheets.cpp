@@ -5,72 +5,28 @@
 #include <array>
 #include <cmath>
 #include <deque>
-#include <limits>
-#include <numeric>
 #include <utility>
 
 #include <terrane/algorithms/verify/detail/distance.hpp>
+#include <terrane/algorithms/verify/detail/edges.hpp>
 
 namespace terrane::verifier {
 
-namespace {
-
-constexpr double no_limit = std::numeric_limits<double>::infinity();
-
-/// Calls visit(edge, side) for the edges of a triangle; side is 1 where it is passed from the lower
-/// vertex to the higher one.
-template <class Visit>
-void for_each_edge(const Triangle& t, const Visit& visit) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-        visit(Edge{std::min(a, b), std::max(a, b)}, a < b ? 1 : -1);
-    }
-}
-
-} // namespace
-
-Box box_around(std::span<const Point3> points, const Triangle& t) {
-    Box box{{no_limit, no_limit, no_limit}, {-no_limit, -no_limit, -no_limit}};
-    for (const std::uint32_t corner : t) {
-        const std::array<double, 3> at{points[corner].x, points[corner].y, points[corner].z};
-        for (std::size_t i = 0; i < 3; ++i) {
-            box.low[i] = std::min(box.low[i], at[i]);
-            box.high[i] = std::max(box.high[i], at[i]);
-        }
-    }
-    return box;
-}
-
-Box widened_by(Box box, double by) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        box.low[i] = std::nextafter(box.low[i] - by, -no_limit);
-        box.high[i] = std::nextafter(box.high[i] + by, no_limit);
-    }
-    return box;
-}
-
 Box without_height(Box box) {
-    box.low[2] = -no_limit;
-    box.high[2] = no_limit;
+    box.low[2] = -infinity;
+    box.high[2] = infinity;
     return box;
-}
-
-BoxTree tree_of(const std::vector<Box>& boxes) {
-    Numbers items(boxes.size());
-    std::iota(items.begin(), items.end(), 0U);
-    return {boxes, items};
 }
 
 void Sheet::finish() {
     auto flat = boxes;
     for (Box& box : flat) box = without_height(box);
-    tree = tree_of(flat);
+    tree = BoxTree(std::move(flat));
 }
 
 void add_sides(const Seen& t, const Triangle& numbers, EdgeSides& edges) {
-    for_each_edge(numbers, [&](const Edge& edge, int side) {
-        edges[edge].push_back(t.flipped ? -side : side);
-    });
+    for (const HalfEdge& side : sides_of(numbers))
+        edges[side.edge].push_back(side.ascends != t.flipped ? 1 : -1);
 }
 
 bool has_both_sides(const std::vector<int>& sides) {
@@ -156,7 +112,7 @@ bool LayerSheets::find_surfaces(Violations& found) {
         for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
             const Triangle& c = s.triangles[t];
             if (const auto from_above = seen_of(t, c, first[i])) {
-                sheet.add(*from_above, box_around(s.vertices, c));
+                sheet.add(*from_above, box_of(s.vertices, c));
             } else if (has_area(c, first[i])) {
                 found.push_back(
                     {Rule::R60_layer_lists,
@@ -189,7 +145,7 @@ void LayerSheets::find_borders() {
         const auto number = static_cast<std::uint32_t>(border_points.size());
         border_points.insert(border_points.end(), ends.begin(), ends.end());
         border_edges.push_back({number, number + 1, number + 1});
-        border_boxes.push_back(without_height(box_around(doubles_, {a, b, b})));
+        border_boxes.push_back(without_height(box_of(doubles_, {a, b, b})));
     };
     for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
         const Surface& s = inputs[claim.order[i].surface];
@@ -209,7 +165,7 @@ void LayerSheets::find_borders() {
         for (const auto& [edge, sides] : edges)
             if (!has_both_sides(sides)) add_border(first[i] + edge[0], first[i] + edge[1]);
     }
-    border_tree_ = tree_of(border_boxes);
+    border_tree_ = BoxTree(std::move(border_boxes));
 }
 
 /// Tells whether a corner is within 2 d of the opposite side in the projection. For most triangles
@@ -243,29 +199,28 @@ EdgeSides LayerSheets::sides_of_layer(std::uint32_t layer) const {
             continue;
         }
         aside.push_back(t);
-        for_each_edge(claim.triangles[t], [&](const Edge& e, int) { open[e].push_back(t); });
+        for (const HalfEdge& side : sides_of(claim.triangles[t])) open[side.edge].push_back(t);
     }
     std::deque<std::uint32_t> next(aside.begin(), aside.end());
     std::vector<bool> placed(claim.triangles.size(), false);
     const auto place = [&](std::uint32_t t, bool flipped) {
         placed[t] = true;
         add_sides({t, {}, flipped}, claim.triangles[t], edges);
-        for_each_edge(claim.triangles[t], [&](const Edge& e, int) {
-            for (const std::uint32_t beside : open[e])
+        for (const HalfEdge& side : sides_of(claim.triangles[t]))
+            for (const std::uint32_t beside : open[side.edge])
                 if (!placed[beside]) next.push_back(beside);
-        });
     };
     const auto place_by_neighbours = [&] {
         for (; !next.empty(); next.pop_front()) {
             const std::uint32_t t = next.front();
             int room = 0; // more edges leave room for the one side, or for the other
             bool has_neighbour = false;
-            for_each_edge(claim.triangles[t], [&](const Edge& e, int side) {
-                const auto at = edges.find(e);
-                if (at == edges.end() || at->second.size() != 1) return;
+            for (const HalfEdge& side : sides_of(claim.triangles[t])) {
+                const auto at = edges.find(side.edge);
+                if (at == edges.end() || at->second.size() != 1) continue;
                 has_neighbour = true;
-                room += at->second[0] == side ? -1 : 1;
-            });
+                room += at->second[0] == (side.ascends ? 1 : -1) ? -1 : 1;
+            }
             if (!placed[t] && has_neighbour) place(t, room < 0);
         }
     };
@@ -281,7 +236,7 @@ EdgeSides LayerSheets::sides_of_layer(std::uint32_t layer) const {
 void LayerSheets::find_layers() {
     layers.resize(claim.order.size());
     for (std::uint32_t t = 0; t < claim.triangles.size(); ++t) {
-        boxes.push_back(box_around(claim.vertices, claim.triangles[t]));
+        boxes.push_back(box_of(claim.vertices, claim.triangles[t]));
         seen.push_back(seen_of(t, claim.triangles[t], 0));
         aside_.push_back(!seen[t] || is_thin(*seen[t]));
         if (seen.back())

@@ -18,8 +18,6 @@
 
 namespace terrane::verifier {
 
-Box box_around(std::span<const Point3> points, const Triangle& t);
-Box widened_by(Box box, double by);
 Box without_height(Box box);
 
 /// A triangle, seen from above.
@@ -33,7 +31,7 @@ struct Seen {
 struct Sheet {
     std::vector<Seen> triangles;
     std::vector<Box> boxes; ///< with heights
-    BoxTree tree{{}, {}};   ///< of the boxes without heights
+    BoxTree tree;           ///< of the boxes without heights
 
     void add(const Seen& seen, const Box& box) {
         triangles.push_back(seen);
@@ -106,10 +104,7 @@ private:
 
     std::vector<Point3> doubles_; ///< that `points` were made of
     std::vector<bool> aside_;     ///< per triangle of the mesh
-    BoxTree border_tree_{{}, {}};
+    BoxTree border_tree_;
 };
-
-/// Returns a tree of all boxes.
-BoxTree tree_of(const std::vector<Box>& boxes);
 
 } // namespace terrane::verifier

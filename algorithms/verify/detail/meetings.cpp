@@ -86,8 +86,7 @@ std::vector<Edge> parents_at_vertices(const ExactParts& parts) {
             for (const std::uint32_t corner : parts.claim.triangles[t])
                 pairs.push_back({corner, parts.set_aside.first_of[parent]});
         }
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    make_set(pairs);
     return pairs;
 }
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <utility>
 
+#include <terrane/algorithms/verify/detail/edges.hpp>
 #include <terrane/algorithms/verify/detail/measure.hpp>
 
 namespace terrane::verifier {
@@ -26,15 +26,9 @@ public:
     LineFinder(const WrittenMesh& mesh, std::span<const SurfaceInfo> surfaces,
                const BlockParts& parts) :
         mesh_(mesh),
-        surfaces_(surfaces), parts_(parts), at_vertex_(mesh.vertices.size()) {
+        surfaces_(surfaces), parts_(parts), at_vertex_(mesh.vertices.size()),
+        rank_(ranks_of(mesh.vertices)) {
         find_edges();
-        rank_.resize(mesh.vertices.size());
-        Numbers order(rank_.size());
-        std::iota(order.begin(), order.end(), 0U);
-        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return mesh.vertices[a] < mesh.vertices[b];
-        });
-        for (std::uint32_t r = 0; r < order.size(); ++r) rank_[order[r]] = r;
     }
 
     LineParts operator()() {
@@ -57,14 +51,7 @@ public:
 
 private:
     void find_edges() {
-        std::map<Edge, Numbers> around;
-        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
-            for (std::size_t i = 0; i < 3; ++i) {
-                const auto& corners = mesh_.triangles[t];
-                const auto [low, high] = std::minmax(corners[i], corners[(i + 1) % 3]);
-                around[{low, high}].push_back(t);
-            }
-        for (auto& [ends, triangles] : around) {
+        for (auto& [ends, triangles] : triangles_at_edges(mesh_.triangles)) {
             const auto& interface = parts_.interface_of;
             if (triangles.size() == 2 && interface[triangles[0]] == interface[triangles[1]])
                 continue;

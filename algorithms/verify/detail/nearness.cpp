@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include <terrane/algorithms/verify/detail/distance.hpp>
+#include <terrane/algorithms/verify/detail/measure.hpp>
 
 namespace terrane::verifier {
 
@@ -15,20 +15,12 @@ namespace {
 
 // --- Distances in double precision, which only propose -------------------------------------------
 
-Point3 minus(const Point3& a, const Point3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
 double product(const Point3& a, const Point3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-Point3 crossed(const Point3& a, const Point3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 double to_segment(const Point3& p, const Point3& a, const Point3& b) {
-    const Point3 along = minus(b, a), from = minus(p, a);
+    const Point3 along = vector_to(b, a), from = vector_to(p, a);
     const double length = product(along, along);
     const double share = length > 0 ? std::clamp(product(from, along) / length, 0.0, 1.0) : 0.0;
     const Point3 rest{from.x - share * along.x, from.y - share * along.y, from.z - share * along.z};
@@ -36,43 +28,21 @@ double to_segment(const Point3& p, const Point3& a, const Point3& b) {
 }
 
 double to_triangle(const Point3& p, const std::array<Point3, 3>& t) {
-    const Point3 normal = crossed(minus(t[1], t[0]), minus(t[2], t[0]));
+    const Point3 normal = cross_product(vector_to(t[1], t[0]), vector_to(t[2], t[0]));
     const double size = product(normal, normal);
     bool inside = size > 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 3; ++i) {
         const Point3 &a = t[i], &b = t[(i + 1) % 3];
-        if (inside && product(normal, crossed(minus(b, a), minus(p, a))) >= 0) continue;
+        if (inside && product(normal, cross_product(vector_to(b, a), vector_to(p, a))) >= 0)
+            continue;
         inside = false;
         least = std::min(least, to_segment(p, a, b));
     }
-    if (inside) return std::fabs(product(normal, minus(p, t[0]))) / std::sqrt(size);
+    if (inside) return std::fabs(product(normal, vector_to(p, t[0]))) / std::sqrt(size);
     for (std::size_t i = 0; i < 3; ++i)
         least = std::min(least, to_segment(p, t[i], t[(i + 1) % 3]));
     return least;
-}
-
-void extend(Box& box, const Point3& p) {
-    const std::array<double, 3> at{p.x, p.y, p.z};
-    for (std::size_t i = 0; i < 3; ++i) {
-        box.low[i] = std::min(box.low[i], at[i]);
-        box.high[i] = std::max(box.high[i], at[i]);
-    }
-}
-
-Box box_of(const std::array<Point3, 3>& corners) {
-    Box box{{corners[0].x, corners[0].y, corners[0].z}, {corners[0].x, corners[0].y, corners[0].z}};
-    extend(box, corners[1]);
-    extend(box, corners[2]);
-    return box;
-}
-
-Box widened(Box box, double by) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        box.low[i] -= by;
-        box.high[i] += by;
-    }
-    return box;
 }
 
 // --- Exact points -------------------------------------------------------------------------------
@@ -95,7 +65,7 @@ Point3 middle(const Point3& a, const Point3& b) {
 std::size_t longest_side(const std::array<Point3, 3>& t) {
     std::array<double, 3> length{};
     for (std::size_t i = 0; i < 3; ++i) {
-        const Point3 side = minus(t[(i + 1) % 3], t[i]);
+        const Point3 side = vector_to(t[(i + 1) % 3], t[i]);
         length[i] = product(side, side);
     }
     return static_cast<std::size_t>(std::ranges::max_element(length) - length.begin());
@@ -111,12 +81,10 @@ double rounding_of(std::span<const Point3> points) {
 }
 
 Nearness::Nearness(const PointPairs& points, std::vector<Triangle> targets) :
-    points_(points), targets_(std::move(targets)), tree_({}, {}),
+    points_(points), targets_(std::move(targets)),
     pieces_(first_pieces + pieces_per_triangle * targets_.size()) {
-    std::vector<std::uint32_t> items(targets_.size());
-    std::iota(items.begin(), items.end(), 0U);
-    for (const std::uint32_t t : items) boxes_.push_back(box_of(corners(t)));
-    tree_ = BoxTree(boxes_, items);
+    for (const Triangle& t : targets_) boxes_.push_back(box_of(points_.doubles, t));
+    tree_ = BoxTree(boxes_);
 }
 
 std::array<Point3, 3> Nearness::corners(std::uint32_t target) const {
@@ -128,7 +96,8 @@ std::array<Point3, 3> Nearness::corners(std::uint32_t target) const {
 std::vector<std::uint32_t> Nearness::within_reach(const Piece& piece,
                                                   std::span<const std::uint32_t> targets,
                                                   double reach) const {
-    const Box box = widened(box_of({piece[0].near, piece[1].near, piece[2].near}), reach);
+    const Box box = widened_by(
+        box_of(std::array{piece[0].near, piece[1].near, piece[2].near}, {0, 1, 2}), reach);
     std::vector<std::uint32_t> result;
     for (const std::uint32_t target : targets)
         if (touch(boxes_[target], box)) result.push_back(target);
@@ -173,8 +142,7 @@ bool Nearness::covers(const Triangle& triangle, const Bound& bound) const {
     Piece whole;
     for (std::size_t i = 0; i < 3; ++i)
         whole[i] = {points_.doubles[triangle[i]], points_.exact[triangle[i]]};
-    const auto all = tree_.touching(
-        widened(box_of({whole[0].near, whole[1].near, whole[2].near}), reach(bound)));
+    const auto all = tree_.touching(widened_by(box_of(points_.doubles, triangle), reach(bound)));
     std::vector<std::pair<Piece, std::vector<std::uint32_t>>> open{{whole, all}};
     for (pieces_ += pieces_per_triangle; !open.empty(); --pieces_) {
         const auto [piece, around] = std::move(open.back());

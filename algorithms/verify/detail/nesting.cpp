@@ -10,108 +10,19 @@
 // parts of others.
 //
 // r is a point inside of a triangle T of its component. For this component itself, r is moved up
-// along the ray a little, to a place in front of T or behind it. All rays are moved aside, by e in
-// one coordinate and e^2 in the other for an e that is smaller than all else, so that none meets an
-// edge. This changes no winding number, as r is on no other triangle.
-#include <algorithm>
+// along the ray a little, to a place in front of T or behind it. Moving rays aside changes no winding number, as r
+// is on no other triangle.
 #include <array>
 #include <map>
-#include <numeric>
-#include <span>
+#include <optional>
+#include <utility>
 
 #include <terrane/algorithms/verify/detail/blocks.hpp>
+#include <terrane/algorithms/verify/detail/rays.hpp>
 
 namespace terrane::verifier {
 
 namespace {
-
-/// A component and its point.
-struct Query {
-    std::uint32_t triangle = 0; ///< the lowest of the component; the point is inside of it
-    Vector4 point;
-    Box box{};
-};
-
-/// Casts rays along one axis, in its direction.
-class Rays {
-public:
-    Rays(const ExactMesh& mesh, const Shells& shells, std::size_t axis) :
-        mesh_(mesh), shells_(shells), axis_(axis), u_((axis + 1) % 3), v_((axis + 2) % 3) {}
-
-    /// Calls visit(query, winding) for each query with the winding numbers that are not 0. Only
-    /// `triangles` are looked at.
-    template <class Visit>
-    void cast(std::vector<Query> queries, std::span<const std::uint32_t> triangles,
-              const Visit& visit) {
-        std::vector<Target> targets = targets_of(triangles);
-        std::sort(queries.begin(), queries.end(),
-                  [this](const Query& a, const Query& b) { return a.box.low[u_] < b.box.low[u_]; });
-        std::vector<Target> active; // those that may overlap this query or a later one
-        auto next = targets.begin();
-        for (const Query& query : queries) {
-            for (; next != targets.end() && next->box.low[u_] <= query.box.high[u_]; ++next)
-                active.push_back(*next);
-            std::erase_if(active,
-                          [&](const Target& t) { return t.box.high[u_] < query.box.low[u_]; });
-            std::map<std::uint32_t, int> winding;
-            for (const Target& t : active)
-                if (t.box.low[v_] <= query.box.high[v_] && t.box.high[v_] >= query.box.low[v_] &&
-                    t.box.high[axis_] >= query.box.low[axis_])
-                    pass(query, t.triangle, winding);
-            visit(query, winding);
-        }
-    }
-
-private:
-    struct Target {
-        std::uint32_t triangle = 0;
-        Box box{};
-    };
-
-    [[nodiscard]] std::vector<Target> targets_of(std::span<const std::uint32_t> triangles) const {
-        std::vector<Target> targets;
-        for (const std::uint32_t t : triangles) {
-            Target target{t, enclose(mesh_.points[mesh_.triangles[t][0]], mesh_.scale)};
-            for (const std::size_t corner : {1U, 2U}) {
-                const Box box = enclose(mesh_.points[mesh_.triangles[t][corner]], mesh_.scale);
-                for (std::size_t i = 0; i < 3; ++i) {
-                    target.box.low[i] = std::min(target.box.low[i], box.low[i]);
-                    target.box.high[i] = std::max(target.box.high[i], box.high[i]);
-                }
-            }
-            targets.push_back(target);
-        }
-        std::sort(targets.begin(), targets.end(), [this](const Target& a, const Target& b) {
-            return a.box.low[u_] < b.box.low[u_];
-        });
-        return targets;
-    }
-
-    /// Tells on which side of the projected edge a b the moved point is; 0 if the edge is a point.
-    [[nodiscard]] int side_of(const Vector4& a, const Vector4& b, const Vector4& point) const {
-        if (const int side = sgn(turn(a, b, point, axis_)); side != 0) return side;
-        if (const int v = sgn(mpz_class(b[v_] * a[3] - a[v_] * b[3])); v != 0) return -v;
-        return sgn(mpz_class(b[u_] * a[3] - a[u_] * b[3]));
-    }
-
-    /// Adds what the ray does to the winding numbers where it passes through a triangle.
-    void pass(const Query& query, std::uint32_t triangle, std::map<std::uint32_t, int>& winding) {
-        const auto& [i, j, k] = mesh_.triangles[triangle];
-        const Vector4 &a = mesh_.points[i], &b = mesh_.points[j], &c = mesh_.points[k];
-        const int side = side_of(a, b, query.point);
-        if (side == 0 || side_of(b, c, query.point) != side || side_of(c, a, query.point) != side)
-            return;
-        // The normal of the plane has this sign along the axis.
-        const int height = sgn(dot(mesh_.planes[triangle], query.point));
-        if (triangle == query.triangle || height * side >= 0) return; // not above
-        winding[shells_.of_side[2 * triangle + 1]] += side; // the ray leaves what is behind
-        winding[shells_.of_side[2 * triangle]] -= side;
-    }
-
-    const ExactMesh& mesh_;
-    const Shells& shells_;
-    const std::size_t axis_, u_, v_;
-};
 
 /// Collects what the rays say.
 class Locator {
@@ -148,32 +59,36 @@ private:
         for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
             if (shell_count.at(shells_.component_of[shells_.of_side[2 * t]]) > 1)
                 closed.push_back(t);
-        std::array<std::vector<Query>, 3> queries; // per axis
+        std::array<std::optional<Rays>, 3> rays; // per axis
         for (const auto& [triangle, count] : shell_count) {
-            const Vector4 point = centroid_of(mesh_, triangle);
-            queries[projection_axis(mesh_.planes[triangle]).value_or(2)].push_back(
-                {triangle, point, enclose(point, mesh_.scale)});
+            const std::size_t axis = axis_of(triangle);
+            if (!rays[axis]) rays[axis].emplace(mesh_, closed, axis);
+            std::map<std::uint32_t, int> winding;
+            for (const auto& [passed, side] : rays[axis]->cast(centroid_of(mesh_, triangle))) {
+                winding[shells_.of_side[2 * passed + 1]] += side; // the ray leaves what is behind
+                winding[shells_.of_side[2 * passed]] -= side;
+            }
+            take(triangle, winding);
         }
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            if (!queries[axis].empty())
-                Rays(mesh_, shells_, axis)
-                    .cast(std::move(queries[axis]), closed,
-                          [this](const Query& q, const auto& winding) { take(q, winding); });
     }
 
-    void take(const Query& query, const std::map<std::uint32_t, int>& winding) {
+    [[nodiscard]] std::size_t axis_of(std::uint32_t triangle) const {
+        return projection_axis(mesh_.planes[triangle]).value_or(2);
+    }
+
+    /// Takes the winding numbers of shells around a point of a component, whose lowest triangle is given.
+    void take(std::uint32_t triangle, const std::map<std::uint32_t, int>& winding) {
         // The moved point is in front of its triangle if the normal points up.
-        const int up = sgn(mesh_.planes[query.triangle]
-                                       [projection_axis(mesh_.planes[query.triangle]).value_or(2)]);
-        std::uint32_t outermost = shells_.of_side[2 * query.triangle + (up > 0 ? 0 : 1)];
+        const int up = sgn(mesh_.planes[triangle][axis_of(triangle)]);
+        std::uint32_t outermost = shells_.of_side[2 * triangle + (up > 0 ? 0 : 1)];
         Numbers around;
         for (const auto& [shell, number] : winding) {
-            const bool own = shells_.component_of[shell] == query.triangle;
+            const bool own = shells_.component_of[shell] == triangle;
             if (own && number < 0) outermost = shell;
             if (!own && number > 0) around.push_back(shell);
         }
         nesting_.outermost[outermost] = true;
-        outermost_of_[query.triangle] = outermost;
+        outermost_of_[triangle] = outermost;
         around_[outermost] = std::move(around);
     }
 

@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // check_rounded_orientation of rounded_parts.hpp.
-#include <array>
-
 #include <terrane/algorithms/verify/detail/distance.hpp>
 #include <terrane/algorithms/verify/detail/rounded_parts.hpp>
 
 namespace terrane::verifier {
 
-namespace {
-
-using CornerVectors = std::array<const Vector4*, 3>;
-
-Vector3 normal_of(const CornerVectors& corners) {
-    return cross(difference(*corners[1], *corners[0]), difference(*corners[2], *corners[0]));
-}
-
-} // namespace
-
 void check_rounded_orientation(const RoundedParts& parts, Violations& found) {
     for (std::uint32_t t = 0; t < parts.rounded.triangles.size(); ++t) {
         const std::uint32_t parent = parts.rounded.parents_of[t].front();
-        const CornerVectors corners = parts.corners(t);
+        const auto corners = parts.corners(t);
         if (sgn(dot(normal_of(corners), normal_of(parts.input_corners(parent)))) > 0) continue;
         const Squared height = squared_height(corners);
         if (sgn(height.below) == 0 || within(height, parts.deviation)) continue;

@@ -148,8 +148,7 @@ void add_pairs(const TetrahedraClaim& claim, std::uint32_t front, std::uint32_t 
 }
 
 std::string_view name_of(Role role) {
-    constexpr std::array<std::string_view, 4> names{"unknown", "horizon", "fault", "boundary"};
-    return names.at(static_cast<std::size_t>(role));
+    return names_of_roles.at(static_cast<std::size_t>(role));
 }
 
 bool same_bits(double a, double b) {

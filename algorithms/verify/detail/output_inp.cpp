@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include <terrane/algorithms/verify/detail/edges.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 #include <terrane/algorithms/verify/detail/output.hpp>
 
@@ -26,12 +27,6 @@ void make_label(std::string& name) {
             c = '_';
     if (name.empty()) name = "SURFACE";
     if (name[0] < 'A' || name[0] > 'Z') name = "S" + name;
-}
-
-/// Returns a triangle with its least corner first, wound as before.
-Triangle turned(Triangle t) {
-    std::rotate(t.begin(), std::ranges::min_element(t), t.end());
-    return t;
 }
 
 class InpWriter {
@@ -107,7 +102,7 @@ private:
             for (std::uint32_t side = 0; side < 4; ++side) {
                 const auto& [i, j, k] = corners[side];
                 const auto& v = claim_.tetrahedra[t];
-                sides_[turned({v[i], v[j], v[k]})] = {t, side};
+                sides_[with_least_first({v[i], v[j], v[k]})] = {t, side};
             }
     }
 
@@ -145,7 +140,7 @@ private:
         for (const std::uint32_t f : faces) {
             Triangle face = claim_.faces[f];
             if (ending == "_BACK") std::swap(face[1], face[2]);
-            const auto side = sides_.find(turned(face));
+            const auto side = sides_.find(with_least_first(face));
             if (side == sides_.end()) continue;
             if (!std::exchange(begun, true))
                 out_ << "*SURFACE, TYPE=ELEMENT, NAME=" << names_[surface] << ending << "\n";

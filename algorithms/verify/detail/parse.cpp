@@ -25,7 +25,7 @@ using verifier::Malformed;
 using verifier::Node;
 
 Role role(const Node& node) {
-    constexpr std::array<std::string_view, 4> names{"unknown", "horizon", "fault", "boundary"};
+    const auto& names = verifier::names_of_roles;
     const auto found = std::ranges::find(names, node.string());
     if (found == names.end()) node.fail("no role of this name");
     return static_cast<Role>(found - names.begin());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/verify/detail/edges.hpp>
 
 namespace terrane::verifier {
 
@@ -45,10 +46,7 @@ std::vector<AreaFraction> areas_beside_borders(const ExactMesh& mesh,
     for (const std::uint32_t child : children) {
         Triangle t = mesh.triangles[child];
         if (sgn(mesh.planes[child][axis]) < 0) std::swap(t[1], t[2]);
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
-            runs[{low, high}] += low == t[i] ? 1 : -1;
-        }
+        for (const HalfEdge& side : sides_of(t)) runs[side.edge] += side.ascends ? 1 : -1;
     }
     std::vector<AreaFraction> areas;
     for (const auto& [edge, count] : runs) {

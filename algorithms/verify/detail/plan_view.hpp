@@ -55,7 +55,7 @@ Place mean_of(const PlacePolygon& polygon);
 bool is_within(const Place& p, const SegmentInPlan& segment, const mpz_class& width);
 
 /// Divides a polygon along the lines of those segments that pass through its interior, so that none
-/// passes through the interior of a part.
+/// passes through the interior of a part. Precondition: the ends of each segment differ.
 std::vector<PlacePolygon> divided_by(PlacePolygon polygon, std::span<const SegmentInPlan> segments);
 
 } // namespace terrane::verifier

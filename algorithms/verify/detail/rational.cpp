@@ -129,6 +129,19 @@ ScaledPoints scale_to_integers(std::span<const Point3> points) {
     return result;
 }
 
+Vector4 rounded_to_integers(const Vector4& point, const mpz_class& factor) {
+    Vector4 result{0, 0, 0, 1};
+    for (std::size_t i = 0; i < 3; ++i)
+        mpz_fdiv_q(result[i].get_mpz_t(), mpz_class(2 * factor * point[i] + point[3]).get_mpz_t(),
+                   mpz_class(2 * point[3]).get_mpz_t());
+    return result;
+}
+
+mpz_class determinant(const Vector4& a, const Vector4& b, const Vector4& c) {
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
 Box enclose(const Vector4& point, const mpz_class& scale) {
     look_for_stop();
     constexpr double largest = std::numeric_limits<double>::max();

@@ -48,6 +48,14 @@ mpz_class turn(const Vector4& a, const Vector4& b, const Vector4& c, std::size_t
 /// drops it is one-to-one on the plane; none iff the normal is zero.
 std::optional<std::size_t> projection_axis(const Vector4& plane);
 
+/// Returns the first of the axes on which a normal is longest.
+std::size_t longest_axis(const auto& normal) {
+    std::size_t axis = 0;
+    for (const std::size_t i : {1U, 2U})
+        if (abs(normal[i]) > abs(normal[axis])) axis = i;
+    return axis;
+}
+
 /// Returns the point that a construction defines; none if it is undefined (the line misses the
 /// plane, lies in it or has equal points; planes share a line; the lines of line_line are not
 /// coplanar). Precondition: its indices are < inputs.size().
@@ -62,6 +70,13 @@ struct ScaledPoints {
 
 /// Scales points to integers. Precondition: all coordinates are finite.
 ScaledPoints scale_to_integers(std::span<const Point3> points);
+
+/// Returns the integers nearest to the coordinates of a point, multiplied by a factor; w = 1.
+Vector4 rounded_to_integers(const Vector4& point, const mpz_class& factor = 1);
+
+/// Returns the determinant of three points: six times the volume of the tetrahedron that they span with the origin, if
+/// w = 1.
+mpz_class determinant(const Vector4& a, const Vector4& b, const Vector4& c);
 
 /// A box of doubles that encloses a point; it is used only to skip pairs that cannot touch.
 struct Box {

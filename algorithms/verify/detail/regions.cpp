@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include <terrane/algorithms/verify/detail/edges.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/joined_sets.hpp>
 #include <terrane/algorithms/verify/detail/rounded_parts.hpp>
@@ -14,35 +15,14 @@ namespace terrane::verifier {
 
 namespace {
 
-/// Returns the surfaces of the parents of each triangle, sorted and unique.
-IndexLists<std::uint32_t> surfaces_of_parents(const Inputs& inputs, const RoundedClaim& rounded) {
-    IndexLists<std::uint32_t> surfaces;
-    for (std::size_t t = 0; t < rounded.triangles.size(); ++t) {
-        Numbers all;
-        for (const std::uint32_t parent : rounded.parents_of[t])
-            all.push_back(inputs.surface_of[parent]);
-        std::sort(all.begin(), all.end());
-        all.erase(std::unique(all.begin(), all.end()), all.end());
-        surfaces.push_back(all);
-    }
-    return surfaces;
-}
-
 /// Returns the two triangles at each edge that is not an intersection edge.
 std::vector<std::array<std::uint32_t, 2>> joined_triangles(const RoundedClaim& rounded) {
-    std::vector<std::pair<Edge, std::uint32_t>> sides;
-    for (std::uint32_t t = 0; t < rounded.triangles.size(); ++t)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto& corners = rounded.triangles[t];
-            const auto [low, high] = std::minmax(corners[i], corners[(i + 1) % 3]);
-            sides.push_back({{low, high}, t});
-        }
-    std::sort(sides.begin(), sides.end());
+    const auto sides = half_edges(rounded.triangles);
     std::vector<std::array<std::uint32_t, 2>> pairs;
     for (std::size_t i = 1; i < sides.size(); ++i)
-        if (sides[i - 1].first == sides[i].first &&
-            !std::ranges::binary_search(rounded.intersection_edges, sides[i].first))
-            pairs.push_back({sides[i - 1].second, sides[i].second});
+        if (sides[i - 1].edge == sides[i].edge &&
+            !std::ranges::binary_search(rounded.intersection_edges, sides[i].edge))
+            pairs.push_back({sides[i - 1].triangle, sides[i].triangle});
     return pairs;
 }
 
@@ -58,7 +38,7 @@ void join_common(const IndexLists<std::uint32_t>& surfaces, std::uint32_t s, std
 
 void check_regions(const RoundedParts& parts, Violations& found) {
     const RoundedClaim& rounded = parts.rounded;
-    const auto surfaces = surfaces_of_parents(parts.inputs, rounded);
+    const auto surfaces = surfaces_of_parents(parts.inputs.surface_of, rounded.parents_of);
     if (!well_formed(rounded.regions_of, rounded.triangles.size()) ||
         rounded.regions_of.offsets != surfaces.offsets) {
         found.push_back(

@@ -25,7 +25,7 @@ using verifier::Violations;
 
 // --- R10: indices -----------------------------------------------------------------------------
 
-void check_numbers(const Inputs& inputs, const RoundedClaim& rounded, Violations& found) {
+void check_rounded_numbers(const Inputs& inputs, const RoundedClaim& rounded, Violations& found) {
     constexpr Rule rule = Rule::R10_rounded_indices;
     verifier::check_finite(rounded.vertices, "vertex", rule, found);
     verifier::check_corners(rounded.triangles, rounded.vertices.size(), rule, found);
@@ -85,16 +85,13 @@ void check_vanished_list(const RoundedParts& parts, Violations& found) {
         }
     Numbers vanished;
     std::ranges::set_difference(gone, parts.set_aside.degenerate, std::back_inserter(vanished));
-    verifier::for_each_missing(vanished, listed, [&](std::uint32_t t) {
+    verifier::compare_lists(vanished, listed, [&](std::uint32_t t, bool is_listed) {
         found.push_back(
             {Rule::R12_rounded_parents,
              {t},
-             "nothing is left of input triangle " + text(t) + ", but it is not listed"});
-    });
-    verifier::for_each_missing(listed, vanished, [&](std::uint32_t t) {
-        found.push_back({Rule::R12_rounded_parents,
-                         {t},
-                         "input triangle " + text(t) + " is listed as vanished, which it is not"});
+             is_listed
+                 ? "input triangle " + text(t) + " is listed as vanished, which it is not"
+                 : "nothing is left of input triangle " + text(t) + ", but it is not listed"});
     });
 }
 
@@ -164,7 +161,7 @@ Verdict verifier::verify_rounded_part(std::span<const Surface> surfaces,
                                       const VerifyOptions& options, std::vector<bool> is_cut) {
     Verdict verdict;
     const Inputs inputs = verifier::join_inputs(surfaces, verdict.violations);
-    check_numbers(inputs, rounded, verdict.violations);
+    check_rounded_numbers(inputs, rounded, verdict.violations);
     if (verdict.violations.empty()) {
         const double accepted =
             options.max_deviation.value_or(verifier::default_max_deviation(inputs));

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <terrane/algorithms/verify/detail/cut.hpp>
+#include <terrane/algorithms/verify/detail/edges.hpp>
 #include <terrane/algorithms/verify/detail/indices.hpp>
 #include <terrane/algorithms/verify/detail/joined_sets.hpp>
 #include <terrane/algorithms/verify/detail/nearness.hpp>
@@ -34,15 +35,6 @@ std::uint32_t count_of(std::size_t n) {
     return static_cast<std::uint32_t>(n);
 }
 
-/// Returns the integers nearest to the coordinates of a point, multiplied by a factor.
-Vector4 rounded_point(const Vector4& point, const mpz_class& factor) {
-    Vector4 result{0, 0, 0, 1};
-    for (std::size_t i = 0; i < 3; ++i)
-        mpz_fdiv_q(result[i].get_mpz_t(), mpz_class(2 * factor * point[i] + point[3]).get_mpz_t(),
-                   mpz_class(2 * point[3]).get_mpz_t());
-    return result;
-}
-
 double near_double(const mpz_class& number, const mpz_class& scale) {
     return mpq_class(number, scale).get_d();
 }
@@ -65,16 +57,10 @@ public:
             own.sealed = own.extended + count_of(part.extended.size());
             first = own.end = own.sealed + count_of(part.sealed.size());
         }
+        surfaces_of_ = surfaces_of_parents(inputs_.surface_of, parts.exact.parents_of);
         for (std::uint32_t t = 0; t < parts.exact.triangles.size(); ++t) {
-            Numbers surfaces;
-            bool is_given = false;
-            for (const std::uint32_t p : parts.exact.parents_of[t]) {
-                surfaces.push_back(inputs_.surface_of[p]);
-                is_given = is_given || !is_new(p);
-            }
-            surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
-            surfaces_of_.push_back(std::move(surfaces));
-            is_given_.push_back(is_given);
+            is_given_.push_back(std::ranges::any_of(parts.exact.parents_of[t],
+                                                    [&](std::uint32_t p) { return !is_new(p); }));
             is_dropped_.push_back(std::ranges::binary_search(parts.dropped, t));
         }
     }
@@ -306,9 +292,10 @@ private:
                 factor *= 2;
         scale_ = mesh_.scale * factor;
         doubles_ = inputs_.vertices;
-        for (const Vector4& point : input_points_) exact_.push_back(rounded_point(point, factor));
+        for (const Vector4& point : input_points_)
+            exact_.push_back(rounded_to_integers(point, factor));
         for (const Vector4& point : mesh_.points) {
-            exact_.push_back(rounded_point(point, factor));
+            exact_.push_back(rounded_to_integers(point, factor));
             const Vector4& p = exact_.back();
             doubles_.push_back(
                 {near_double(p[0], scale_), near_double(p[1], scale_), near_double(p[2], scale_)});
@@ -365,8 +352,8 @@ private:
     const EdgeTriangles at_edge_;
     Violations& found_;
     Inputs inputs_;
-    std::vector<OwnTriangles> own_;    ///< per surface of the files
-    std::vector<Numbers> surfaces_of_; ///< per exact triangle, as the next two
+    std::vector<OwnTriangles> own_;         ///< per surface of the files
+    IndexLists<std::uint32_t> surfaces_of_; ///< per exact triangle, as the next two
     std::vector<bool> is_given_, is_dropped_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::set<Point3>>
         vertices_before_;               ///< by the first input triangle, and the end of them

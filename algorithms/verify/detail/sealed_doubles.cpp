@@ -43,14 +43,6 @@ private:
     std::size_t axis_;
 };
 
-/// Returns the axis along which a plane is seen largest.
-std::size_t widest_axis(const Vector4& plane) {
-    std::size_t axis = 0;
-    for (const std::size_t i : {1U, 2U})
-        if (abs(plane[i]) > abs(plane[axis])) axis = i;
-    return axis;
-}
-
 } // namespace
 
 void check_only_kept(std::span<const Surface> surfaces, const ArrangementClaim& kept,
@@ -72,7 +64,7 @@ void check_only_kept(std::span<const Surface> surfaces, const ArrangementClaim& 
         if (!is_cut[p] || children[p].empty()) continue;
         const auto& [a, b, c] = inputs.triangles[p];
         const std::size_t axis =
-            widest_axis(orthogonal(input_points[a], input_points[b], input_points[c]));
+            longest_axis(orthogonal(input_points[a], input_points[b], input_points[c]));
         SeenTriangles now(axis), before(axis);
         for (const std::uint32_t t : children[p]) {
             const auto& [i, j, k] = rounded.triangles[t];

@@ -4,34 +4,12 @@
 #include <algorithm>
 #include <set>
 
+#include <terrane/algorithms/verify/detail/edges.hpp>
 #include <terrane/algorithms/verify/detail/joined_sets.hpp>
 
 namespace terrane::verifier {
 
 namespace {
-
-constexpr std::uint32_t no_corner = UINT32_MAX;
-
-/// An edge of a triangle, in the direction in which the triangle has it.
-struct HalfEdge {
-    Edge edge;
-    std::uint32_t triangle = 0;
-    bool ascends = false; ///< from the lower to the higher vertex
-
-    friend auto operator<=>(const HalfEdge&, const HalfEdge&) = default;
-};
-
-std::vector<HalfEdge> half_edges(const std::vector<Triangle>& triangles) {
-    std::vector<HalfEdge> result;
-    result.reserve(3 * triangles.size());
-    for (std::uint32_t t = 0; t < triangles.size(); ++t)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t from = triangles[t][i], to = triangles[t][(i + 1) % 3];
-            result.push_back({{std::min(from, to), std::max(from, to)}, t, from < to});
-        }
-    std::ranges::sort(result);
-    return result;
-}
 
 class SheetFinder {
 public:
@@ -40,11 +18,7 @@ public:
 
     Sheets operator()() {
         name_sheets();
-        const auto sides = half_edges(mesh_.triangles);
-        for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
-            while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
-            add_edge(std::span(sides).subspan(first, last - first));
-        }
+        for_each_edge(half_edges(mesh_.triangles), [this](auto sides) { add_edge(sides); });
         count_vertices();
         count_components();
         follow_chains();
@@ -167,10 +141,10 @@ private:
         all.insert(all.end(), edges.begin(), edges.end());
     }
 
-    /// Returns the number of a corner; no_corner if the vertex, where a closed chain begins, is
+    /// Returns the number of a corner; no_number if the vertex, where a closed chain begins, is
     /// none.
     std::uint32_t corner(std::uint32_t v) {
-        return is_corner(at_[v]) ? numbers_.corners(mesh_.vertices[v]) : no_corner;
+        return is_corner(at_[v]) ? numbers_.corners(mesh_.vertices[v]) : no_number;
     }
 
     const LabelledMesh& mesh_;

@@ -34,7 +34,7 @@ public:
         return number_of_.try_emplace(value, static_cast<std::uint32_t>(number_of_.size()))
             .first->second;
     }
-    [[nodiscard]] std::size_t size() const { return number_of_.size(); }
+    [[nodiscard]] const std::map<Value, std::uint32_t>& all() const { return number_of_; }
 
 private:
     std::map<Value, std::uint32_t> number_of_;

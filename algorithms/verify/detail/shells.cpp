@@ -3,41 +3,20 @@
 // find_shells of blocks.hpp.
 #include <algorithm>
 #include <array>
-#include <tuple>
 #include <utility>
 
 #include <terrane/algorithms/verify/detail/blocks.hpp>
+#include <terrane/algorithms/verify/detail/edges.hpp>
 #include <terrane/algorithms/verify/detail/joined_sets.hpp>
 
 namespace terrane::verifier {
 
 namespace {
 
-/// A triangle at an edge.
-struct AtEdge {
-    Edge edge{}; ///< the lower vertex first
-    std::uint32_t triangle = 0;
-    std::uint32_t apex = 0; ///< its other corner
-    bool upward = false;    ///< its winding follows the edge from the lower vertex
-
-    /// The side that faces the triangles at larger angles. The normal of an upward triangle is the
-    /// direction of the edge times that to the apex.
-    [[nodiscard]] std::uint32_t ahead() const { return 2 * triangle + (upward ? 0 : 1); }
-};
-
-std::vector<AtEdge> by_edges(std::span<const Triangle> triangles) {
-    std::vector<AtEdge> all;
-    all.reserve(3 * triangles.size());
-    for (std::uint32_t t = 0; t < triangles.size(); ++t)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t from = triangles[t][i], to = triangles[t][(i + 1) % 3];
-            const std::uint32_t apex = triangles[t][(i + 2) % 3];
-            all.push_back({{std::min(from, to), std::max(from, to)}, t, apex, from < to});
-        }
-    std::sort(all.begin(), all.end(), [](const AtEdge& a, const AtEdge& b) {
-        return std::tie(a.edge, a.triangle) < std::tie(b.edge, b.triangle);
-    });
-    return all;
+/// The side of a triangle that faces the triangles at larger angles around an edge. The normal of one that
+/// ascends is the direction of the edge times that to the apex.
+std::uint32_t ahead(const HalfEdge& at) {
+    return 2 * at.triangle + (at.ascends ? 0 : 1);
 }
 
 /// A direction in a plane; the length is arbitrary.
@@ -52,7 +31,7 @@ std::array<mpz_class, 3> towards(const Vector4& a, const Vector4& b) {
 
 /// Returns the direction from the edge to the apex, projected along the edge. Seen against the
 /// edge, its angles grow counterclockwise.
-Direction direction(const ExactMesh& mesh, const AtEdge& at) {
+Direction direction(const ExactMesh& mesh, const HalfEdge& at) {
     const Vector4& start = mesh.points[at.edge[0]];
     const auto along = towards(start, mesh.points[at.edge[1]]);
     const auto out = towards(start, mesh.points[at.apex]);
@@ -78,10 +57,10 @@ bool has_smaller_angle(const Direction& a, const Direction& b) {
 }
 
 /// Sorts the triangles at one edge by their angles.
-void sort_by_angle(const ExactMesh& mesh, std::vector<AtEdge>& around) {
+void sort_by_angle(const ExactMesh& mesh, std::vector<HalfEdge>& around) {
     if (around.size() < 3) return; // two are in order anyway
-    std::vector<std::pair<Direction, AtEdge>> sorted;
-    for (const AtEdge& at : around) sorted.emplace_back(direction(mesh, at), at);
+    std::vector<std::pair<Direction, HalfEdge>> sorted;
+    for (const HalfEdge& at : around) sorted.emplace_back(direction(mesh, at), at);
     std::sort(sorted.begin(), sorted.end(),
               [](const auto& a, const auto& b) { return has_smaller_angle(a.first, b.first); });
     for (std::size_t i = 0; i < around.size(); ++i) around[i] = sorted[i].second;
@@ -90,21 +69,18 @@ void sort_by_angle(const ExactMesh& mesh, std::vector<AtEdge>& around) {
 } // namespace
 
 std::vector<Facing> facing_sides(const ExactMesh& mesh) {
-    const auto all = by_edges(mesh.triangles);
+    const auto all = half_edges(mesh.triangles);
     std::vector<Facing> pairs;
     pairs.reserve(all.size());
-    std::vector<AtEdge> around;
-    for (std::size_t i = 0; i < all.size();) {
-        around.clear();
-        for (const Edge edge = all[i].edge; i < all.size() && all[i].edge == edge; ++i)
-            around.push_back(all[i]);
+    for_each_edge(all, [&](std::span<const HalfEdge> sides) {
+        std::vector<HalfEdge> around(sides.begin(), sides.end());
         sort_by_angle(mesh, around);
         const auto first = static_cast<std::ptrdiff_t>(pairs.size());
         for (std::size_t k = 0; k < around.size(); ++k)
-            pairs.push_back({around[k].edge,
-                             {around[k].ahead(), around[(k + 1) % around.size()].ahead() ^ 1U}});
+            pairs.push_back(
+                {around[k].edge, {ahead(around[k]), ahead(around[(k + 1) % around.size()]) ^ 1U}});
         std::sort(pairs.begin() + first, pairs.end());
-    }
+    });
     return pairs;
 }
 

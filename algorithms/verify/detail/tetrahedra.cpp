@@ -84,11 +84,13 @@ TetrahedraParts make_parts(const TetrahedraClaim& claim, const FilledMesh& mesh)
     std::vector<Point3> all = claim.vertices;
     all.insert(all.end(), mesh.vertices.begin(), mesh.vertices.end());
     auto [points, scale] = scale_to_integers(all);
-    TetrahedraParts parts{claim, mesh, {}, {}, scale, {}, {}};
+    TetrahedraParts parts{claim, mesh, {}, {}, scale, {}, {}, {}};
     const auto middle = points.begin() + static_cast<std::ptrdiff_t>(claim.vertices.size());
     parts.points.assign(middle, points.end());
     points.erase(middle, points.end());
     parts.nodes = std::move(points);
+    for (const auto& corners : claim.tetrahedra)
+        for (const std::uint32_t node : corners) parts.box.add(parts.nodes[node]);
     return parts;
 }
 
@@ -116,15 +118,8 @@ std::vector<mpz_class> six_volumes_of_tetrahedra(const TetrahedraParts& parts, V
 /// Checks that the tetrahedra add up to the box around them.
 void check_box(const TetrahedraParts& parts, const std::vector<mpz_class>& sums,
                Violations& found) {
-    Vector4 low = parts.nodes[parts.claim.tetrahedra[0][0]], high = low;
-    for (const auto& corners : parts.claim.tetrahedra)
-        for (const std::uint32_t node : corners)
-            for (std::size_t i = 0; i < 3; ++i) {
-                low[i] = std::min(low[i], parts.nodes[node][i]);
-                high[i] = std::max(high[i], parts.nodes[node][i]);
-            }
     mpz_class left = 6;
-    for (std::size_t i = 0; i < 3; ++i) left *= high[i] - low[i];
+    for (std::size_t i = 0; i < 3; ++i) left *= parts.box.high[i] - parts.box.low[i];
     for (const mpz_class& sum : sums) left -= sum;
     if (sgn(left) != 0)
         found.push_back({Rule::R43_box,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <terrane/algorithms/verify/certificate.hpp>
+#include <terrane/algorithms/verify/detail/extent.hpp>
 #include <terrane/algorithms/verify/detail/inputs.hpp>
 #include <terrane/algorithms/verify/detail/rational.hpp>
 
@@ -32,6 +33,7 @@ struct TetrahedraParts {
     std::vector<Vector4> nodes;  ///< integers: the coordinates times scale
     std::vector<Vector4> points; ///< the vertices of the mesh, likewise
     mpz_class scale = 1;
+    Extent box;              ///< around the tetrahedra
     Numbers place_of;        ///< per node: the lowest node of a tetrahedron at the same point
     Numbers place_of_vertex; ///< per vertex of the mesh: the place at exactly its coordinates, or
                              ///< no_number

@@ -87,14 +87,6 @@ bool near_plane(const Point3& point, const std::array<Point3, 3>& triangle) {
     return abs(height) <= allowed;
 }
 
-/// Returns the axis on which the normal is longest.
-std::size_t longest_axis(const Vector& n) {
-    std::size_t axis = 0;
-    for (const std::size_t i : {1U, 2U})
-        if (abs(n[i]) > abs(n[axis])) axis = i;
-    return axis;
-}
-
 /// Returns a number that is at least the square root, and exceeds it by a part of 2^-60 at most.
 mpq_class root_above(const mpq_class& square) {
     if (sgn(square) == 0) return 0;
@@ -152,15 +144,13 @@ public:
     [[nodiscard]] bool is_simple() const {
         const auto n = static_cast<std::uint32_t>(nodes_.size());
         std::vector<Box> boxes;
-        Numbers sides;
         for (std::uint32_t i = 0; i < n; ++i) {
             boxes.push_back(enclose(at(i), 1));
             extend(boxes.back(), enclose(at(i + 1), 1));
             boxes.back().low[axis_] = boxes.back().high[axis_] = 0;
-            sides.push_back(i);
         }
-        const BoxTree tree(std::move(boxes), sides);
-        for (const std::uint32_t i : sides)
+        const BoxTree tree(std::move(boxes));
+        for (std::uint32_t i = 0; i < n; ++i)
             for (const std::uint32_t j : tree.touching_others(i)) {
                 if (j <= i) continue;
                 const bool meet = j == i + 1         ? folds(i, j)

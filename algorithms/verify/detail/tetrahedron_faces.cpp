@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <terrane/algorithms/verify/detail/blocks.hpp>
+#include <terrane/algorithms/verify/detail/edges.hpp>
 #include <terrane/algorithms/verify/detail/joined_sets.hpp>
 #include <terrane/algorithms/verify/detail/tetrahedra.hpp>
 
@@ -22,21 +23,9 @@ namespace {
 constexpr std::array<std::array<std::size_t, 3>, 4> seen_from_inside{
     {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
 
-/// A triangle of places in ascending order, and whether it was counterclockwise in that order.
-struct FaceKey {
-    Triangle places{};
-    bool even = true;
-};
-
-FaceKey key_of(Triangle t) {
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    if (t[1] <= t[2]) return {t, true};
-    return {{t[0], t[2], t[1]}, false};
-}
-
 /// A face of a tetrahedron.
 struct CellFace {
-    FaceKey key;
+    SortedCorners key; ///< places
     std::uint32_t cell = 0;
 };
 
@@ -47,7 +36,7 @@ struct Listed {
 };
 
 /// The tetrahedra in front of a face and behind it, or no_number.
-using Cells = std::array<std::uint32_t, 2>;
+using CellsAtFace = std::array<std::uint32_t, 2>;
 
 /// Judges one face after the other.
 class FaceJudge {
@@ -55,9 +44,7 @@ public:
     FaceJudge(const TetrahedraParts& parts, Violations& found) :
         parts_(parts), claim_(parts.claim), found_(found), faces_of_(parts.mesh.triangles.size()),
         twin_of_(claim_.faces.size(), no_number), on_cut_(parts.nodes.size()),
-        corners_(4 * claim_.tetrahedra.size()) {
-        find_box();
-    }
+        corners_(4 * claim_.tetrahedra.size()) {}
 
     std::vector<Numbers> operator()() {
         take_twins();
@@ -65,8 +52,8 @@ public:
         const auto faces = sorted_faces();
         for (std::size_t i = 0; i < faces.size();) {
             std::vector<CellFace> same;
-            for (const Triangle key = faces[i].key.places;
-                 i < faces.size() && faces[i].key.places == key; ++i)
+            for (const Triangle key = faces[i].key.corners;
+                 i < faces.size() && faces[i].key.corners == key; ++i)
                 same.push_back(faces[i]);
             judge(same);
         }
@@ -80,7 +67,7 @@ private:
     void refute(Rule rule, std::uint32_t face, const std::string& what) {
         found_.push_back({rule, {face}, "face " + text(face) + " " + what});
     }
-    void refute_cells(Rule rule, const Cells& cells, const std::string& what) {
+    void refute_cells(Rule rule, const CellsAtFace& cells, const std::string& what) {
         const std::uint32_t cell = std::min(cells[0], cells[1]);
         found_.push_back({rule, {cell}, "a face of tetrahedron " + text(cell) + " " + what});
     }
@@ -110,8 +97,8 @@ private:
     void take_list() {
         for (std::uint32_t f = 0; f < claim_.faces.size(); ++f) {
             if (is_behind_.contains(f)) continue;
-            const FaceKey key = key_of(parts_.places(claim_.faces[f]));
-            if (!list_.emplace(key.places, Listed{f, key.even}).second)
+            const SortedCorners key = sorted_corners(parts_.places(claim_.faces[f]));
+            if (!list_.emplace(key.corners, Listed{f, key.even}).second)
                 refute(Rule::R42_faces, f, "is listed twice");
             if (const std::uint32_t t = claim_.triangle_of[f]; t != no_number)
                 faces_of_[t].push_back(f);
@@ -124,38 +111,25 @@ private:
         for (std::uint32_t t = 0; t < claim_.tetrahedra.size(); ++t) {
             const auto places = parts_.places(claim_.tetrahedra[t]);
             for (const auto& [i, j, k] : seen_from_inside)
-                faces.push_back({key_of({places[i], places[j], places[k]}), t});
+                faces.push_back({sorted_corners({places[i], places[j], places[k]}), t});
         }
         std::sort(faces.begin(), faces.end(), [](const CellFace& a, const CellFace& b) {
-            return std::tie(a.key.places, a.cell) < std::tie(b.key.places, b.cell);
+            return std::tie(a.key.corners, a.cell) < std::tie(b.key.corners, b.cell);
         });
         return faces;
-    }
-
-    void find_box() {
-        bool first = true;
-        for (const auto& corners : claim_.tetrahedra)
-            for (const std::uint32_t node : corners) {
-                const Vector4& p = parts_.nodes[node];
-                if (std::exchange(first, false)) low_ = high_ = p;
-                for (std::size_t i = 0; i < 3; ++i) {
-                    if (p[i] < low_[i]) low_[i] = p[i];
-                    if (p[i] > high_[i]) high_[i] = p[i];
-                }
-            }
     }
 
     // --- R42, R46: faces and blocks -------------------------------------------------------------
 
     void judge(const std::vector<CellFace>& same) {
-        const Triangle& key = same[0].key.places;
+        const Triangle& key = same[0].key.corners;
         std::optional<Listed> listed;
         if (const auto at = list_.find(key); at != list_.end()) {
             listed = at->second;
             list_.erase(at);
         }
         const bool wound = !listed || listed->even;
-        Cells cells{no_number, no_number};
+        CellsAtFace cells{no_number, no_number};
         for (const CellFace& face : same) {
             std::uint32_t& cell = cells[face.key.even == wound ? 0 : 1];
             if (cell != no_number)
@@ -173,7 +147,7 @@ private:
         judge_nodes(listed ? listed->face : no_number, key, cells);
     }
 
-    void judge_inner(const Cells& cells) {
+    void judge_inner(const CellsAtFace& cells) {
         if (cells[0] == no_number || cells[1] == no_number)
             return refute_cells(Rule::R42_faces, cells,
                                 "has one tetrahedron, and is on no triangle");
@@ -181,20 +155,20 @@ private:
             refute_cells(Rule::R46_blocks, cells, "is between two blocks, and on no triangle");
     }
 
-    void judge_on_box(std::uint32_t face, const Triangle& key, const Cells& cells) {
-        const auto all_at = [&](std::size_t i, const Vector4& corner) {
+    void judge_on_box(std::uint32_t face, const Triangle& key, const CellsAtFace& cells) {
+        const auto all_at = [&](std::size_t i, const mpz_class& coordinate) {
             return std::ranges::all_of(
-                key, [&](std::uint32_t v) { return parts_.nodes[v][i] == corner[i]; });
+                key, [&](std::uint32_t v) { return parts_.nodes[v][i] == coordinate; });
         };
         bool on_side = false;
         for (std::size_t i = 0; i < 3; ++i)
-            on_side = on_side || all_at(i, low_) || all_at(i, high_);
+            on_side = on_side || all_at(i, parts_.box.low[i]) || all_at(i, parts_.box.high[i]);
         if (!claim_.box || !on_side || cells[0] != no_number || cells[1] == no_number)
             return refute(Rule::R42_faces, face, "is not on the box, wound outward");
         if (block(cells[1]) != 0) refute(Rule::R46_blocks, face, "is on the box, but of a block");
     }
 
-    void judge_on_triangle(std::uint32_t face, std::uint32_t triangle, const Cells& cells) {
+    void judge_on_triangle(std::uint32_t face, std::uint32_t triangle, const CellsAtFace& cells) {
         for (std::size_t side = 0; side < 2; ++side) {
             const std::uint32_t expected = parts_.mesh.sides[triangle][side];
             const std::string where = side == 0 ? "in front of it" : "behind it";
@@ -232,7 +206,7 @@ private:
     }
 
     /// Judges which nodes the tetrahedra at a face have, and joins the corners that must share one.
-    void judge_nodes(std::uint32_t face, const Triangle& key, const Cells& cells) {
+    void judge_nodes(std::uint32_t face, const Triangle& key, const CellsAtFace& cells) {
         const std::uint32_t single = cells[0] == no_number ? cells[1] : cells[0];
         if (face != no_number && sorted_face(face) != nodes_at(single, key))
             refute(Rule::R48_cuts, face, "does not have the nodes of its tetrahedron");
@@ -277,7 +251,6 @@ private:
     std::vector<bool> on_cut_;          ///< per place
     JoinedSets corners_;                ///< corners of tetrahedra that must share a node
     std::map<Triangle, Listed> list_;   ///< by places; those that were not met
-    Vector4 low_, high_;                ///< the box around the tetrahedra
 };
 
 } // namespace

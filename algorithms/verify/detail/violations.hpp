@@ -3,6 +3,7 @@
 // The reports of the checks of the verifier, and the parts that they judge.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -16,7 +17,15 @@
 namespace terrane::verifier {
 
 using Numbers = std::vector<std::uint32_t>;
+constexpr std::uint32_t no_number = UINT32_MAX; ///< of what does not exist
 using Violations = std::vector<Violation>;
+
+/// Sorts a list, and leaves each value once.
+template <class T>
+void make_set(std::vector<T>& values) {
+    std::ranges::sort(values);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
 
 std::string text(std::uint64_t number);
 std::string text(Edge pair); ///< "3 and 7"

@@ -24,6 +24,16 @@ std::vector<File> touching() {
             {"d.obj", cube("d", "1", "1.5")}};
 }
 
+/// A tetrahedron, and four triangles that divide it into two blocks with the same five vertices. Both blocks
+/// have the triangle of the three least vertices, from different sides.
+std::vector<File> halves(bool turned) {
+    return {{"whole.obj", "v 0 0 0\nv 0 8 0\nv 8 0 0\nv 8 8 8\ng whole\n"
+                          "f 1 2 3\nf 1 3 4\nf 2 3 4\nf 1 2 4\n"},
+            {"wall.obj", "v 0 0 0\nv 0 8 0\nv 8 0 0\nv 8 8 8\nv 2 3 1\ng wall\n" +
+                             std::string(turned ? "f 2 1 5\nf 3 2 5\nf 4 3 5\nf 1 4 5\n"
+                                                : "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n")}};
+}
+
 Forgery blocks(const std::string& name, const std::function<void(Json&)>& change,
                const std::string& rule) {
     return {name, [change](Json& c) { change(c["blocks"]); }, rule};
@@ -95,6 +105,31 @@ TEST_CASE("certificates of blocks: shells, nesting and volumes") {
     const auto inner =
         std::ranges::count_if(b["around"], [](const Json& a) { return !a.is_null(); });
     CHECK(inner == 3); // inner in outer, innermost in inner, sheet in inner
+}
+
+TEST_CASE("certificates of blocks: with the same vertices, the least side decides the numbers") {
+    for (const bool turned : {false, true}) {
+        const Subject s = block_subject(halves(turned));
+        CHECK(s.certificate["blocks"]["volumes"] == Json({"256/3", "160/3", "32"}));
+        check_forgeries(s, {blocks(
+                               "swapped numbers", [](Json& b) { swap_numbers(b, 1, 2); }, "R33")});
+    }
+}
+
+TEST_CASE("certificates of blocks: the least coordinate decides the numbers, by one double") {
+    const auto box = [](const std::string& name, const std::string& x, const std::string& y) {
+        std::string text;
+        for (const char* z : {"0", "1"})
+            for (const std::string& to_y : {y, y + ".5"})
+                for (const std::string& to_x : {x, std::string("3")})
+                    text += "v " + to_x + " " + to_y + " " + z + "\n";
+        const std::string whole = cube(name, "0", "1");
+        return File{name + ".obj", text + whole.substr(whole.find("g "))};
+    };
+    const Subject s =
+        block_subject({box("first", "1.0000000000000002", "0"), box("second", "1", "5")});
+    CHECK(judged(s) == "");
+    CHECK(s.certificate["blocks"]["volumes"][1] == "1"); // the second box
 }
 
 TEST_CASE("forged certificates of blocks") {

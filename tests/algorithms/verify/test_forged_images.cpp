@@ -169,3 +169,24 @@ TEST_CASE("images: a slit that begins at a side is counted") {
     CHECK(verdict.violations.empty());
     CHECK(verdict.measured.value().differences == Differences{1, 0, 0});
 }
+
+TEST_CASE("images: triangles that part from an end of their common side are counted") {
+    Surface square = square_sheet;
+    square.triangles = {{0, 1, 2}, {2, 1, 3}};
+    const auto measured = [&](double gap) {
+        Subject s = subject({{"in.obj", obj_text({square})}}, {});
+        std::vector<Point3> vertices = square.vertices;
+        vertices.push_back({50, 50, 0});
+        if (gap != 0) vertices.push_back({0, 100, gap});
+        const std::uint32_t end = gap != 0 ? 5 : 2;
+        replace(s.certificate["rounded"], vertices, {{0, 1, 4}, {0, 4, 2}, {1, 3, 4}, {3, end, 4}},
+                {0, 0, 1, 1});
+        const auto certificate = parse_certificate(s.certificate.dump(), "c");
+        REQUIRE(certificate);
+        const Verdict verdict = verify_certificate(s.inputs, certificate.value());
+        CHECK(verdict.violations.empty());
+        return verdict.measured.value().differences;
+    };
+    CHECK(measured(0) == Differences{});
+    CHECK(measured(1e-12) == Differences{1, 0, 0});
+}

@@ -106,5 +106,49 @@ TEST_CASE("plan view: points are in triangles, and triangles overlap, where rati
     }
 }
 
+/// Tells whether a segment has a point in the interior of a polygon, by rationals only.
+bool is_inside(const SegmentInPlan& s, const PlacePolygon& polygon) {
+    mpq_class from = 0, to = 1;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const Place &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
+        const mpq_class u = turn(p, q, s[0]), v = turn(p, q, s[1]);
+        if (u <= 0 && v <= 0) return false;
+        if (u < 0) from = std::max(from, mpq_class(u / (u - v)));
+        if (v < 0) to = std::min(to, mpq_class(u / (u - v)));
+    }
+    return from < to;
+}
+
+TEST_CASE("plan view: segments divide a triangle into parts that none of them passes through",
+          "[verify]") {
+    for (const unsigned bits : {4U, 30U, 52U, 190U, 210U, 1100U}) {
+        NearLines points(bits, bits);
+        std::size_t divided = 0;
+        for (int run = 0; run < 60; ++run) {
+            const auto p = points.some<9>();
+            bool flipped = false;
+            const auto t = upward({&p[0], &p[1], &p[2]}, flipped);
+            const auto is_point = [&](std::size_t k) {
+                return p[k][0] == p[k + 1][0] && p[k][1] == p[k + 1][1];
+            };
+            if (!t || is_point(3) || is_point(5) || is_point(7)) continue;
+            const PlacePolygon whole{place_of(*(*t)[0]), place_of(*(*t)[1]), place_of(*(*t)[2])};
+            const std::array<SegmentInPlan, 3> segments{{{place_of(p[3]), place_of(p[4])},
+                                                         {place_of(p[5]), place_of(p[6])},
+                                                         {place_of(p[7]), place_of(p[8])}}};
+            const auto parts = divided_by(whole, segments);
+            mpq_class area = 0;
+            for (const PlacePolygon& part : parts) {
+                CHECK(doubled_area(part) >= 0);
+                area += doubled_area(part);
+                for (const SegmentInPlan& s : segments) CHECK_FALSE(is_inside(s, part));
+            }
+            CHECK(area == doubled_area(whole));
+            if (parts.size() > 1) ++divided;
+        }
+        CHECK(divided > 10);
+    }
+}
+
 } // namespace
 } // namespace terrane::verifier

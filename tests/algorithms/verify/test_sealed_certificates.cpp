@@ -288,6 +288,25 @@ TEST_CASE("sealed certificates: what a forger adds is refused", "[sealing]") {
           }) == "");
 }
 
+TEST_CASE("sealed certificates: the end of a strip is alone, at one vertex of its surface",
+          "[sealing]") {
+    const Point3 corner{0, 0, 0}, other{4.9, 0, 0}, a{-1, 3, -4}, b{-3, 1, -4}, c{-3, -2, -4};
+    const auto rules = [](const std::vector<Corners>& ends) {
+        auto added = strip(0, 5.4);
+        added.insert(added.end(), ends.begin(), ends.end());
+        return judged_widely(self_made(
+            gaping(), {{0, added}},
+            [&](const Corners& corners, const std::set<std::uint32_t>& parents) {
+                const bool is_end = *parents.begin() >= 70 && *parents.begin() < 70 + ends.size();
+                return !is_end && keep_left(corners, parents);
+            }));
+    };
+    CHECK(rules({{corner, a, b}}) == "");
+    CHECK(rules({{Point3{-0.5, 0, 0}, a, b}}) == "R54");
+    CHECK(rules({{corner, other, c}}) == "R54");
+    CHECK(rules({{corner, a, b}, {corner, b, c}}) == "R54");
+}
+
 TEST_CASE("sealed certificates: what is added and left out again widens no bound", "[sealing]") {
     auto triangles = strip(0, 5.4);
     const Corners end = triangles.back();

@@ -7,6 +7,7 @@
 #include "support/exact_numbers.hpp"
 #include "support/tetrahedra_damage.hpp"
 
+#include <limits>
 #include <map>
 #include <set>
 
@@ -234,6 +235,18 @@ TEST_CASE("verifier: what is within reach of a triangle depends on its coordinat
     const double bound = verifier::volume_within_reach(t).get_d();
     CHECK(bound >= volume);
     CHECK(bound <= volume * (1 + 1e-9));
+}
+
+TEST_CASE("verifier: the double nearest to a fraction, of two the even one", "[verify]") {
+    using verifier::nearest_double;
+    constexpr double largest = std::numeric_limits<double>::max();
+    CHECK(nearest_double(mpq_class(1, 3)) == 1.0 / 3);
+    CHECK(nearest_double(mpq_class("9007199254740993")) == 0x1p53);     // 2^53 + 1
+    CHECK(nearest_double(mpq_class("9007199254740995")) == 0x1p53 + 4); // 2^53 + 3
+    CHECK(nearest_double(mpq_class("-9007199254740995")) == -0x1p53 - 4);
+    const mpz_class limit = mpz_class(largest) + (mpz_class(1) << 970);
+    CHECK(nearest_double(mpq_class(mpz_class(limit - 1))) == largest);
+    CHECK(nearest_double(mpq_class(mpz_class(-limit))) == -std::numeric_limits<double>::infinity());
 }
 
 } // namespace tetrahedra_rules_test
