@@ -34,7 +34,7 @@ EdgeTriangles triangles_at_edges(std::span<const Triangle> triangles) {
 }
 
 Triangle with_least_first(Triangle triangle) {
-    std::ranges::rotate(triangle, std::ranges::min_element(triangle));
+    std::rotate(triangle.begin(), std::ranges::min_element(triangle), triangle.end());
     return triangle;
 }
 

@@ -111,10 +111,10 @@ std::vector<Edge> find_intersection_edges(const Parts& parts, const Inputs& inpu
         return signature(parts.parents_of[triangle], inputs, set_aside);
     };
     auto sides = half_edges(parts.triangles);
-    const auto repeated = std::ranges::unique(sides, [](const HalfEdge& a, const HalfEdge& b) {
-        return a.edge == b.edge && a.triangle == b.triangle; // in a triangle without area
-    });
-    sides.erase(repeated.begin(), repeated.end());
+    const auto same = [](const HalfEdge& a, const HalfEdge& b) { // in a triangle without area
+        return a.edge == b.edge && a.triangle == b.triangle;
+    };
+    sides.erase(std::unique(sides.begin(), sides.end(), same), sides.end());
     std::vector<Edge> edges;
     for_each_edge(sides, [&](std::span<const HalfEdge> at) {
         if (at.size() > 2 ||
