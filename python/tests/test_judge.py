@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Meshes judged by their inputs."""
 
-import os
 import pathlib
 import shutil
 import subprocess
@@ -11,7 +10,7 @@ import textwrap
 import pytest
 
 import terrane
-from conftest import PRELOADED, stack
+from conftest import environment_of_python, stack
 from terrane.testing import assert_conforming, assert_judged, cases
 
 
@@ -98,6 +97,6 @@ def test_tests_run_for_each_case(tmp_path):
             assert_judged(certified_case.surfaces, certified_case.surfaces)
     """))
     run = subprocess.run([sys.executable, "-B", "-W", "ignore", "-m", "pytest", "-q", "-p", "no:cacheprovider", "--rootdir", tmp_path,
-                          "--certified-cases", tmp_path, tmp_path], capture_output=True, text=True, env={**os.environ, **PRELOADED})
+                          "--certified-cases", tmp_path, tmp_path], capture_output=True, text=True, env=environment_of_python())
     assert run.returncode == 1 and "2 failed, 2 passed" in run.stdout, run.stdout + run.stderr
     assert "FAILED test_engine.py::test_engine_that_does_nothing[cubes-share-a-face]" in run.stdout
