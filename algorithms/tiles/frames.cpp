@@ -118,8 +118,9 @@ void ask_for_coordinates(const Tile& b, const DecimalFrame& frame, Outbox& out) 
         const double slack = 16 * std::numeric_limits<double>::epsilon() * std::fabs(c.in_frame);
         const double below = std::nearbyint(c.in_frame - slack),
                      above = std::nearbyint(c.in_frame + slack);
-        out.put(keeper_of(b, c.axis, below), 3, c);
-        if (above != below) out.put(keeper_of(b, c.axis, above), 3, c);
+        for (double integer = below; integer <= above;
+             integer = std::max(integer + 1, std::nextafter(integer, HUGE_VAL)))
+            out.put(keeper_of(b, c.axis, integer), 3, c);
     }
 }
 
