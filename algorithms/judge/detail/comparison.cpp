@@ -97,12 +97,13 @@ private:
                              : std::ranges::any_of(
                                    exact, [this](std::uint32_t x) { return crowding_.crowded[x]; });
     }
-    /// Whether rounding may have made a triangle, or turned it over, where it may do so to an area.
+    /// Whether rounding may have made a triangle, or turned it over: a corner is where parts are near each
+    /// other, and it is thin, or no larger than the area in doubt there.
     [[nodiscard]] bool is_doubtful(std::uint32_t t, double area_in_doubt) const {
         const Triangle& k = output_.soup.triangles[t];
-        if (is_thin(points_[k[0]], points_[k[1]], points_[k[2]], crowding_.reach)) return true;
-        return area(t) <= area_in_doubt &&
-               std::ranges::any_of(k, [this](std::uint32_t v) { return is_crowded(v); });
+        return std::ranges::any_of(k, [this](std::uint32_t v) { return is_crowded(v); }) &&
+               (area(t) <= area_in_doubt ||
+                is_thin(points_[k[0]], points_[k[1]], points_[k[2]], crowding_.reach));
     }
     /// Finds edges of one triangle where the exact regions have no border.
     void find_torn() {
@@ -157,7 +158,7 @@ private:
     /// Whether the area of a triangle may be in doubt as well: not if that of all others is used up.
     [[nodiscard]] bool takes_doubt(std::uint32_t t) {
         if (!is_doubtful(t, most_moved_ - moved_area_)) return false;
-        moved_area_ += area(t);
+        moved_area_ = std::min(moved_area_ + area(t), most_moved_); // slivers may be long
         return true;
     }
 
@@ -166,7 +167,9 @@ private:
         for (const std::uint32_t t : placing_.off) is_off[t] = true;
         std::vector<std::uint32_t> unsure;
         for (const std::uint32_t t : placing_.unsure)
-            if (placing_.cell_of[t] != no_index && takes_doubt(t)) unsure.push_back(t);
+            if (placing_.cell_of[t] != no_index && area(t) <= most_moved_ - moved_area_ &&
+                takes_doubt(t))
+                unsure.push_back(t);
         for (std::uint32_t t = 0; t < is_off.size(); ++t) {
             if (placing_.cell_of[t] != no_index) continue;
             found_.extra_area += area(t);

@@ -148,7 +148,7 @@ private:
         }
     }
 
-    /// Puts triangles in the cell that fits them best, if there is a candidate.
+    /// Puts triangles in the candidate of whose boundary they have most edges. Returns false if no cell is one.
     bool put_in_one_of(const Numbers& triangles, bool near) {
         const Numbers candidates = candidates_of(triangles, near);
         if (candidates.empty()) return false;

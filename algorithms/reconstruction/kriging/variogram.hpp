@@ -28,7 +28,7 @@ namespace terrane {
 ///   thin plate   nugget - sill (h/r)^2 log(h/r), r a fixed length
 ///   cubic        nugget - sill (h/r)^3, r a fixed length
 /// The last two are minus generalised covariances, for a trend of degree 1 or more; their surfaces
-/// have least bending energy, and one derivative more. The others but spherical and power reach 95 %
+/// have least bending energy, and one derivative more. All but spherical and power reach 95 %
 /// of the sill at the range. Surfaces have one derivative with matern and exponent 1.5, two with 2.5,
 /// none with spherical and exponential, all with gaussian. h is measured with geometric anisotropy:
 /// distances across the main direction are divided by the ratio.

@@ -225,12 +225,18 @@ TEST_CASE("judge: meshes of random models raise no false alarm") {
 }
 
 TEST_CASE("judge: a large flaw is found beside parts that rounding may join") {
-    // The second surface is nearer to the first than rounding can tell apart, in a corner of it.
+    // Rounding can't tell the second surface from a corner of the first.
     const std::vector<Surface> inputs{level(0, 0, 0, 8, 8), level(1e-13, 1, 1, 2, 2)};
     const Surface whole = as_surface(mesh_of(inputs));
     CHECK(judged({whole}, inputs).holds());
     Surface torn = whole;
     torn.triangles.erase(torn.triangles.begin());
+    CHECK(fails(judged({torn}, inputs), "coverage"));
+    // A sliver that is long enough has any area, and may not excuse what is missing.
+    for (const Point3& p : {Point3{1, 1, 1e-13}, Point3{1e16, 1, 0}, Point3{1e16, 1 + 2e-13, 0}})
+        torn.vertices.push_back(p);
+    const auto last = static_cast<std::uint32_t>(torn.vertices.size() - 1);
+    torn.triangles.push_back({last - 2, last - 1, last});
     CHECK(fails(judged({torn}, inputs), "coverage"));
     Surface turned = whole;
     std::swap(turned.triangles[0][0], turned.triangles[0][1]);

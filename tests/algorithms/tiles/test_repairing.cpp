@@ -329,7 +329,7 @@ TEST_CASE("repair in tiles: files on which rounding failed before", "[tiles][onc
     }
     CHECK(seen.repaired > 0);
     CHECK(seen.moved > 0);
-    CHECK(seen.left == 6); // three files with needles, without which surfaces may be parted
+    CHECK(seen.left == 6); // the first meshes of three may be parted from others
 }
 
 TEST_CASE("repair in tiles: what one process takes last is left to it", "[tiles]") {

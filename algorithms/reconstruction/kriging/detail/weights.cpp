@@ -40,7 +40,7 @@ std::vector<Variogram> shapes(const KrigingOptions& options) {
 }
 
 /// Chooses data for likelihoods: pairs near the hole, which tell noise from roughness, and some
-/// farther away, where a model that holds near the hole alone is not likely.
+/// farther away, which contradict models that hold near the hole alone.
 SpreadPairs fitted(const DataAroundHole& around) {
     auto all = well_spread_pairs(around.data.first(around.near), constants.most_fitted,
                                  constants.most_fitted / 2);
