@@ -60,9 +60,12 @@ JudgedProperty volume_property(const OutputMesh& output, const Target& target, d
                   6;
     const double exact = target.volume;
     Flaws flaws("volume", most);
-    if (!(std::abs(volume - exact) <= 2 * bound * area + rounded_sum * std::abs(exact)))
+    const bool beyond_doubles = !std::isfinite(exact) || !std::isfinite(area);
+    if (beyond_doubles ||
+        !(std::abs(volume - exact) <= 2 * bound * area + rounded_sum * std::abs(exact)))
         flaws.add(
-            {"the volume is " + figure(volume) + ", not " + figure(exact), o, {}, volume - exact});
+            {"the volume is " + figure(volume) + ", not " + figure(exact), o, {}, volume - exact},
+            beyond_doubles);
     return flaws.said(figure(volume) + ", exactly " + figure(exact), volume - exact);
 }
 
@@ -139,6 +142,19 @@ bool MeshJudgement::holds() const {
 bool MeshJudgement::complete() const {
     return std::ranges::none_of(
         properties, [](const auto& p) { return p.verdict == PropertyVerdict::not_judged; });
+}
+
+std::string MeshJudgement::failures() const {
+    std::string lines;
+    for (const JudgedProperty& p : properties) {
+        if (p.verdict != PropertyVerdict::fails) continue;
+        lines += p.name + ": " + p.sentence + "\n";
+        if (p.flaws.empty()) continue;
+        const Point3& at = p.flaws[0].place;
+        lines += "  " + p.flaws[0].sentence + " at (" + figure(at.x) + ", " + figure(at.y) + ", " +
+                 figure(at.z) + ")\n";
+    }
+    return lines;
 }
 
 const JudgedProperty* MeshJudgement::find(std::string_view name) const {

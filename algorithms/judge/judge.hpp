@@ -87,6 +87,9 @@ struct MeshJudgement {
     [[nodiscard]] bool holds() const;
     /// Whether each property was judged.
     [[nodiscard]] bool complete() const;
+    /// Returns what fails, for a test's message: a line per property, and one for the first place of each;
+    /// empty if all that was judged holds.
+    [[nodiscard]] std::string failures() const;
     /// Returns a property; nullptr if there is none of this name.
     [[nodiscard]] const JudgedProperty* find(std::string_view name) const;
 };

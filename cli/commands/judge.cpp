@@ -74,12 +74,23 @@ ExitStatus not_judged(const Error& error, bool tags) {
     return error.code == ErrorCode::not_closed ? ExitStatus::bad_input : status;
 }
 
+/// Returns the mesh that is judged. With inputs, a file without triangles is an empty mesh, as the intersection of solids
+/// that are apart is.
+Inputs read_output(const JudgeCommand& command, const FileOptions& files, Session& session) {
+    try {
+        return read_inputs(files, session);
+    } catch (const Failure& failure) {
+        if (command.soup || failure.error.code != ErrorCode::nothing_to_do) throw;
+        return {};
+    }
+}
+
 ExitStatus judge_file(const JudgeCommand& command) {
     check_usage(command);
     Session session(1); // processor time is that of one thread
     FileOptions of_output;
     of_output.inputs = {command.output};
-    const Inputs output = read_inputs(of_output, session);
+    const Inputs output = read_output(command, of_output, session);
     const Inputs inputs = command.soup ? Inputs() : read_inputs(command.inputs, session);
     const JudgeOptions options = options_of(command, inputs);
     session.begin("judge", Phase::computing);

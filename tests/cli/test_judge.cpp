@@ -76,6 +76,13 @@ TEST_CASE("judge: Boolean operations of the solids in files") {
     CHECK(refused.status == 2);
     CHECK(refused.out.find("INPUT_IS_INVALID") != std::string::npos);
     CHECK(refused.err.find("operand 1: bounds no solid") != std::string::npos);
+    const auto none = folder.input("none.off", "OFF\n0 0 0\n"); // an empty mesh
+    CHECK(
+        folder.run("judge " + none + " " + a + " " + apart + " --operation intersection").status ==
+        0);
+    CHECK(folder.run("judge " + none + " " + a + " " + b + " --operation intersection").status ==
+          1);
+    CHECK(folder.run("judge --soup " + none).status == 2);
     CHECK(folder.run("judge --soup " + a).status == 0);
     CHECK(folder.run("judge --soup " + open).out.find("closed: fails") != std::string::npos);
 }

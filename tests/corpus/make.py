@@ -68,6 +68,7 @@ def lattice(seed, n, size):
 ULP = 2.0 ** -52
 CUBE = box((0.0, 0.0, 0.0), (2.0, 2.0, 2.0))
 SQUARE = ((0.0, 0.0, 0.0), (4.0, 0.0, 0.0), (4.0, 4.0, 0.0), (0.0, 4.0, 0.0))
+TETRAHEDRON = tetrahedron((0.0,) * 3, (2.0, 0.0, 0.0), (0.0, 2.0, 0.0), (0.0, 0.0, 2.0))
 FLAT = (list(SQUARE), [(0, 1, 2), (0, 2, 3)])
 #: Name: operands, and whether they are solids.
 CASES = {
@@ -91,6 +92,17 @@ CASES = {
     "tetrahedra-in-tenths": ([tetrahedron((0.1, 0.2, 0.3), (1.1, 0.2, 0.3), (0.1, 1.2, 0.3), (0.1, 0.2, 1.3)),
                               tetrahedron((0.3, 0.3, 0.3), (1.3, 0.3, 0.3), (0.3, 1.3, 0.3), (0.3, 0.3, 1.3))], True),
     "tetrahedron-needle": ([CUBE, tetrahedron((1.0, 1.0, -9.0), (1 + ULP, 1.0, -9.0), (1.0, 1 + ULP, -9.0), (1.0, 1.0, 9.0))], True),
+    "tetrahedra-apart": ([TETRAHEDRON, moved(TETRAHEDRON, (3.0, 0.0, 0.0))], True),
+    "tetrahedra-meet-at-a-tip": ([TETRAHEDRON, moved(TETRAHEDRON, (2.0, 0.0, 0.0))], True),
+    "tetrahedra-cross-in-corners-of-a-cube": ([tetrahedron((1.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 1.0), (1.0, 1.0, 1.0)),
+                                               tetrahedron((1.0, 0.0, 1.0), (1.0, 1.0, 1.0), (0.0, 0.0, 0.0), (0.0, 1.0, 1.0))], True),
+    "tetrahedra-cross-from-a-corner": ([tetrahedron((0.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 1.0)),
+                                                    tetrahedron((0.0, 0.0, 0.0), (0.0, 1.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))], True),
+    "tetrahedra-whose-difference-touches-itself": ([tetrahedron((0.0, 1.0, 0.0), (1.0, 1.0, 1.0), (0.0, 0.0, 1.0), (0.0, 0.0, 0.0)),
+                                                    tetrahedron((1.0, 1.0, 0.0), (0.0, 0.0, 0.0), (1.0, 0.0, 1.0), (0.0, 1.0, 1.0))], True),
+    "tetrahedron-with-a-void": ([joined(tetrahedron((0.0,) * 3, (8.0, 0.0, 0.0), (0.0, 8.0, 0.0), (0.0, 0.0, 8.0)),
+                                        turned(tetrahedron((1.0,) * 3, (2.0, 1.0, 1.0), (1.0, 2.0, 1.0), (1.0, 1.0, 2.0)))),
+                                 tetrahedron((-1.0, 1.25, 1.25), (9.0, 1.25, 1.25), (-1.0, 3.0, 1.25), (-1.0, 1.25, 3.0))], True),
     "three-cubes-in-a-row": ([CUBE, moved(CUBE, (1.0, 0.0, 0.0)), moved(CUBE, (2.0, 0.0, 0.0))], True),
     "three-cubes-in-general-places": ([CUBE, moved(CUBE, (0.5, 0.75, 1.25)), moved(CUBE, (1.125, 0.375, -0.5))], True),
     "cubes-in-utm": ([moved(CUBE, (500000.1, 5600000.2, -1500.3)), moved(CUBE, (500001.2, 5600000.9, -1499.7))], True),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// The number of random cases in a test: a quarter of them, but all of the first twenty, or one in
+// The number of random cases in a test: a quarter of them, but all of the first eight, or one in
 // twenty under sanitizers, which are slow; with TERRANE_EFFORT so many times as many.
 // scripts/nightly.sh runs all.
 #pragma once
@@ -29,7 +29,7 @@ inline constexpr bool is_sanitized = false;
 inline int cases(int full) {
     static const char* const wanted = std::getenv("TERRANE_EFFORT");
     static const int factor = wanted != nullptr ? std::max(1, std::atoi(wanted)) : 1;
-    const int usual = is_sanitized ? full / 20 : std::max(full / 4, std::min(full, 20));
+    const int usual = is_sanitized ? full / 20 : std::max(full / 4, std::min(full, 8));
     return std::max(1, usual * factor);
 }
 
