@@ -55,10 +55,8 @@ class Card:
         self.sound = {}
 
     def judge(self, *words):
-        """The properties that `terrane judge` names, or None if it can't judge."""
-        status, text = limited([self.arguments.terrane, "judge", *map(str, words), "--json"], 600, 0)
-        if status not in (0, 1, 2):
-            return None
+        """The properties that `terrane judge` names; none if it can't judge, as a file is no mesh."""
+        _, text = limited([self.arguments.terrane, "judge", *map(str, words), "--json"], 600, 0)
         return [json.loads(line) for line in text.splitlines() if line.startswith("{")]
 
     def lacks(self, name):
@@ -67,10 +65,10 @@ class Card:
             path = self.folder / name
             found = self.judge("--soup", path)
             lacks = {p["property"] for p in found if p["verdict"] == "fails"}
-            alone = [] if lacks else self.judge(path, path, "--operation", "union")
+            alone = self.judge(path, path, "--operation", "union")
             text = path.read_text().split()
             numbers = map(float, text[4:4 + 3 * int(text[1])])
-            self.sound[name] = (lacks | ({"solid"} if lacks or any(p["verdict"] == "fails" for p in alone or []) else set())
+            self.sound[name] = (lacks | (set() if alone and all(p["verdict"] != "fails" for p in alone) else {"solid"})
                                 | ({"single"} if any(x != to_single(x) for x in numbers) else set()))
         return self.sound[name]
 
@@ -115,7 +113,7 @@ class Card:
                 command += inputs if word == "{inputs}" else [word]
             environment = os.environ | {"SCORECARD": "\n".join([operation, str(output), *inputs])}
             status, text = limited(command, self.arguments.seconds, self.arguments.memory * 2**20, environment)
-            result["end"], result["says"] = self.end(engine, status, output, text)
+            result["end"], result["says"] = self.end(status, output, text)
             if result["end"] is None:
                 words = [] if operation == "arrangement" else ["--operation", operation]
                 found = self.judge(output, *inputs, *words, "--spacings", engine.get("spacings", 16))
@@ -123,7 +121,7 @@ class Card:
         return result
 
     @staticmethod
-    def end(engine, status, output, text):
+    def end(status, output, text):
         """How a call ended that left nothing to judge, and what it said last."""
         last = " ".join(text.split("\n")[-4:]).strip()[-200:]
         if status is None:
@@ -147,7 +145,7 @@ class Card:
 
 def judged(found):
     """The end of a call whose output was judged: its properties that fail, and the first sentence."""
-    if found is None:
+    if not found:
         return {"end": "wrong", "fails": ["format"], "says": "the output is no mesh"}
     fails = [p for p in found if p["verdict"] == "fails"]
     doubt = any(p["verdict"] == "not judged" for p in found)
