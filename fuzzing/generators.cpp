@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: LGPL-3.0-or-later
-#include "shapes.hpp"
+// SPDX-License-Identifier: MIT
+#include <terrane/fuzzing/meshes.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <string>
+#include <cstring>
 
-namespace terrane::fuzz {
+namespace terrane::fuzzing {
 
 namespace {
 
@@ -20,36 +19,28 @@ double coordinate(Bytes& bytes, int range) {
     return -0.0;
 }
 
-Point3 rotated(const Point3& p, unsigned axis) {
+Point rotated(const Point& p, unsigned axis) {
     if (axis == 0) return p;
-    return axis == 1 ? Point3{p.y, p.z, p.x} : Point3{p.z, p.x, p.y};
+    return axis == 1 ? Point{p.y, p.z, p.x} : Point{p.z, p.x, p.y};
 }
 
-std::uint32_t add_vertex(Surface& surface, const Point3& p) {
-    surface.vertices.push_back(p);
-    return static_cast<std::uint32_t>(surface.vertices.size() - 1);
+std::uint32_t add_point(Part& part, const Point& p) {
+    part.points.push_back(p);
+    return static_cast<std::uint32_t>(part.points.size() - 1);
 }
 
-std::size_t count(const std::vector<Surface>& surfaces) {
-    std::size_t triangles = 0;
-    for (const Surface& s : surfaces) triangles += s.triangles.size();
-    return triangles;
-}
-
-/// Appends a shifted copy of another surface, if it has triangles: copies of copies of vertices
-/// only would become too many.
-void add_copy(Surface& surface, const Surface& other, const Point3& by) {
+/// Appends a shifted copy of another part, if it has triangles: copies of copies of points only would become too many.
+void add_copy(Part& part, const Part& other, const Point& by) {
     if (other.triangles.empty()) return;
-    const auto first = static_cast<std::uint32_t>(surface.vertices.size());
-    const auto vertices = other.vertices; // it may be the same surface
+    const auto first = static_cast<std::uint32_t>(part.points.size());
+    const auto points = other.points; // it may be the same part
     const auto triangles = other.triangles;
-    for (const Point3& p : vertices)
-        surface.vertices.push_back({p.x + by.x, p.y + by.y, p.z + by.z});
+    for (const Point& p : points) part.points.push_back({p.x + by.x, p.y + by.y, p.z + by.z});
     for (const Triangle& t : triangles)
-        surface.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+        part.triangles.push_back({first + t[0], first + t[1], first + t[2]});
 }
 
-void add_piece(std::vector<Surface>& surfaces, Surface& to, Points& points, Bytes& bytes) {
+void add_piece(const Soup& soup, Part& to, Points& points, Bytes& bytes) {
     const auto next = [&] { return points.next(bytes); };
     switch (bytes.below(12)) {
     case 0:
@@ -59,10 +50,10 @@ void add_piece(std::vector<Surface>& surfaces, Surface& to, Points& points, Byte
     case 2:
         return add_tetrahedron(to, {next(), next(), next(), next()});
     case 3: {
-        const Point3 zero = points.placed({}),
-                     step = points.placed(
-                         {double(bytes.between(-1, 1)), double(bytes.between(-1, 1)), 0});
-        const Surface& other = surfaces[bytes.below(static_cast<unsigned>(surfaces.size()))];
+        const Point zero = points.placed({}),
+                    step = points.placed(
+                        {double(bytes.between(-1, 1)), double(bytes.between(-1, 1)), 0});
+        const Part& other = soup[bytes.below(static_cast<unsigned>(soup.size()))];
         return add_copy(to, other, {step.x - zero.x, step.y - zero.y, step.z - zero.z});
     }
     case 4:
@@ -73,6 +64,14 @@ void add_piece(std::vector<Surface>& surfaces, Surface& to, Points& points, Byte
 }
 
 } // namespace
+
+double Bytes::any_double() {
+    std::uint64_t bits = 0;
+    for (int i = 0; i < 8; ++i) bits = bits << 8 | byte();
+    double value = 0;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+}
 
 Frame::Frame(Bytes& bytes) {
     const unsigned how = bytes.byte();
@@ -85,14 +84,14 @@ Frame::Frame(Bytes& bytes) {
     if (how / 64 == 3) exponent_ = 8 * bytes.between(-120, 120);
 }
 
-Point3 Frame::operator()(Point3 p) const {
+Point Frame::operator()(Point p) const {
     p = {p.x * step_, p.y * step_, p.z * step_};
     if (turned_) p = {0.6 * p.x - 0.8 * p.z, p.y, 0.8 * p.x + 0.6 * p.z};
     p = {p.x + shift_.x, p.y + shift_.y, p.z + shift_.z};
     return {std::ldexp(p.x, exponent_), std::ldexp(p.y, exponent_), std::ldexp(p.z, exponent_)};
 }
 
-Point3 Points::next(Bytes& bytes) {
+Point Points::next(Bytes& bytes) {
     const unsigned tag = bytes.byte();
     if (!earlier_.empty() && tag % 3 == 0) return earlier_[tag / 3 % earlier_.size()];
     const double x = coordinate(bytes, range_), y = coordinate(bytes, range_),
@@ -101,30 +100,29 @@ Point3 Points::next(Bytes& bytes) {
     return earlier_.back();
 }
 
-void add_triangle(Surface& surface, const std::array<Point3, 3>& corners) {
+void add_triangle(Part& part, const std::array<Point, 3>& corners) {
     Triangle t{};
-    for (unsigned i = 0; i < 3; ++i) t[i] = add_vertex(surface, corners[i]);
-    surface.triangles.push_back(t);
+    for (unsigned i = 0; i < 3; ++i) t[i] = add_point(part, corners[i]);
+    part.triangles.push_back(t);
 }
 
-void add_fan(Surface& surface, Points& points, Bytes& bytes) {
-    const auto a = add_vertex(surface, points.next(bytes)),
-               b = add_vertex(surface, points.next(bytes));
+void add_fan(Part& part, Points& points, Bytes& bytes) {
+    const auto a = add_point(part, points.next(bytes)), b = add_point(part, points.next(bytes));
     const unsigned blades = 2 + bytes.below(4);
     for (unsigned i = 0; i < blades; ++i)
-        surface.triangles.push_back({a, b, add_vertex(surface, points.next(bytes))});
+        part.triangles.push_back({a, b, add_point(part, points.next(bytes))});
 }
 
-void add_sheet(Surface& surface, const Points& points, Bytes& bytes, bool holes) {
+void add_sheet(Part& part, const Points& points, Bytes& bytes, bool holes) {
     const unsigned n = 1 + bytes.below(2), m = 1 + bytes.below(2), axis = bytes.below(3);
     const unsigned missing = holes ? bytes.byte() : 0, diagonals = bytes.byte();
     const double u = bytes.between(-points.range(), points.range()) / 2.0,
                  v = bytes.between(-points.range(), points.range()) / 2.0;
-    const auto first = static_cast<std::uint32_t>(surface.vertices.size());
+    const auto first = static_cast<std::uint32_t>(part.points.size());
     for (unsigned j = 0; j <= m; ++j)
         for (unsigned i = 0; i <= n; ++i) {
-            const Point3 p{u + i, v + j, coordinate(bytes, points.range())};
-            surface.vertices.push_back(points.placed(rotated(p, axis)));
+            const Point p{u + i, v + j, coordinate(bytes, points.range())};
+            part.points.push_back(points.placed(rotated(p, axis)));
         }
     for (unsigned j = 0; j < m; ++j)
         for (unsigned i = 0; i < n; ++i) {
@@ -132,61 +130,71 @@ void add_sheet(Surface& surface, const Points& points, Bytes& bytes, bool holes)
             const unsigned square = j * n + i;
             const bool other = (diagonals >> square & 1) != 0;
             if ((missing >> (2 * square) & 1) == 0)
-                surface.triangles.push_back({a, a + 1, other ? b + 1 : b});
+                part.triangles.push_back({a, a + 1, other ? b + 1 : b});
             if ((missing >> (2 * square + 1) & 1) == 0)
-                surface.triangles.push_back(other ? Triangle{a, b + 1, b}
-                                                  : Triangle{a + 1, b + 1, b});
+                part.triangles.push_back(other ? Triangle{a, b + 1, b} : Triangle{a + 1, b + 1, b});
         }
 }
 
-void add_tetrahedron(Surface& surface, const std::array<Point3, 4>& corners) {
-    const auto v = static_cast<std::uint32_t>(surface.vertices.size());
-    surface.vertices.insert(surface.vertices.end(), corners.begin(), corners.end());
+void add_tetrahedron(Part& part, const std::array<Point, 4>& corners) {
+    const auto v = static_cast<std::uint32_t>(part.points.size());
+    part.points.insert(part.points.end(), corners.begin(), corners.end());
     for (const Triangle& t : {Triangle{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}})
-        surface.triangles.push_back({v + t[0], v + t[1], v + t[2]});
+        part.triangles.push_back({v + t[0], v + t[1], v + t[2]});
 }
 
-void add_double_pyramid(Surface& surface, const std::array<Point3, 5>& corners) {
-    const auto v = static_cast<std::uint32_t>(surface.vertices.size());
-    surface.vertices.insert(surface.vertices.end(), corners.begin(), corners.end());
+void add_double_pyramid(Part& part, const std::array<Point, 5>& corners) {
+    const auto v = static_cast<std::uint32_t>(part.points.size());
+    part.points.insert(part.points.end(), corners.begin(), corners.end());
     for (std::uint32_t i = 0; i < 3; ++i) {
         const std::uint32_t a = v + i, b = v + (i + 1) % 3;
-        surface.triangles.push_back({a, b, v + 3});
-        surface.triangles.push_back({b, a, v + 4});
+        part.triangles.push_back({a, b, v + 3});
+        part.triangles.push_back({b, a, v + 4});
     }
 }
 
-void add_box(Surface& surface, const Points& points, Bytes& bytes) {
-    const auto v = static_cast<std::uint32_t>(surface.vertices.size());
+void add_box(Part& part, const Points& points, Bytes& bytes) {
+    const auto v = static_cast<std::uint32_t>(part.points.size());
     std::array<double, 3> low{}, high{};
     for (unsigned k = 0; k < 3; ++k) {
         low[k] = bytes.between(-points.range(), points.range());
         high[k] = low[k] + bytes.between(1, 2);
     }
     for (unsigned i = 0; i < 8; ++i)
-        surface.vertices.push_back(
+        part.points.push_back(
             points.placed({(i & 1) != 0 ? high[0] : low[0], (i & 2) != 0 ? high[1] : low[1],
                            (i & 4) != 0 ? high[2] : low[2]}));
     constexpr std::uint32_t sides[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                            {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
     for (const auto& s : sides) {
-        surface.triangles.push_back({v + s[0], v + s[1], v + s[2]});
-        surface.triangles.push_back({v + s[0], v + s[2], v + s[3]});
+        part.triangles.push_back({v + s[0], v + s[1], v + s[2]});
+        part.triangles.push_back({v + s[0], v + s[2], v + s[3]});
     }
 }
 
-std::vector<Surface> soup(Bytes& bytes, std::size_t most) {
+Soup soup(Bytes& bytes, std::size_t most) {
     Points points(bytes);
-    std::vector<Surface> surfaces(1 + bytes.below(4));
-    for (std::size_t s = 0; s < surfaces.size(); ++s)
-        surfaces[s].name = std::string(1, char('a' + s));
+    Soup parts(1 + bytes.below(4));
     while (!bytes.empty()) {
-        const auto before = surfaces;
-        Surface& to = surfaces[bytes.below(static_cast<unsigned>(surfaces.size()))];
-        add_piece(surfaces, to, points, bytes);
-        if (count(surfaces) > most) return before;
+        const auto before = parts;
+        Part& to = parts[bytes.below(static_cast<unsigned>(parts.size()))];
+        add_piece(parts, to, points, bytes);
+        if (triangle_count(parts) > most) return before;
     }
-    return surfaces;
+    return parts;
 }
 
-} // namespace terrane::fuzz
+Soup any_mesh(Bytes& bytes, std::size_t most) {
+    switch (bytes.below(4)) {
+    case 0:
+        return crowd(bytes, most);
+    case 1:
+        return near_plane(bytes, most);
+    case 2:
+        return solids(bytes, most).operands;
+    default:
+        return soup(bytes, most);
+    }
+}
+
+} // namespace terrane::fuzzing

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include <terrane/fuzzing/minimise.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace terrane::fuzzing {
+
+namespace {
+
+/// Returns simpler numbers near x, the simplest first.
+std::vector<double> simpler(double x) {
+    std::vector<double> tries{0, 1, -1, std::round(x), std::trunc(x / 2)};
+    for (int digits = 1; digits < 16; ++digits) {
+        char text[40];
+        std::snprintf(text, sizeof text, "%.*g", digits, x);
+        tries.push_back(std::strtod(text, nullptr));
+    }
+    return tries;
+}
+
+std::size_t length(double x) {
+    char text[40];
+    return static_cast<std::size_t>(std::to_chars(text, text + sizeof text, x).ptr - text);
+}
+
+/// Tells whether a is simpler than b: it has fewer digits, or as many and is nearer to zero.
+bool is_simpler(double a, double b) {
+    return length(a) < length(b) || (length(a) == length(b) && std::fabs(a) < std::fabs(b));
+}
+
+/// Merges points at equal places, to the sign of zeros, and drops unused ones. The points of the triangles do not change.
+Part compacted(const Part& part) {
+    Part result{{}, part.triangles};
+    for (Triangle& t : result.triangles)
+        for (std::uint32_t& v : t) {
+            const Point p = part.points[v];
+            const auto same = [&p](const Point& q) {
+                return p == q && std::signbit(p.x) == std::signbit(q.x) &&
+                       std::signbit(p.y) == std::signbit(q.y) &&
+                       std::signbit(p.z) == std::signbit(q.z);
+            };
+            const auto at = std::find_if(result.points.begin(), result.points.end(), same);
+            v = static_cast<std::uint32_t>(at - result.points.begin());
+            if (at == result.points.end()) result.points.push_back(p);
+        }
+    return result;
+}
+
+class Minimiser {
+public:
+    Minimiser(Soup soup, const Fails& fails) : best_(std::move(soup)), fails_(fails) {}
+
+    Soup run() {
+        for (bool again = true; again;) {
+            again = drop_triangles();
+            again = compact() || again;
+            again = contract_edges() || again;
+            again = simplify_numbers() || again;
+            again = simplify_coordinates() || again;
+        }
+        return best_;
+    }
+
+private:
+    bool accept(const Soup& changed) {
+        if (!fails_(changed)) return false;
+        best_ = changed;
+        return true;
+    }
+    /// Removes pieces of all triangles of a part, of half of them, of a quarter, ..., of one triangle.
+    bool drop_triangles() {
+        bool any = false;
+        for (std::size_t p = 0; p < best_.size(); ++p)
+            for (std::size_t piece = best_[p].triangles.size(); piece > 0; piece /= 2)
+                for (std::size_t at = 0; at < best_[p].triangles.size();) {
+                    Soup changed = best_;
+                    auto& triangles = changed[p].triangles;
+                    const auto first = triangles.begin() + static_cast<std::ptrdiff_t>(at);
+                    const auto count = std::min(piece, triangles.size() - at);
+                    triangles.erase(first, first + static_cast<std::ptrdiff_t>(count));
+                    if (accept(changed))
+                        any = true;
+                    else
+                        at += piece;
+                }
+        return any;
+    }
+    bool compact() {
+        Soup changed = best_;
+        for (Part& part : changed) part = compacted(part);
+        return changed != best_ && accept(changed);
+    }
+    /// Makes two corners one, and drops the triangles that have both: closed parts remain closed.
+    bool contract_edges() {
+        bool any = false;
+        for (std::size_t p = 0; p < best_.size(); ++p)
+            for (std::size_t t = 0; t < best_[p].triangles.size(); ++t)
+                for (unsigned i = 0; i < 6 && t < best_[p].triangles.size(); ++i) {
+                    const Triangle& corners = best_[p].triangles[t];
+                    if (contract(p, corners[i % 3], corners[(i + 1 + i / 3) % 3])) any = true;
+                }
+        return any;
+    }
+    bool contract(std::size_t p, std::uint32_t from, std::uint32_t to) {
+        Soup changed = best_;
+        auto& triangles = changed[p].triangles;
+        for (Triangle& t : triangles) std::replace(t.begin(), t.end(), from, to);
+        std::erase_if(triangles, [](const Triangle& t) {
+            return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+        });
+        return triangles.size() < best_[p].triangles.size() && accept(changed);
+    }
+    /// Replaces numbers everywhere, so that shared points and coplanar triangles mostly remain so.
+    bool simplify_numbers() {
+        std::vector<double> numbers;
+        for (const Part& part : best_)
+            for (const Point& p : part.points) numbers.insert(numbers.end(), {p.x, p.y, p.z});
+        std::sort(numbers.begin(), numbers.end());
+        numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+        bool any = false;
+        for (const double x : numbers)
+            for (const double y : simpler(x)) {
+                if (!is_simpler(y, x)) continue;
+                Soup changed = best_;
+                for (Part& part : changed)
+                    for (Point& p : part.points)
+                        for (double* each : {&p.x, &p.y, &p.z})
+                            if (*each == x) *each = y;
+                if (accept(changed)) {
+                    any = true;
+                    break;
+                }
+            }
+        return any;
+    }
+    bool simplify_coordinates() {
+        bool any = false;
+        for (std::size_t p = 0; p < best_.size(); ++p)
+            for (std::size_t v = 0; v < best_[p].points.size(); ++v)
+                for (double Point::*k : {&Point::x, &Point::y, &Point::z})
+                    for (const double y : simpler(best_[p].points[v].*k)) {
+                        if (!is_simpler(y, best_[p].points[v].*k)) continue;
+                        Soup changed = best_;
+                        changed[p].points[v].*k = y;
+                        if (accept(changed)) {
+                            any = true;
+                            break;
+                        }
+                    }
+        return any;
+    }
+
+    Soup best_;
+    const Fails& fails_;
+};
+
+} // namespace
+
+Soup minimise(Soup soup, const Fails& fails) {
+    return Minimiser(std::move(soup), fails).run();
+}
+
+bool fails_apart(const std::function<bool()>& holds, unsigned seconds) {
+    std::fflush(nullptr);
+    const pid_t child = fork();
+    if (child == 0) {
+        for (const int crash : {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV})
+            std::signal(crash, SIG_DFL);
+        alarm(seconds);
+        if (std::freopen("/dev/null", "w", stderr) == nullptr) _exit(0);
+        try {
+            _exit(holds() ? 0 : 1);
+        } catch (...) { // which the caller of this process would catch
+            _exit(1);
+        }
+    }
+    int status = 0;
+    return child > 0 && waitpid(child, &status, 0) == child &&
+           !(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+}
+
+} // namespace terrane::fuzzing

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/fuzzing/minimise.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+#include <map>
+#include <unistd.h>
+
+using namespace terrane::fuzzing;
+
+namespace {
+
+Soup two_solids() {
+    const std::vector<std::uint8_t> string{0,   7,   6,   5,  0,    90,   10,   255,
+                                           255, 255, 255, 10, 0x77, 0x19, 0x3e, 0xff};
+    Bytes bytes(string.data(), string.size());
+    return solids(bytes, 1000).operands;
+}
+
+bool is_closed(const Part& part) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    for (const Triangle& t : part.triangles)
+        for (unsigned i = 0; i < 3; ++i) {
+            ++edges[{t[i], t[(i + 1) % 3]}];
+            --edges[{t[(i + 1) % 3], t[i]}];
+        }
+    for (const auto& [edge, surplus] : edges)
+        if (surplus != 0) return false;
+    return !edges.empty();
+}
+
+double six_volumes(const Part& part) {
+    double sum = 0;
+    for (const Triangle& t : part.triangles) {
+        const Point &a = part.points[t[0]], &b = part.points[t[1]], &c = part.points[t[2]];
+        sum += a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) +
+               a.z * (b.x * c.y - b.y * c.x);
+    }
+    return sum;
+}
+
+} // namespace
+
+TEST_CASE("minimise: triangles go, numbers become simple, parts stay") {
+    Soup soup = two_solids();
+    REQUIRE(triangle_count(soup) > 60);
+    soup[1].points[0] = {1234.5678, 17.25, -3e-7};
+    const auto fails = [](const Soup& s) {
+        for (const Triangle& t : s[1].triangles)
+            if (s[1].points[t[0]].x > 1000) return true;
+        return false;
+    };
+    if (!fails(soup)) soup[1].triangles.push_back({0, 1, 2});
+    const Soup least = minimise(soup, fails);
+    REQUIRE(least.size() == 2);
+    CHECK(least[0] == Part{});
+    CHECK(least[1].triangles.size() == 1);
+    REQUIRE(!least[1].points.empty());
+    for (const Point& p : least[1].points) {
+        CHECK((p.x == 0 || p.x == 1200));
+        CHECK(p.y == 0);
+        CHECK(p.z == 0);
+    }
+}
+
+TEST_CASE("minimise: contracting edges keeps a closed part closed") {
+    const Soup soup = two_solids();
+    std::size_t calls = 0;
+    const auto fails = [&](const Soup& s) {
+        ++calls;
+        return is_closed(s[0]) && is_closed(s[1]) && six_volumes(s[0]) > 0 && six_volumes(s[1]) > 0;
+    };
+    REQUIRE(fails(soup));
+    const Soup least = minimise(soup, fails);
+    CHECK(least[0].triangles.size() == 4);
+    CHECK(least[1].triangles.size() == 4);
+    CHECK(least[0].points.size() == 4);
+    CHECK(calls < 20'000);
+    for (const Part& part : least)
+        for (const Point& p : part.points)
+            for (const double x : {p.x, p.y, p.z}) CHECK((x == 0 || x == 1 || x == -1));
+}
+
+TEST_CASE("minimise: as many triangles remain as it takes") {
+    const auto fails = [](const Soup& s) { return triangle_count(s) >= 3; };
+    CHECK(triangle_count(minimise(two_solids(), fails)) == 3);
+}
+
+TEST_CASE("minimise: a process of its own tells failures, crashes and hangs from success") {
+    CHECK_FALSE(fails_apart([] { return true; }, 10));
+    CHECK(fails_apart([] { return false; }, 10));
+    CHECK(fails_apart([]() -> bool { std::abort(); }, 10));
+    CHECK(fails_apart([]() -> bool { throw 1; }, 10));
+    CHECK(fails_apart(
+        [] {
+            for (;;) pause();
+            return true;
+        },
+        1));
+}
