@@ -8,7 +8,7 @@ namespace terrane::fuzzing {
 
 namespace {
 
-/// Returns a number of the lattice; the highest bytes stand for neighbours, halves and -0.
+/// Returns a number of the lattice; the highest bytes stand for neighbours, halves and 0.
 double coordinate(Bytes& bytes, int range) {
     const unsigned byte = bytes.byte();
     const double lattice = static_cast<int>(byte % static_cast<unsigned>(2 * range + 1)) - range;
@@ -16,7 +16,7 @@ double coordinate(Bytes& bytes, int range) {
     if (byte < 200) return std::nextafter(lattice, HUGE_VAL);
     if (byte < 224) return std::nextafter(lattice, -HUGE_VAL);
     if (byte < 248) return lattice / 2;
-    return -0.0;
+    return 0;
 }
 
 Point rotated(const Point& p, unsigned axis) {

@@ -63,6 +63,7 @@ public:
             again = drop_triangles();
             again = compact() || again;
             again = contract_edges() || again;
+            again = simplify_frame() || again;
             again = simplify_numbers() || again;
             again = simplify_coordinates() || again;
         }
@@ -117,6 +118,41 @@ private:
             return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
         });
         return triangles.size() < best_[p].triangles.size() && accept(changed);
+    }
+    /// Shifts all points, so that one is 0 along an axis, or multiplies them by a power of two, so that the largest
+    /// number is 1 or more: nearly coplanar points mostly remain so.
+    bool simplify_frame() {
+        bool any = false;
+        for (double Point::*k : {&Point::x, &Point::y, &Point::z}) {
+            const auto filled = std::find_if(best_.begin(), best_.end(),
+                                             [](const Part& part) { return !part.points.empty(); });
+            if (filled == best_.end()) return any;
+            const double by = filled->points.front().*k;
+            any = accept_simpler([&](Point& p) { p.*k -= by; }) || any;
+        }
+        double largest = 0;
+        for (const Part& part : best_)
+            for (const Point& p : part.points)
+                largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+        const int exponent = largest == 0 ? 0 : std::ilogb(largest);
+        return accept_simpler([&](Point& p) {
+                   p = {std::ldexp(p.x, -exponent), std::ldexp(p.y, -exponent),
+                        std::ldexp(p.z, -exponent)};
+               }) ||
+               any;
+    }
+    /// Accepts a change of all points if their numbers have fewer digits in all.
+    template <class Change>
+    bool accept_simpler(const Change& change) {
+        std::size_t before = 0, after = 0;
+        Soup changed = best_;
+        for (Part& part : changed)
+            for (Point& p : part.points) {
+                before += length(p.x) + length(p.y) + length(p.z);
+                change(p);
+                after += length(p.x) + length(p.y) + length(p.z);
+            }
+        return after < before && accept(changed);
     }
     /// Replaces numbers everywhere, so that shared points and coplanar triangles mostly remain so.
     bool simplify_numbers() {

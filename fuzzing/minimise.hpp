@@ -11,7 +11,7 @@ namespace terrane::fuzzing {
 using Fails = std::function<bool(const Soup&)>;
 
 /// Returns the smallest mesh that it finds: without any one of its triangles, with any edge contracted, or with any
-/// number replaced by a simpler one (fewer digits, or nearer to 0), it does not fail. Parts keep their places, and may
+/// number replaced by some simpler ones (fewer digits, or nearer to 0), it does not fail. Parts keep their places, and may
 /// become empty. `fails(soup)` holds; it is called some thousand times for a hundred triangles.
 Soup minimise(Soup soup, const Fails& fails);
 

@@ -2,7 +2,6 @@
 #include <terrane/fuzzing/mutate.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -113,6 +112,10 @@ private:
         case 3: {
             Point p = from;
             double& x = coordinate_of(p, random_.below(3));
+            if (x == 0 && random_.one_of(2)) { // to -0, or back
+                x = -x;
+                return p;
+            }
             for (std::size_t steps = 1 + random_.below(3); steps > 0; --steps)
                 x = std::nextafter(x, random_.one_of(2) ? HUGE_VAL : -HUGE_VAL);
             return p;
@@ -344,14 +347,12 @@ std::size_t AflState::next(ByteVector bytes, const ByteVector& others, std::uint
 }
 
 Finding find_flaw(const Generator& generator, const std::function<std::string(const Soup&)>& flaw,
-                  double seconds, unsigned seed) {
+                  std::size_t most, unsigned seed) {
     constexpr std::size_t most_bytes = 4096, most_kept = 64;
-    using Clock = std::chrono::steady_clock;
-    const auto end = Clock::now() + std::chrono::duration<double>(seconds);
     Random random(seed);
     std::vector<ByteVector> kept;
     Finding result;
-    while (Clock::now() < end) {
+    while (result.tried < most) {
         ByteVector bytes;
         if (kept.empty() || random.one_of(2)) {
             bytes = random_bytes(random, most_bytes);

@@ -40,11 +40,11 @@ struct Finding {
     std::size_t tried = 0; ///< number of meshes
 };
 
-/// Looks for a mesh with a flaw for some seconds without coverage: tries random bytes, and changes of what it tried
-/// before. `flaw` returns a sentence about a mesh in which the property does not hold, else "". Equal seeds try equal
+/// Looks for a mesh with a flaw without coverage: tries random bytes, and changes of what it tried before, `most` meshes
+/// at most. `flaw` returns a sentence about a mesh in which the property does not hold, else "". Equal seeds try equal
 /// meshes.
 Finding find_flaw(const Generator& generator, const std::function<std::string(const Soup&)>& flaw,
-                  double seconds, unsigned seed);
+                  std::size_t most, unsigned seed);
 
 } // namespace terrane::fuzzing
 

@@ -87,6 +87,21 @@ TEST_CASE("minimise: as many triangles remain as it takes") {
     CHECK(triangle_count(minimise(two_solids(), fails)) == 3);
 }
 
+TEST_CASE("minimise: a mesh far away that must stay exactly as it is comes to the origin") {
+    Soup soup(1);
+    const double far = 0x1p36 + 50;
+    add_triangle(soup[0], {{{far, far, far}, {far + 3, far, far}, {far, far + 7, far + 1}}});
+    const auto fails = [](const Soup& s) { // the differences are as they were, to a power of two
+        if (triangle_count(s) != 1 || s[0].points.size() != 3) return false;
+        const auto& p = s[0].points;
+        const double unit = p[2].z - p[0].z;
+        return unit > 0 && p[1].x - p[0].x == 3 * unit && p[1].y == p[0].y && p[1].z == p[0].z &&
+               p[2].x == p[0].x && p[2].y - p[0].y == 7 * unit;
+    };
+    REQUIRE(fails(soup));
+    CHECK(minimise(soup, fails)[0].points == std::vector<Point>{{0, 0, 0}, {3, 0, 0}, {0, 7, 1}});
+}
+
 TEST_CASE("minimise: a process of its own tells failures, crashes and hangs from success") {
     CHECK_FALSE(fails_apart([] { return true; }, 10));
     CHECK(fails_apart([] { return false; }, 10));
