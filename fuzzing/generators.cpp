@@ -176,7 +176,7 @@ Soup soup(Bytes& bytes, std::size_t most) {
     Points points(bytes);
     Soup parts(1 + bytes.below(4));
     while (!bytes.empty()) {
-        const auto before = parts;
+        Soup before = parts;
         Part& to = parts[bytes.below(static_cast<unsigned>(parts.size()))];
         add_piece(parts, to, points, bytes);
         if (triangle_count(parts) > most) return before;

@@ -54,6 +54,32 @@ Part compacted(const Part& part) {
     return result;
 }
 
+/// Leaves out pairs of triangles at a corner that face opposite ways; tells whether there were any.
+bool cancel_opposites(std::vector<Triangle>& triangles, std::uint32_t corner) {
+    std::vector<Triangle> at_corner, left;
+    for (const Triangle& t : triangles)
+        (std::find(t.begin(), t.end(), corner) == t.end() ? left : at_corner).push_back(t);
+    const auto is_opposite = [](const Triangle& t, Triangle other) {
+        std::swap(other[0], other[1]);
+        for (unsigned turns = 0; turns < 3 && t != other; ++turns)
+            std::rotate(other.begin(), other.begin() + 1, other.end());
+        return t == other;
+    };
+    while (!at_corner.empty()) {
+        const Triangle t = at_corner.back();
+        at_corner.pop_back();
+        const auto found = std::find_if(at_corner.begin(), at_corner.end(),
+                                        [&](const Triangle& u) { return is_opposite(t, u); });
+        if (found == at_corner.end())
+            left.push_back(t);
+        else
+            at_corner.erase(found);
+    }
+    const bool any = left.size() < triangles.size();
+    if (any) triangles = left;
+    return any;
+}
+
 class Minimiser {
 public:
     Minimiser(Soup soup, const Fails& fails) : best_(std::move(soup)), fails_(fails) {}
@@ -117,7 +143,10 @@ private:
         std::erase_if(triangles, [](const Triangle& t) {
             return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
         });
-        return triangles.size() < best_[p].triangles.size() && accept(changed);
+        if (triangles.size() == best_[p].triangles.size()) return false;
+        Soup without = changed; // sides that came together, as those of a tetrahedron do
+        if (cancel_opposites(without[p].triangles, to) && accept(without)) return true;
+        return accept(changed);
     }
     /// Shifts all points, so that one is 0 along an axis, or multiplies them by a power of two, so that the largest
     /// number is 1 or more: nearly coplanar points mostly remain so.

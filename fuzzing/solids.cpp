@@ -34,7 +34,8 @@ public:
 
 private:
     [[nodiscard]] std::size_t index(const Cell& c) const {
-        return static_cast<std::size_t>((c[0] * size_ + c[1]) * size_ + c[2]);
+        const int at = (c[0] * size_ + c[1]) * size_ + c[2];
+        return static_cast<std::size_t>(at);
     }
     /// Tells whether shape `how` has the cell.
     [[nodiscard]] bool in_shape(unsigned how, const Cell& c) const {
@@ -56,7 +57,8 @@ private:
 Cubes::Cubes(Bytes& bytes) : size_(1) {
     const unsigned how = bytes.byte();
     size_ = how % 8 < 4 ? 1 + static_cast<int>(how / 8 % 3) : 3 + static_cast<int>(how / 8 % 3);
-    filled_.assign(static_cast<std::size_t>(size_ * size_ * size_), false);
+    const int cells = size_ * size_ * size_;
+    filled_.assign(static_cast<std::size_t>(cells), false);
     unsigned bits = 0, left = 0;
     Cell c{};
     for (c[0] = 0; c[0] < size_; ++c[0])

@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <span>
+
+#include <fmt/format.h>
 
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/cli/commands/command.hpp>
