@@ -56,7 +56,9 @@ void look_at_points(const Soup& before, const Soup& after, Seen& seen) {
         if (std::find(old.begin(), old.end(), p) != old.end()) {
             ++seen.onto_vertex;
         } else if (six_volumes(old[0], old[1], old[2], p) == 0) {
-            ++seen.into_plane;
+            const double u = p.x / 4,
+                         v = p.y / 4; // old[0] + u (old[1] - old[0]) + v (old[2] - old[0])
+            seen.into_plane += u != 0 && v != 0 && u + v != 1 ? 1 : 0;
             if (p == Point{2, 0, 0.5} || p == Point{0, 2, 1} || p == Point{2, 2, 1.5})
                 ++seen.onto_edge;
         }
