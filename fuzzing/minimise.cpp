@@ -7,6 +7,9 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <map>
+#include <utility>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -39,19 +42,43 @@ bool is_simpler(double a, double b) {
 /// Merges points at equal places, to the sign of zeros, and drops unused ones. The points of the triangles do not change.
 Part compacted(const Part& part) {
     Part result{{}, part.triangles};
+    std::map<std::array<std::uint64_t, 3>, std::uint32_t> index; // by the bits of the coordinates
     for (Triangle& t : result.triangles)
         for (std::uint32_t& v : t) {
             const Point p = part.points[v];
-            const auto same = [&p](const Point& q) {
-                return p == q && std::signbit(p.x) == std::signbit(q.x) &&
-                       std::signbit(p.y) == std::signbit(q.y) &&
-                       std::signbit(p.z) == std::signbit(q.z);
-            };
-            const auto at = std::find_if(result.points.begin(), result.points.end(), same);
-            v = static_cast<std::uint32_t>(at - result.points.begin());
-            if (at == result.points.end()) result.points.push_back(p);
+            std::array<std::uint64_t, 3> bits{};
+            static_assert(sizeof bits == sizeof p);
+            std::memcpy(bits.data(), &p, sizeof bits);
+            const auto [at, is_new] =
+                index.try_emplace(bits, static_cast<std::uint32_t>(result.points.size()));
+            if (is_new) result.points.push_back(p);
+            v = at->second;
         }
     return result;
+}
+
+/// Returns the points that no triangle has, in order.
+std::vector<std::uint32_t> unused_points(const Part& part) {
+    std::vector<bool> used(part.points.size(), false);
+    for (const Triangle& t : part.triangles)
+        for (const std::uint32_t v : t) used[v] = true;
+    std::vector<std::uint32_t> unused;
+    for (std::uint32_t v = 0; v < used.size(); ++v)
+        if (!used[v]) unused.push_back(v);
+    return unused;
+}
+
+/// Removes points that no triangle has; they are in order.
+void drop_points(Part& part, const std::vector<std::uint32_t>& dropped) {
+    std::vector<Point> left;
+    std::vector<std::uint32_t> index;
+    for (std::uint32_t v = 0; v < part.points.size(); ++v) {
+        index.push_back(static_cast<std::uint32_t>(left.size()));
+        if (!std::binary_search(dropped.begin(), dropped.end(), v)) left.push_back(part.points[v]);
+    }
+    for (Triangle& t : part.triangles)
+        for (std::uint32_t& v : t) v = index[v];
+    part.points = left;
 }
 
 /// Leaves out pairs of triangles at a corner that face opposite ways; tells whether there were any.
@@ -86,8 +113,9 @@ public:
 
     Soup run() {
         for (bool again = true; again;) {
-            again = drop_triangles();
-            again = compact() || again;
+            again = compact();
+            again = drop_triangles() || again;
+            again = drop_unused_points() || again;
             again = contract_edges() || again;
             again = simplify_frame() || again;
             again = simplify_numbers() || again;
@@ -102,6 +130,25 @@ private:
         best_ = changed;
         return true;
     }
+    /// Removes the points that no triangle has, where some of them matter: all, half of them, ..., one.
+    bool drop_unused_points() {
+        bool any = false;
+        for (std::size_t p = 0; p < best_.size(); ++p)
+            for (std::size_t piece = unused_points(best_[p]).size(); piece > 0; piece /= 2)
+                for (std::size_t at = 0;;) {
+                    const auto unused = unused_points(best_[p]);
+                    if (at >= unused.size()) break;
+                    Soup changed = best_;
+                    const auto last = std::min(at + piece, unused.size());
+                    drop_points(changed[p], {unused.begin() + static_cast<std::ptrdiff_t>(at),
+                                             unused.begin() + static_cast<std::ptrdiff_t>(last)});
+                    if (accept(changed))
+                        any = true;
+                    else
+                        at += piece;
+                }
+        return any;
+    }
     /// Removes pieces of all triangles of a part, of half of them, of a quarter, ..., of one triangle.
     bool drop_triangles() {
         bool any = false;
@@ -113,6 +160,7 @@ private:
                     const auto first = triangles.begin() + static_cast<std::ptrdiff_t>(at);
                     const auto count = std::min(piece, triangles.size() - at);
                     triangles.erase(first, first + static_cast<std::ptrdiff_t>(count));
+                    if (is_compact_) changed[p] = compacted(changed[p]);
                     if (accept(changed))
                         any = true;
                     else
@@ -123,7 +171,9 @@ private:
     bool compact() {
         Soup changed = best_;
         for (Part& part : changed) part = compacted(part);
-        return changed != best_ && accept(changed);
+        const bool is_new = changed != best_;
+        is_compact_ = !is_new || accept(changed);
+        return is_new && is_compact_;
     }
     /// Makes two corners one, and drops the triangles that have both: closed parts remain closed.
     bool contract_edges() {
@@ -225,6 +275,7 @@ private:
 
     Soup best_;
     const Fails& fails_;
+    bool is_compact_ = false; ///< whether unused and equal points do not matter
 };
 
 } // namespace

@@ -118,6 +118,23 @@ TEST_CASE("minimise: a number becomes simpler everywhere, or in one place") {
     CHECK(x_of(fixed, 1) == 0);
 }
 
+TEST_CASE("minimise: points that no triangle has go, but for those that matter") {
+    Soup soup(1);
+    for (double x = 0; x < 40; ++x) add_triangle(soup[0], {{{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}}});
+    soup[0].points.push_back({9, 9, 9}); // unused
+    const auto has_unused = [](const Soup& s) {
+        std::vector<bool> used(s[0].points.size());
+        for (const Triangle& t : s[0].triangles)
+            for (const auto v : t) used[v] = true;
+        return std::count(used.begin(), used.end(), false) > 0;
+    };
+    const Soup least = minimise(soup, has_unused);
+    CHECK(least[0].triangles.empty());
+    CHECK(least[0].points == std::vector<Point>{{0, 0, 0}});
+    const auto two = [](const Soup& s) { return triangle_count(s) >= 2; };
+    CHECK(minimise(soup, two)[0].points.size() <= 6);
+}
+
 TEST_CASE("minimise: as many triangles remain as it takes") {
     const auto fails = [](const Soup& s) { return triangle_count(s) >= 3; };
     CHECK(triangle_count(minimise(two_solids(), fails)) == 3);
