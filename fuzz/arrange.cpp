@@ -3,14 +3,13 @@
 // Property: the independent verifier accepts the arrangement; order, reflection, scale, axes,
 // search method and threads do not change it.
 #include "property.hpp"
-#include "shapes.hpp"
 
 #include "support/soup_laws.hpp"
 
 namespace terrane::fuzz {
 
-std::vector<Surface> input(Bytes& bytes) {
-    return soup(bytes, 14);
+Soup input(Bytes& bytes) {
+    return fuzzing::soup(bytes, 14);
 }
 
 std::string flaw(std::span<const Surface> input_surfaces) {

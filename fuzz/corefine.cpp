@@ -6,7 +6,6 @@
 // counted under the name of the condition.
 #include "property.hpp"
 #include "report.hpp"
-#include "shapes.hpp"
 
 #include "support/corefine_oracle.hpp"
 
@@ -45,66 +44,66 @@ Tally& tally() {
 }
 
 /// Adds triangles around a point: a disc, or a part of one.
-void add_disc(Surface& surface, Points& points, Bytes& bytes) {
+void add_disc(Part& part, Points& points, Bytes& bytes) {
     const unsigned corners = 3 + bytes.below(4);
-    for (unsigned i = 0; i <= corners; ++i) surface.vertices.push_back(points.next(bytes));
+    for (unsigned i = 0; i <= corners; ++i) part.points.push_back(points.next(bytes));
     const bool whole = bytes.flag();
-    for (unsigned i = 1; i < corners; ++i) surface.triangles.push_back({0, i, i + 1});
-    if (whole) surface.triangles.push_back({0, corners, 1});
+    for (unsigned i = 1; i < corners; ++i) part.triangles.push_back({0, i, i + 1});
+    if (whole) part.triangles.push_back({0, corners, 1});
+}
+
+Point3 point_of(const fuzzing::Point& p) {
+    return {p.x, p.y, p.z};
 }
 
 /// Orients a closed piece outward if its points are in general position.
-void turn_outward(Surface& s, const Point3& below, const Point3& above) {
-    const Triangle t = s.triangles[0];
-    const auto& v = s.vertices;
-    if (orient3d(v[t[0]], v[t[1]], v[t[2]], below == v[t[0]] ? above : below) == Sign::Negative)
-        return;
-    for (Triangle& each : s.triangles) std::swap(each[1], each[2]);
+void turn_outward(Part& part, const Point3& below) {
+    const Triangle t = part.triangles[0];
+    const auto corner = [&](unsigned i) { return point_of(part.points[t[i]]); };
+    if (orient3d(corner(0), corner(1), corner(2), below) == Sign::Negative) return;
+    for (Triangle& each : part.triangles) std::swap(each[1], each[2]);
 }
 
-void add_closed(Surface& s, Points& points, Bytes& bytes, unsigned corners) {
-    std::array<Point3, 5> p;
+void add_closed(Part& part, Points& points, Bytes& bytes, unsigned corners) {
+    std::array<fuzzing::Point, 5> p;
     for (unsigned i = 0; i < corners; ++i) p[i] = points.next(bytes);
     if (corners == 4) {
-        add_tetrahedron(s, {p[0], p[1], p[2], p[3]});
-        return turn_outward(s, p[3], p[3]); // triangle 0 is 0 2 1
+        add_tetrahedron(part, {p[0], p[1], p[2], p[3]});
+        return turn_outward(part, point_of(p[3])); // triangle 0 is 0 2 1
     }
-    add_double_pyramid(s, p);
-    turn_outward(s, p[4], p[4]); // triangle 0 is 0 1 3
+    add_double_pyramid(part, p);
+    turn_outward(part, point_of(p[4])); // triangle 0 is 0 1 3
 }
 
-Surface any_surface(Points& points, Bytes& bytes) {
-    Surface s;
+Part any_part(Points& points, Bytes& bytes) {
+    Part part;
     switch (bytes.below(8)) {
     case 0:
     case 1:
     case 2:
-        add_sheet(s, points, bytes, bytes.below(4) == 0);
-        return s;
+        add_sheet(part, points, bytes, bytes.below(4) == 0);
+        return part;
     case 3:
     case 4:
-        add_closed(s, points, bytes, 4);
-        return s;
+        add_closed(part, points, bytes, 4);
+        return part;
     case 5:
-        add_closed(s, points, bytes, 5);
-        return s;
+        add_closed(part, points, bytes, 5);
+        return part;
     case 6:
-        add_disc(s, points, bytes);
-        return s;
+        add_disc(part, points, bytes);
+        return part;
     default:
-        add_box(s, points, bytes);
-        return s;
+        add_box(part, points, bytes);
+        return part;
     }
 }
 
 } // namespace
 
-std::vector<Surface> input(Bytes& bytes) {
+Soup input(Bytes& bytes) {
     Points points(bytes);
-    std::vector<Surface> pair{any_surface(points, bytes), any_surface(points, bytes)};
-    pair[0].name = "a";
-    pair[1].name = "b";
-    return pair;
+    return {any_part(points, bytes), any_part(points, bytes)};
 }
 
 std::string flaw(std::span<const Surface> pair) {

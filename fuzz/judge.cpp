@@ -3,7 +3,6 @@
 // Property: the mesh that an arrangement is rounded to is accepted; without one of its triangles, with
 // one moved off or with one twice, it is not.
 #include "property.hpp"
-#include "shapes.hpp"
 
 #include <terrane/algorithms/judge/judge.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
@@ -14,8 +13,8 @@
 
 namespace terrane::fuzz {
 
-std::vector<Surface> input(Bytes& bytes) {
-    return soup(bytes, 14);
+Soup input(Bytes& bytes) {
+    return fuzzing::soup(bytes, 14);
 }
 
 namespace {

@@ -4,7 +4,6 @@
 // same as one that does not, down to what later stages take from it. The surfaces are arranged in several
 // versions, one after the other; the object for what is known goes through all of them.
 #include "property.hpp"
-#include "shapes.hpp"
 
 #include "support/differences.hpp"
 
@@ -38,7 +37,10 @@ Point3 step_in(const Model& model) {
 void repeat_triangle(const Surface& of, Surface& in) {
     if (of.triangles.empty()) return;
     const Triangle t = of.triangles.front();
-    add_triangle(in, {of.vertices[t[0]], of.vertices[t[1]], of.vertices[t[2]]});
+    const auto first = static_cast<std::uint32_t>(in.vertices.size());
+    for (const std::uint32_t v : t)
+        in.vertices.push_back(Point3(of.vertices[v])); // it may be the same
+    in.triangles.push_back({first, first + 1, first + 2});
 }
 
 /// Changes surface s in one of several ways, or the order of all.
@@ -72,8 +74,8 @@ Model changed(Model model, std::size_t s, unsigned how) {
 
 } // namespace
 
-std::vector<Surface> input(Bytes& bytes) {
-    return soup(bytes, 24);
+Soup input(Bytes& bytes) {
+    return fuzzing::soup(bytes, 24);
 }
 
 std::string flaw(std::span<const Surface> surfaces) {

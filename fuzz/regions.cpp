@@ -3,7 +3,6 @@
 // Property: regions are the connected parts of surfaces cut along their intersection edges, which
 // are found a second time from all pairs of triangles.
 #include "property.hpp"
-#include "shapes.hpp"
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/arrangement/exact_arrangement.hpp>
@@ -15,8 +14,8 @@
 
 namespace terrane::fuzz {
 
-std::vector<Surface> input(Bytes& bytes) {
-    return soup(bytes, 24);
+Soup input(Bytes& bytes) {
+    return fuzzing::soup(bytes, 24);
 }
 
 namespace {

@@ -5,14 +5,13 @@
 // its own arrangement. This holds for one round of snapping and for none as well, where meshes are
 // refused more often.
 #include "property.hpp"
-#include "shapes.hpp"
 
 #include "support/soup_laws.hpp"
 
 namespace terrane::fuzz {
 
-std::vector<Surface> input(Bytes& bytes) {
-    return soup(bytes, 14);
+Soup input(Bytes& bytes) {
+    return fuzzing::soup(bytes, 14);
 }
 
 std::string flaw(std::span<const Surface> input_surfaces) {

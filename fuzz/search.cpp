@@ -2,8 +2,8 @@
 //
 // Property: every search method, with one thread and with two, finds the same pairs of overlapping
 // boxes as the comparison of all pairs: sorted, each once.
+#include "bytes.hpp"
 #include "report.hpp"
-#include "shapes.hpp"
 
 #include <terrane/algorithms/search/search.hpp>
 
@@ -21,7 +21,7 @@ using Boxes = std::vector<Box>;
 using Groups = std::vector<std::uint32_t>;
 using Pairs = std::vector<CandidatePair>;
 
-Box around(const Point3& a, const Point3& b) {
+Box around(const fuzzing::Point& a, const fuzzing::Point& b) {
     return {{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
             {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
 }
@@ -34,11 +34,11 @@ double side(Bytes& bytes) {
 }
 
 /// Adds one box, or a row of boxes that touch or overlap.
-void add_boxes(Boxes& boxes, const fuzz::Frame& frame, Bytes& bytes) {
+void add_boxes(Boxes& boxes, const fuzzing::Frame& frame, Bytes& bytes) {
     const unsigned kind = bytes.byte();
-    Point3 low{double(bytes.between(-16, 16)), double(bytes.between(-16, 16)),
-               double(bytes.between(-16, 16))};
-    const Point3 size{side(bytes), side(bytes), side(bytes)};
+    fuzzing::Point low{double(bytes.between(-16, 16)), double(bytes.between(-16, 16)),
+                       double(bytes.between(-16, 16))};
+    const fuzzing::Point size{side(bytes), side(bytes), side(bytes)};
     const unsigned copies = kind < 192 ? 1 : 1 + kind % 32;
     const double step = kind % 3 == 0 ? 1 : kind % 3 == 1 ? size.x : 0.5;
     for (unsigned i = 0; i < copies; ++i) {
@@ -136,7 +136,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         check_many(bytes);
         return 0;
     }
-    const fuzz::Frame frame(bytes);
+    const fuzzing::Frame frame(bytes);
     Boxes boxes;
     const std::size_t most = bytes.below(96);
     while (boxes.size() < most && !bytes.empty()) add_boxes(boxes, frame, bytes);

@@ -3,7 +3,7 @@
 """Writes the seed corpora: fuzz/seeds.py [FOLDER]   (fuzz/corpus unless given)
 
 Every seed is a case with a name, in the language that the target reads its bytes in: see
-shapes.cpp, corefine.cpp, predicates.cpp, search.cpp and forge.cpp. The same files come out each time.
+fuzzing/generators.cpp, corefine.cpp, predicates.cpp, search.cpp and forge.cpp. The same files come out each time.
 """
 import base64
 import pathlib

@@ -4,7 +4,6 @@
 // triangle have its area; or a failure of TetGen, in its child process, is reported. A mesh that is
 // not conforming is refused with the right error.
 #include "property.hpp"
-#include "shapes.hpp"
 
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
@@ -18,8 +17,8 @@
 
 namespace terrane::fuzz {
 
-std::vector<Surface> input(Bytes& bytes) {
-    return soup(bytes, 8);
+Soup input(Bytes& bytes) {
+    return fuzzing::soup(bytes, 8);
 }
 
 namespace {

@@ -11,7 +11,6 @@
 #include <string>
 
 #include "property.hpp"
-#include "shapes.hpp"
 
 #include "support/differences.hpp"
 #include "support/pieces_joined.hpp"
@@ -129,7 +128,7 @@ private:
 
 /// Makes up to 104 triangles on a lattice of few spacings of the doubles, far from the origin. They cross in
 /// thousands of places, which are in few doubles.
-std::vector<Surface> heap(Bytes& bytes) {
+Soup heap(Bytes& bytes) {
     constexpr std::array<double, 4> places{1e6, 4.2e6, -0x1p40, 1.0 / 3};
     std::array<double, 3> at{};
     for (double& x : at) x = places[bytes.below(4)];
@@ -137,18 +136,16 @@ std::vector<Surface> heap(Bytes& bytes) {
     const double spacing =
         std::ldexp(std::nextafter(largest, HUGE_VAL) - largest, bytes.between(0, 4));
     const unsigned range = 2 + bytes.below(6), triangles = 8 * (1 + bytes.below(13));
-    std::vector<Surface> surfaces(1 + bytes.below(3));
-    for (std::size_t s = 0; s < surfaces.size(); ++s)
-        surfaces[s].name = std::string(1, char('a' + s));
+    Soup soup(1 + bytes.below(3));
     Numbers numbers(bytes);
     for (unsigned t = 0; t < triangles; ++t) {
-        std::array<Point3, 3> corners{};
-        for (Point3& p : corners)
+        std::array<fuzzing::Point, 3> corners{};
+        for (fuzzing::Point& p : corners)
             p = {at[0] + spacing * numbers.below(range), at[1] + spacing * numbers.below(range),
                  at[2] + spacing * numbers.below(range)};
-        add_triangle(surfaces[t % surfaces.size()], corners);
+        add_triangle(soup[t % soup.size()], corners);
     }
-    return surfaces;
+    return soup;
 }
 
 /// Tells whether all points are within 64 spacings of the largest coordinate.
@@ -172,10 +169,10 @@ bool is_in_few_doubles(std::span<const Surface> surfaces) {
 
 } // namespace
 
-std::vector<Surface> input(Bytes& bytes) {
+Soup input(Bytes& bytes) {
     constexpr unsigned for_heap = 0x10; // which no frame of a soup needs
     Bytes ahead = bytes;
-    if (ahead.byte() / 16 % 4 != for_heap / 16) return soup(bytes, 24);
+    if (ahead.byte() / 16 % 4 != for_heap / 16) return fuzzing::soup(bytes, 24);
     bytes = ahead;
     return heap(bytes);
 }

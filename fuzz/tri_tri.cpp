@@ -4,7 +4,6 @@
 // simplices, in either order and for any first corner; and they meet improperly iff the verifier
 // finds so.
 #include "property.hpp"
-#include "shapes.hpp"
 
 #include "support/contact_oracle.hpp"
 
@@ -13,12 +12,12 @@
 
 namespace terrane::fuzz {
 
-std::vector<Surface> input(Bytes& bytes) {
+Soup input(Bytes& bytes) {
     Points points(bytes);
-    std::vector<Surface> surfaces(2);
-    for (Surface& s : surfaces)
-        add_triangle(s, {points.next(bytes), points.next(bytes), points.next(bytes)});
-    return surfaces;
+    Soup soup(2);
+    for (Part& part : soup)
+        add_triangle(part, {points.next(bytes), points.next(bytes), points.next(bytes)});
+    return soup;
 }
 
 namespace {

@@ -4,7 +4,6 @@
 // one to the other as stated; their measures are exact. The same holds for the blocks of a
 // conforming rounded mesh.
 #include "property.hpp"
-#include "shapes.hpp"
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
@@ -16,8 +15,8 @@
 
 namespace terrane::fuzz {
 
-std::vector<Surface> input(Bytes& bytes) {
-    return soup(bytes, 24);
+Soup input(Bytes& bytes) {
+    return fuzzing::soup(bytes, 24);
 }
 
 namespace {

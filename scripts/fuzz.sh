@@ -47,6 +47,7 @@ run_target() {
         options=(-max_len=4096 -malloc_limit_mb=256 "-dict=$PWD/fuzz/dictionaries/${target#read_}.dict")
     fi
     [[ $target != forge_arrangement && $target != pieces ]] || options[0]=-max_len=4096 # with files in them
+    [[ ! -x $binaries/minimise_$target ]] || options[0]=-max_len=1500 # literal meshes: 24 bytes per point
     # len_control lets inputs grow sooner. entropic is off, as its cost is linear in the features of
     # a run and took two thirds of the time.
     "$binaries/fuzz_$target" "${options[@]}" -seed="$seed" -max_total_time="$seconds" -timeout=20 \

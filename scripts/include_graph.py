@@ -31,7 +31,7 @@ def sources(root: Path):
     """Paths of all files of the library and the program, relative to the root."""
     return [
         path.relative_to(root)
-        for top in ("kernel", "algorithms", "io", "capi", "cli")
+        for top in ("fuzzing", "kernel", "algorithms", "io", "capi", "cli")
         for path in sorted((root / top).rglob("*"))
         if path.suffix in (".hpp", ".cpp", ".h")
     ]

@@ -11,7 +11,7 @@ cd "$(dirname "$0")/.."
 git ls-files -z '*.hpp' '*.cpp' '*.h' '*.c' | xargs -0 -r clang-format-14 --dry-run -Werror
 echo "lint: formatted"
 
-tidied=('kernel/*.cpp' 'algorithms/*.cpp' 'io/*.cpp' 'capi/*.cpp' 'cli/*.cpp')
+tidied=('fuzzing/*.cpp' 'kernel/*.cpp' 'algorithms/*.cpp' 'io/*.cpp' 'capi/*.cpp' 'cli/*.cpp')
 if [[ $# -gt 0 ]]; then
     mapfile -t files < <(git diff --name-only --diff-filter=d "$1" -- "${tidied[@]}")
 else

@@ -16,6 +16,7 @@
 #   many       surfaces and parts in number: an hour
 #   threads    ThreadSanitizer
 #   corpus     all answers of tests/corpus, derived by brute force and found by Terrane
+#   engine     a small engine with 18 planted bugs: terrane::fuzzing finds each from 20 seeds, and nothing in the sound one
 #   fuzz       all fuzz targets, FUZZ_SECONDS (default 540) each: six hours of one core
 # FOLDER (default: build/nightly) gets a log for each part, and keeps the fuzz corpora. It ends with a
 # table; the status is 1 if a part found something.
@@ -24,7 +25,7 @@ cd "$(dirname "$0")/.."
 folder=${1:-build/nightly}
 shift || true
 parts=("$@")
-[[ ${#parts[@]} -gt 0 ]] || parts=(cases soups decimals mpi models stacks signals memory arguments kept many threads corpus fuzz)
+[[ ${#parts[@]} -gt 0 ]] || parts=(cases soups decimals mpi models stacks signals memory arguments kept many threads corpus engine fuzz)
 mkdir -p "$folder"
 
 cmake --preset release >/dev/null && cmake --build --preset release || exit 2
@@ -71,6 +72,11 @@ run_part() {
     corpus)
         /usr/bin/python3 -B docs/examples/python/check_case.py tests/corpus/*.json &&
             PYTHONPATH=$PWD/build/release/python /usr/bin/python3 -B tests/corpus/make.py --compare ;;
+    engine) # which the test consumer leaves behind
+        ctest --test-dir build/release -R '^consumer$' || return 1
+        for seed in $(seq 20); do
+            $tests/consumer/fuzzing/fuzz_engine 50000 "$seed" || return 1
+        done ;;
     fuzz)
         fuzz/check_plants.py build/release/compile_commands.json &&
             FUZZ_CORPUS=$PWD/$folder/corpus scripts/fuzz.sh "${FUZZ_SECONDS:-540}" ;;

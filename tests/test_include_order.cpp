@@ -70,7 +70,7 @@ bool is_standard(const std::string& include) {
 } // namespace
 
 TEST_CASE("includes: all that is ours is included by its installed name", "[once]") {
-    for (const std::string folder : {"kernel", "algorithms", "io", "capi", "cli"})
+    for (const std::string folder : {"fuzzing", "kernel", "algorithms", "io", "capi", "cli"})
         for (const fs::path& file : sources_in(folder))
             for (const std::string& include : includes_of(file)) {
                 INFO(file << " includes " << include);

@@ -28,6 +28,7 @@ Command improve_command(CLI::App& program);
 Command judge_command(CLI::App& program);
 Command layer_command(CLI::App& program);
 Command manual_command(CLI::App& program);
+Command minimise_command(CLI::App& program);
 Command report_command(CLI::App& program);
 Command tetrahedralize_command(CLI::App& program);
 Command verify_command(CLI::App& program);

@@ -43,6 +43,7 @@ for binary in "$work"/terrane/fuzz/fuzz_*; do
     [[ -f $binary && -x $binary ]] || continue
     name=${binary##*/} target=${binary##*/fuzz_} length=400
     [[ $target == read_* || $target == forge_arrangement || $target == pieces ]] && length=4096
+    [[ ! -e ${binary%/*}/minimise_$target ]] || length=1500 # literal meshes
     cp "$binary" "$OUT/"
     zip -qj "$OUT/${name}_seed_corpus.zip" "$fuzz/corpus/$target"/*
     printf '[libfuzzer]\nmax_len = %d\n' "$length" >"$OUT/$name.options"

@@ -10,6 +10,7 @@ set(verify_headers ${terrane_headers})
 list(FILTER verify_headers INCLUDE REGEX "^algorithms/verify/")
 list(FILTER terrane_headers EXCLUDE REGEX "^algorithms/verify/")
 list(APPEND terrane_headers advanced.hpp)
+set(fuzzing_headers fuzzing/files.hpp fuzzing/meshes.hpp fuzzing/minimise.hpp fuzzing/mutate.hpp)
 # The C interface. terrane.h includes the others.
 set(terrane_c_headers
     terrane.h

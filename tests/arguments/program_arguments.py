@@ -33,7 +33,8 @@ BASES = {
     "build": "project.json -o out", "ensemble": "project.json -o out --realisations=2 --grid=5 --engine=serial",
     "info": "top.ts fault.ts", "check": "top.ts fault.ts", "fill": "dish.obj -o out.stl", "layer": "--hard=salt.ts --soft=shale.ts --keep=upper -o out.stl",
     "report": f"top.ts fault.ts -o out.html {BOX}", "view": f"top.ts fault.ts {BOX}", "convert": "top.ts out.stl",
-    "verify": "certificate.json", "judge": "arranged.obj top.ts fault.ts", "completion": "bash", "manual": "arrange"}
+    "verify": "certificate.json", "judge": "arranged.obj top.ts fault.ts", "minimise": "top.ts --test=false -o out.stl",
+    "completion": "bash", "manual": "arrange"}
 #: Commands that are not run, with the reason; their options are only refused.
 NOT_RUN = {"bench": "it measures for hours"}
 #: How a command runs or what it says, not what it makes: only nonsense is tried.
@@ -59,7 +60,7 @@ SENSE = {
     "--contact": ("-1000", ""), "--only": ("1", "BASE=project.json -o out"), "--json": ("", ""), "--method": ("rbf", ""),
     "--model": ("gaussian", ""), "--isotropic": ("", ""), "--smoothing": ("3", "--method=rbf"), "--mesh-size": ("9", ""),
     "--rings": ("1", ""), "--holes": ("1", ""), "--max-area": ("1", ""), "--list": ("", "BASE=fold.ts"), "--map": ("m.svg", ""),
-    "--soup": ("", "BASE=body.ts"), "--operation": ("union", "BASE=body.ts body.ts"), "--tags": ("", ""),
+    "--soup": ("", "BASE=body.ts"), "--operation": ("union", "BASE=body.ts body.ts"), "--tags": ("", ""), "--test": ("true", "BASE=top.ts -o out.stl"),
     "--points": ("p.csv", ""), "--keep": ("lower", ""), "--min-thickness": ("5", ""),
     "--layer": ("salt=2", "BASE=salt.ts shale.ts -o out.stl --layer=shale=1")}
 #: The same option of another command.
@@ -72,7 +73,7 @@ ALSO = {("ensemble", "--grid"): ("7", ""), ("layer", "--certificate"): ("c.json"
         ("layer", "--min-thickness"): ("5", "BASE=salt.ts shale.ts -o out.stl --layer=shale=1 --layer=salt=2"),
         ("layer", "--depth"): None, ("layer", "--max-edge"): None, ("layer", "--columns"): None, ("verify", "--depth"): None,
         ("verify", "--columns"): None, ("fill", "--columns"): None, ("verify", "--max-edge"): None,
-        ("judge", "--depth"): None, ("judge", "--max-edge"): None, ("judge", "--columns"): None,
+        ("judge", "--depth"): None, ("judge", "--max-edge"): None, ("judge", "--columns"): None, ("minimise", "--depth"): None, ("minimise", "--max-edge"): None, ("minimise", "--columns"): None,
         ("volume", "--seal-plot"): ("p.svg", f"BASE=top.ts base.ts fault.ts {BOX} --suggest-seal"),
         ("volume", "--grid"): ("grid.grdecl", "--cells=cells.grdecl"),
         ("fill", "--max-edge"): None, ("tetrahedralize", "--seal"): None, ("report", "--seal"): None, ("view", "--seal"): None,

@@ -3,7 +3,8 @@
 # Installs the build tree into WORK/prefix; then configures, builds and runs the consumer against it, with the
 # library's compiler and, if installed, with the other one of gcc and clang. The first build has all C and C++ of the
 # documentation.
-# Then it does what README.md says: the programs there print what it shows.
+# Then a project fuzzes its own engine with terrane::fuzzing.
+# At last it does what README.md says: the programs there print what it shows.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed)
   if(failed)
@@ -60,6 +61,27 @@ foreach(compiler IN LISTS compilers)
   judge_dependencies(${build})
   run(${build}/consumer)
 endforeach()
+
+# A project that fuzzes its own engine. Meshes are counted, so that the load of the machine does not matter;
+# scripts/nightly.sh tries more.
+list(POP_BACK compilers compiler) # clang, if it is installed
+run(${CMAKE_COMMAND} -S ${SOURCE}/fuzzing -B ${WORK}/fuzzing -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
+    -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${compiler} ${flags})
+run(${CMAKE_COMMAND} --build ${WORK}/fuzzing)
+execute_process(COMMAND ninja -C ${WORK}/fuzzing -t deps CMakeFiles/alone.dir/alone.cpp.o OUTPUT_VARIABLE files
+                COMMAND_ERROR_IS_FATAL ANY)
+if(NOT files MATCHES "terrane/fuzzing/meshes.hpp" OR files MATCHES "terrane/(kernel|algorithms|io)/")
+  message(FATAL_ERROR "terrane::fuzzing is compiled from ${files}")
+endif()
+run(${WORK}/fuzzing/alone)
+run(${WORK}/fuzzing/fuzz_engine 10000)
+if(EXISTS ${WORK}/fuzzing/libfuzzer_engine)
+  execute_process(COMMAND ${WORK}/fuzzing/libfuzzer_engine -seed=1 -runs=20000 -max_len=4096
+                  WORKING_DIRECTORY ${WORK}/fuzzing OUTPUT_VARIABLE printed ERROR_QUIET)
+  if(NOT printed MATCHES "misses a pair.*2 triangles")
+    message(FATAL_ERROR "libFuzzer does not find the planted bug: ${printed}")
+  endif()
+endif()
 run(${CMAKE_CTEST_COMMAND} --test-dir ${build} -E union)
 execute_process(COMMAND ${CMAKE_CTEST_COMMAND} --test-dir ${build} -R union OUTPUT_VARIABLE printed)
 if(NOT printed MATCHES "0% tests passed, 1 tests failed out of 1")

@@ -12,8 +12,9 @@ TITLES = {
     "LGPL-3.0-or-later": "GNU LESSER GENERAL PUBLIC LICENSE",
     "GPL-3.0-or-later": "GNU GENERAL PUBLIC LICENSE",  # the LGPL refers to it
     "AGPL-3.0-or-later": "GNU AFFERO GENERAL PUBLIC LICENSE",  # the program with TetGen
+    "MIT": "MIT License",  # the folder fuzzing alone
 }
-FOLDERS = ("kernel", "algorithms", "io", "capi", "cli", "fuzz", "scripts", "tests", "docs")
+FOLDERS = ("kernel", "algorithms", "io", "capi", "cli", "fuzz", "fuzzing", "scripts", "tests", "docs")
 SOURCES = {".cpp", ".hpp", ".py", ".sh", ".cmake", ".txt"}
 FOREIGN = ("tests/data", "tests/certified", "fuzz/corpus", "docs/data")
 
@@ -35,6 +36,8 @@ def check(root):
         count += 1
         if identifier not in TITLES:
             flaws.append(f"{name}: {identifier or 'no licence'} has no text in LICENSES/")
+        elif (identifier == "MIT") != name.startswith("fuzzing/"):
+            flaws.append(f"{name}: {identifier} is not the licence of this folder")
     texts = {path.stem: path.read_text() for path in (root / "LICENSES").glob("*.txt")}
     if set(texts) != set(TITLES):
         flaws.append(f"LICENSES/ has {sorted(texts)} instead of {sorted(TITLES)}")
