@@ -51,7 +51,7 @@ void widen(std::vector<Box>& boxes, const std::array<double, 3>& largest) {
 } // namespace
 
 RepairedPart repair_part(PartOfDoubles part, const Run& run) {
-    const Elsewhere elsewhere{part.largest_elsewhere, BoxCover(std::move(part.covered))};
+    const BoxCover covered(std::move(part.covered));
     const double largest_move = part.largest_move;
     RoundingState state = state_of(part);
     const std::size_t all = state.all_triangles();
@@ -61,7 +61,8 @@ RepairedPart repair_part(PartOfDoubles part, const Run& run) {
     task.used = part.used;
     task.max_rounds = RoundingOptions{}.max_rounds;
     task.hopeless = hopeless_from(all);
-    task.elsewhere = &elsewhere;
+    task.largest = part.largest_elsewhere;
+    task.covered = &covered;
     const std::size_t left_from = part.is_moved ? hopeless_from(all) : crowded_from(all);
 
     RepairedPart out;
@@ -83,7 +84,7 @@ RepairedPart repair_part(PartOfDoubles part, const Run& run) {
     out.missing = repair.missing();
     out.compared = repair.compared();
     if (!out.missing.empty()) {
-        auto largest = elsewhere.largest;
+        auto largest = task.largest;
         for (const Point3& p : state.points)
             largest = {std::max(largest[0], std::fabs(p.x)), std::max(largest[1], std::fabs(p.y)),
                        std::max(largest[2], std::fabs(p.z))};

@@ -127,7 +127,7 @@ private:
     Result<std::optional<DecimalFrame>> decimal_frame() override;
     Result<std::optional<ClusterFrame>> cluster_frame() override;
     [[nodiscard]] std::optional<SnapGrid> grid(int digits, double limit) const override {
-        return grid_of_digits(inputs(), digits, limit, task_.kept);
+        return grid_of_digits(inputs(), digits, limit, task_.kept, task_.largest);
     }
     Result<Attempted> attempt(const DecimalFrame& frame) override {
         return attempt(input_.surfaces(frame));
@@ -220,16 +220,24 @@ Result<RoundedMesh> round_once(const Arrangement& a, const Task& task) {
     return rounded;
 }
 
-/// Rounds within the limit of the task: where nothing is conforming, once more with a repair of places, and more
-/// attempts. Only then takes a mesh that is ill-joined or parted.
+/// Gives all grids of a task one spacing on all axes. Those with a spacing for each axis hardly move the smaller
+/// coordinates, such as depths beside map coordinates, as far as the limit allows.
+void use_one_spacing(const Arrangement& a, Task& task) {
+    task.largest.fill(largest_coordinate(a));
+    task.most_attempts *= rounding_tuning.more_attempts;
+}
+
+/// Rounds within the limit of the task: where nothing is conforming, once more with one spacing on all axes, then
+/// with a repair of places, too. Only then takes a mesh that is ill-joined or parted.
 Result<RoundedMesh> round_within(const Arrangement& a, Task task) {
     std::optional<RoundedMesh> spare;
     task.spare = &spare;
     auto rounded = round_once(a, task);
     const auto is_unclean = [&] { return rounded && !rounded->report.clean; };
-    if (is_unclean() && task.options.max_rounds > 0) {
-        task.repairs_places = true;
-        task.most_attempts *= rounding_tuning.more_attempts;
+    if (is_unclean()) use_one_spacing(a, task);
+    for (const bool repairs_places : {false, true}) {
+        if (!is_unclean() || task.options.max_rounds == 0) break;
+        task.repairs_places = repairs_places;
         auto again = round_once(a, task);
         if (!again || again->report.clean) rounded = std::move(again);
     }
@@ -238,9 +246,10 @@ Result<RoundedMesh> round_within(const Arrangement& a, Task task) {
 }
 
 /// Returns the least limit, a power of two times that of the task, with which the mesh is conforming; 0: it is with
-/// none of those that were tried. A rounding within that limit begins with the same attempts.
+/// none of those that were tried. A rounding within that limit makes the same attempts.
 Result<double> sufficient_limit(const Arrangement& a, Task task) {
     const double limit = task.limit;
+    use_one_spacing(a, task);
     const auto suffices = [&](int digits) -> Result<bool> {
         task.limit = std::ldexp(limit, digits);
         const auto rounded = round_once(a, task); // without a repair of places, which takes longer

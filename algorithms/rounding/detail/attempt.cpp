@@ -128,7 +128,8 @@ void Rounding::repair(std::vector<CandidatePair>& pairs) {
                           options_.max_rounds,
                           hopeless_from(arrangement_.triangles.size()),
                           arrangement_.state->whole,
-                          tests_all()};
+                          tests_all(),
+                          task_.largest};
     Repair repair(state_, task, run_);
     repair(pairs);
     out_.report.rounds = repair.rounds();

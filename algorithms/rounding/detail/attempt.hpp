@@ -34,7 +34,8 @@ struct Task {
     double limit;           ///< of surface_deviation
     const KeptPlanes& kept; ///< as given, in no frame
     const Run& run;
-    bool repairs_places = false;                 ///< see RepairTask
+    std::array<double, 3> largest{};             ///< see RepairTask
+    bool repairs_places = false;                 ///< whether places are repaired that are left
     unsigned most_attempts = options.max_rounds; ///< with moved inputs
     std::optional<RoundedMesh>* spare{};         ///< gets a conforming mesh that is ill-joined, or
                                                  ///< that are_parted() is true of

@@ -4,16 +4,20 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/mesh/triangle_table.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane::rounding::detail {
 
 using Side = std::array<std::uint32_t, 2>; ///< two vertices, ascending
+struct SideHash {
+    std::size_t operator()(const Side& s) const { return hash_of(Triangle{s[0], s[1], 0}); }
+};
 
 /// Returns the side from corner i to the next.
 Side side_of(const Triangle& t, unsigned i);
@@ -46,8 +50,9 @@ private:
     }
 
     std::span<const Point3> points_;
-    std::vector<bool> is_corner_;           ///< per point: whether a lost triangle has it
-    std::map<Side, std::uint32_t> line_of_; ///< per side of lost triangles with different ends
+    std::vector<bool> is_corner_; ///< per point: whether a lost triangle has it
+    std::unordered_map<Side, std::uint32_t, SideHash>
+        line_of_; ///< per side of lost triangles with different ends
     std::vector<std::vector<std::uint32_t>> corners_on_; ///< per line, in lexicographic order
 };
 

@@ -44,7 +44,8 @@ struct Attempt {
 class Places {
 public:
     Places(RoundingState& state, const RepairTask& task, const Run& run) :
-        state_(state), task_(task), run_(run), quiet_(without_progress(run)) {
+        state_(state), task_(task), run_(run), quiet_(without_progress(run)),
+        largest_(task.largest) {
         quiet_.threads = 1;
         for (const Point3& p : state_.points)
             largest_ = {std::max(largest_[0], std::fabs(p.x)),
@@ -85,7 +86,7 @@ private:
     const RepairTask& task_;
     const Run& run_;
     Run quiet_;
-    std::array<double, 3> largest_{};
+    std::array<double, 3> largest_;
     std::unordered_set<std::size_t> hopeless_; ///< hashes of places that can't be mended
 };
 
@@ -229,9 +230,10 @@ RoundingState Places::part_of(const Place& place, std::vector<std::uint32_t>& po
 Attempt Places::attempt(const Place& place) const {
     Mended mended;
     const RoundingState before = part_of(place, mended.points);
-    const Elsewhere elsewhere{largest_, BoxCover(place.covered)};
+    const BoxCover covered(place.covered);
     RepairTask task = task_;
-    task.elsewhere = &elsewhere;
+    task.largest = largest_;
+    task.covered = &covered;
     Attempt out;
     double last = 0;
     for (const int digits : rounding_tuning.place_digits) {

@@ -44,16 +44,16 @@ std::vector<CandidatePair> find_contacts(RoundingState& state, bool tests_all,
 
 /// Tells whether each of these boxes is within a covered one, and notes those that are not.
 bool Repair::has_all_in(std::span<const Box> boxes) {
-    if (task_.elsewhere == nullptr) return true;
+    if (task_.covered == nullptr) return true;
     for (const Box& box : boxes)
-        if (!task_.elsewhere->covered.contains(box, compared_)) missing_.push_back(box);
+        if (!task_.covered->contains(box, compared_)) missing_.push_back(box);
     return missing_.empty();
 }
 
 /// Tells whether all triangles are here that overlap one with a dirty corner. So all triangles at its
 /// corners are, too.
 bool Repair::has_all_near_dirty() {
-    if (task_.elsewhere == nullptr) return true;
+    if (task_.covered == nullptr) return true;
     std::vector<Box> boxes;
     for (const std::uint32_t t : state_.dirty_triangles(run_))
         boxes.push_back(box_of(state_.points, state_.triangles[t]));
@@ -78,7 +78,7 @@ std::vector<CandidatePair> Repair::contacts() {
 
 std::optional<SnapGrid> Repair::grid(int digits) const {
     return grid_of_digits(state_.points, digits, task_.limit - deviation(), task_.kept,
-                          largest_elsewhere());
+                          task_.largest);
 }
 
 void Repair::operator()(std::vector<CandidatePair>& pairs) {

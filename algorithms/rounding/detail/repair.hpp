@@ -22,22 +22,19 @@
 
 namespace terrane::rounding::detail {
 
-/// The rest of a mesh, as the repair of a part of it needs it.
-struct Elsewhere {
-    std::array<double, 3> largest{}; ///< absolute coordinate of the points there, per axis
-    BoxCover covered;                ///< all triangles that overlap one of these are in the part
-};
-
 /// How doubles are repaired.
 struct RepairTask {
-    const KeptPlanes& kept;       ///< coordinates that stay
-    double limit = 0;             ///< of the deviation of the state, with the part that is used up
-    double used = 0;              ///< of the limit, as the input was moved
-    unsigned max_rounds = 0;      ///< of moving and snapping
-    std::size_t hopeless = 0;     ///< least number of contacts that are not divided
-    bool is_whole = true;         ///< see Repair::operator()
-    bool tests_all = false;       ///< whether searches test all pairs
-    const Elsewhere* elsewhere{}; ///< null: the state has the whole mesh
+    const KeptPlanes& kept;   ///< coordinates that stay
+    double limit = 0;         ///< of the deviation of the state, with the part that is used up
+    double used = 0;          ///< of the limit, as the input was moved
+    unsigned max_rounds = 0;  ///< of moving and snapping
+    std::size_t hopeless = 0; ///< least number of contacts that are not divided
+    bool is_whole = true;     ///< see Repair::operator()
+    bool tests_all = false;   ///< whether searches test all pairs
+    std::array<double, 3> largest{}; ///< grids are made for absolute coordinates this large, per
+                                     ///< axis, and for those of the state
+    const BoxCover* covered{}; ///< all triangles that overlap one of these are in the state; null:
+                               ///< it has the whole mesh
 };
 
 /// Returns a bound of the distance of surfaces from where they were before the input was moved.
@@ -94,9 +91,6 @@ private:
     bool snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& grid);
     bool divide_again(std::size_t most_pairs);
     [[nodiscard]] double deviation() const { return deviation_of(state_, task_.used); }
-    [[nodiscard]] std::array<double, 3> largest_elsewhere() const {
-        return task_.elsewhere == nullptr ? std::array<double, 3>{} : task_.elsewhere->largest;
-    }
     bool has_all_near_dirty();
     bool has_all_in(std::span<const Box> boxes);
     [[nodiscard]] bool is_stuck() const { return !missing_.empty() || run_.stop.stop_requested(); }

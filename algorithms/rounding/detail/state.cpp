@@ -7,11 +7,14 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/parallel.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/algorithms/mesh/triangle_table.hpp>
 #include <terrane/algorithms/rounding/detail/closed_parts.hpp>
 #include <terrane/algorithms/rounding/detail/collapsed_triangles.hpp>
 #include <terrane/algorithms/rounding/detail/tuning.hpp>
@@ -139,7 +142,8 @@ double largest_gap(std::span<const OpenLine> lines, const std::vector<bool>& at_
 /// Bounds the gaps that collapsed triangles leave. A collapsed triangle is a line. Points of it are
 /// at the mesh if a remaining triangle has this line as an edge, or its halves.
 void RoundingState::find_gaps(const std::vector<bool>& gone) {
-    std::set<Side> lines; // sides of dropped triangles, without those of remaining triangles
+    std::unordered_set<Side, SideHash>
+        lines; // sides of dropped triangles, without those of remaining triangles
     std::vector<bool> concerned(points.size(), false), at_mesh(points.size(), false);
     const auto side = [](const Triangle& t, unsigned i) { return side_of(t, i); };
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
@@ -295,7 +299,8 @@ bool RoundingState::divide_sides(const CollapsedTriangles& lines) {
 /// Drops the triangles that are gone. Of equal triangles it keeps the first, which gets the parents
 /// of all.
 void RoundingState::join_equal(std::span<const std::uint32_t> dirty, std::vector<bool>& gone) {
-    std::map<Triangle, std::uint32_t> seen; // by sorted corners
+    std::unordered_map<Triangle, std::uint32_t, TriangleHash> seen; // by sorted corners
+    seen.reserve(dirty.size());
     std::map<std::uint32_t, std::vector<std::uint32_t>> extra;
     for (const std::uint32_t t : dirty) {
         if (gone[t]) continue;
@@ -320,8 +325,7 @@ void RoundingState::join_equal(std::span<const std::uint32_t> dirty, std::vector
         }
         auto& list = more->second;
         list.insert(list.end(), parents_of[t].begin(), parents_of[t].end());
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
+        sort_unique(list);
         parents.push_back(list);
     }
     triangles.resize(kept);
@@ -362,8 +366,7 @@ void RoundingState::replace_triangles(std::vector<Triangle> fresh,
         list.clear();
         for (const std::uint32_t f : faces_of[t])
             list.insert(list.end(), parents_of[f].begin(), parents_of[f].end());
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
+        if (faces_of[t].size() > 1) sort_unique(list);
         parents.push_back(list);
     }
     triangles = std::move(fresh);

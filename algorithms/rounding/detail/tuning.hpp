@@ -12,7 +12,7 @@
 namespace terrane::rounding::detail {
 
 /// The constants of rounding. A grid is given by the number of binary digits that it drops: its
-/// spacing is 2^digits units in the last place of the largest coordinate on each axis.
+/// spacing is 2^digits units in the last place of the largest coordinate on each axis, but see (4).
 ///
 /// (0) Few contacts are searched for doubles nearby that separate them.
 /// (1) Crossing triangles of the output are snapped first, to fine grids, so that as little as
@@ -24,8 +24,9 @@ namespace terrane::rounding::detail {
 /// (3) For a part of an arrangement (restricted.hpp) that is the last resort: the removed part
 ///     would be decided again. It gets all grids in place first, each as long as it removes
 ///     contacts.
-/// (4) If all that fails, it is done once more, and the contacts left at the end of each repair are
-///     repaired place by place (places.hpp), so that one place does not keep others from it.
+/// (4) If all that fails, it is done once more with grids of one spacing on all axes, then a third
+///     time, and the contacts left at the end of each repair are repaired place by place
+///     (places.hpp), so that one place does not keep others from it.
 /// (5) No grid moves a point farther than surfaces may move. By default that is 1024 spacings of
 ///     the doubles, which nearly coplanar surfaces need: snapped to a grid of 512 spacings, most of
 ///     their parts are so far from each other that rounding to doubles does not make them cross.

@@ -118,6 +118,17 @@ TEST_CASE("movement: surfaces on a decimal lattice move by a few spacings of the
     CHECK(soup_laws::rounding_flaw(surfaces, a).empty());
 }
 
+TEST_CASE("movement: units that nearly coincide across the axis of small coordinates") {
+    const auto surfaces = read_data("regression/024-depths-on-a-finer-grid.obj");
+    const auto a = arranged(surfaces);
+    const auto r = rounded(a);
+    REQUIRE(r.report.clean);
+    CHECK(r.report.naive_contacts > 0);
+    CHECK(r.report.surface_deviation > 2 * spacing_at_4e6); // no repair where they lie will do
+    check_consistent(r.report);
+    CHECK(soup_laws::rounding_flaw(surfaces, a).empty());
+}
+
 TEST_CASE("movement: random soups on a decimal lattice") {
     for (int i = 0; i < cases(20); ++i) {
         INFO(i);
