@@ -136,12 +136,11 @@ void AveragedHeights::add_rest(const DataAroundHole& around) {
 }
 
 KnownHeights AveragedHeights::at(std::span<const Point3> places, const Run& run) const {
-    const auto size = static_cast<double>(data_.size());
-    const double operations = size * size * static_cast<double>(places.size() * systems_.size());
-    const bool all = operations <= constants.most_operations;
+    const auto operations = [](std::size_t data, std::size_t at) { return data * data * at; };
+    const bool all = operations(data_.size(), places.size() * systems_.size()) <=
+                     operations(constants.few_data, constants.most_places);
     if (!all && fewer_.empty())
-        fewer_ = systems_of(selected(near_, well_spread_in_plane(near_, constants.most_deviations)),
-                            run);
+        fewer_ = systems_of(selected(near_, well_spread_in_plane(near_, constants.few_data)), run);
     KnownHeights known{std::vector<double>(places.size()), std::vector<double>(places.size())};
     constexpr std::size_t grain = 64;
     const auto some = [&](std::size_t part) {

@@ -23,51 +23,37 @@ struct KrigingConstants : Constants {
     /// Misfit of a model to all data above which it estimates from those near the hole alone. Larger:
     /// farther data help smooth models, but may be of another kind.
     double most_misfit = add("most_misfit", 1.5);
-    /// Data of a standard deviation where all of them would take more than `most_operations`
-    /// multiplications.
-    std::size_t most_deviations = add("most_deviations", 250);
-    double most_operations = add("most_operations", 1.5e9);
+    /// Well-spread data near the hole that stand for all: of blocks, and of standard deviations where
+    /// all would take more multiplications than these do at `most_places` places. Larger: slower, n^3
+    /// for each model.
+    std::size_t few_data = add("few_data", 250);
     /// Well-spread data near the hole from which likelihoods are computed; half of them with their
     /// nearest neighbour, and a quarter as many farther away. Larger: slower, n^3 for each model.
     std::size_t most_fitted = add("most_fitted", 96);
-    /// Ranges that are tried, at equal ratios.
-    int range_steps = add("range_steps", 6);
     /// Least range, in median distances of neighbours: a surface that is rougher than that can't be
     /// told from noise.
     double gaps_per_range = add("gaps_per_range", 3);
-    /// Largest range, in extents of the data.
-    double most_range = add("most_range", 8);
-    /// Largest range of a gaussian model, likewise: its sill would grow beyond what doubles can
-    /// subtract.
-    double most_smooth_range = add("most_smooth_range", 1.8);
+    /// Largest range, in extents of the data. Smaller: smooth surfaces look rough. Larger: slower.
+    double most_range = add("most_range", 2);
     /// Range across in ranges along of the models with anisotropy.
     double turned_ratio = add("turned_ratio", 0.4);
     /// Logarithms of likelihoods are divided by this: no surface is a draw of any of the models.
     double temper = add("temper", 2);
     /// Weight below which a model has no say.
     double least_weight = add("least_weight", 0.01);
-    /// Blocks that are left out in turn.
+    /// Blocks that are left out in turn. Since they overlap, half as many count as independent.
     std::size_t blocks = add("blocks", 16);
-    /// Data among which they are, well spread.
-    std::size_t block_data = add("block_data", 200);
     /// Width of the widest rim of data round the hole that is left out, in radii of the hole.
     double rim = add("rim", 0.5);
-    /// A block with more than this share of the data is not left out.
-    double most_of_all = add("most_of_all", 0.6);
-    /// All blocks count as at most this number of independent ones, since they overlap.
-    double most_counted = add("most_counted", 8);
     /// Blocks that the models' own expected errors count for.
     double block_prior = add("block_prior", 2);
-    /// Distance of the data from the trend, in largest heights, below which it is rounding.
-    double trend_rounding = add("trend_rounding", 1e-13);
     /// Interpolated vertices of a filling; above, the mesh becomes coarser.
     std::size_t most_places = add("most_places", 20'000);
     /// Edges at which flatness is judged.
     std::size_t most_sags = add("most_sags", 64);
-    /// Least distance of interpolated vertices from a border, in mesh sizes.
+    /// Least distance of interpolated vertices from a border, and largest one of its samples, from
+    /// which it is measured, in mesh sizes.
     double border_distance = add("border_distance", 0.7);
-    /// Samples of a border per mesh size, for distances from it.
-    double border_samples = add("border_samples", 2);
 };
 
 inline constexpr KrigingConstants constants{};

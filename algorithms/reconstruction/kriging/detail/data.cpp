@@ -112,7 +112,7 @@ private:
     std::vector<std::uint32_t> ring_, all_;
 };
 
-/// Samples the borders at distances of at most half a mesh size.
+/// Samples the borders.
 Cloud sampled(std::span<const Point3> points, std::span<const Polygon> borders, double size) {
     Cloud cloud;
     for (const Polygon& polygon : borders)
@@ -120,7 +120,7 @@ Cloud sampled(std::span<const Point3> points, std::span<const Polygon> borders, 
             const Point3 &a = points[polygon[i]], &b = points[polygon[(i + 1) % polygon.size()]];
             const double length = std::hypot(b.x - a.x, b.y - a.y);
             const double steps =
-                std::clamp(std::ceil(constants.border_samples * length / size), 1.0, 1000.0);
+                std::clamp(std::ceil(length / (constants.border_distance * size)), 1.0, 1000.0);
             for (double k = 0; k < steps; ++k)
                 cloud.points.push_back(
                     {a.x + (b.x - a.x) * k / steps, a.y + (b.y - a.y) * k / steps, 0});

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include <terrane/algorithms/reconstruction/kriging/contrasts.hpp>
-#include <terrane/algorithms/reconstruction/kriging/detail/constants.hpp>
 
 namespace terrane::kriging::detail {
 
@@ -176,7 +175,8 @@ MatrixXd System::projection() const {
 Likelihood::Likelihood(std::span<const Point3> data) :
     data_(data.begin(), data.end()), terms_(data, highest_degree), basis_(terms_.matrix(data)),
     numbers_(heights_of(data)), extent_(flat_extent_of(data)) {
-    rounding_ = constants.trend_rounding * numbers_.cwiseAbs().maxCoeff();
+    rounding_ = static_cast<double>(data.size()) * std::numeric_limits<double>::epsilon() *
+                numbers_.cwiseAbs().maxCoeff();
     numbers_.array() -= numbers_.mean();
     spread_ = std::log(2 * std::numbers::pi * numbers_.squaredNorm());
     basis_.apply(numbers_);

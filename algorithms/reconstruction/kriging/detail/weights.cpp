@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,6 +21,11 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+/// Returns how many of these blocks count as independent of each other.
+double independent(double blocks) {
+    return std::min(blocks, static_cast<double>(constants.blocks) / 2);
+}
 
 /// Lists the shapes that are wanted, without ranges.
 std::vector<Variogram> shapes(const KrigingOptions& options) {
@@ -107,19 +113,20 @@ private:
         return *std::max_element(found.begin(), found.end(), less_likely);
     }
 
-    /// Gives a shape ranges at equal ratios.
+    /// Gives a shape ranges at equal ratios, at most e.
     [[nodiscard]] std::vector<Variogram> ranged(Variogram shape) const {
         using enum VariogramModel;
         const double extent = std::max(likelihood_.extent(), 1e-300);
         shape.range = extent;
         if (shape.model == power || shape.model == thin_plate || shape.model == cubic)
             return {shape}; // a mere unit
-        const double most =
-            extent * (shape.model == gaussian ? constants.most_smooth_range : constants.most_range);
-        const double low = std::log(std::min(least_range_, most)), high = std::log(most);
+        const double most = constants.most_range * extent;
+        const double least = std::numeric_limits<double>::epsilon() * extent;
+        const double low = std::log(std::clamp(least_range_, least, most)), high = std::log(most);
+        const double steps = std::ceil(high - low);
         std::vector<Variogram> all;
-        for (int k = 0; k < constants.range_steps; ++k) {
-            shape.range = std::exp(low + (high - low) * k / (constants.range_steps - 1));
+        for (double k = 0; k <= steps; ++k) {
+            shape.range = std::exp(low + (high - low) * k / std::max(1.0, steps));
             all.push_back(shape);
         }
         return all;
@@ -183,9 +190,7 @@ struct LeftOut {
     std::vector<std::vector<Index>> rims;   ///< all round the hole, as if it were wider
 
     void add(std::vector<std::vector<Index>>& to, std::vector<Index> some, std::size_t all) const {
-        const auto most = constants.most_of_all * static_cast<double>(all);
-        if (!some.empty() && static_cast<double>(some.size()) <= most)
-            to.push_back(std::move(some));
+        if (!some.empty() && 2 * some.size() <= all) to.push_back(std::move(some));
     }
 };
 
@@ -258,7 +263,7 @@ Judged judged(const Likely& likely, std::span<const Point3> data, const LeftOut&
     for (const auto& [errors, variances] : result.blocks)
         sum -= (variances.array().log() + errors.array().square() / variances.array()).mean() / 2;
     const auto count = static_cast<double>(std::max<std::size_t>(1, left.blocks.size()));
-    result.logarithm += std::min(1.0, constants.most_counted / count) * sum;
+    result.logarithm += independent(count) / count * sum;
     if (!std::isfinite(result.logarithm)) return {result.model};
     return result;
 }
@@ -312,7 +317,7 @@ void calibrate(std::span<const Judged> all, std::span<const Point3> data, const 
     }
     const auto n = static_cast<double>(left.blocks.size());
     const auto trusted = [](double ratio, double blocks) {
-        const double counted = std::min(blocks, constants.most_counted);
+        const double counted = independent(blocks);
         return (counted * ratio + constants.block_prior) / (counted + constants.block_prior);
     };
     double square = 0, worst = 0;
@@ -327,7 +332,7 @@ void calibrate(std::span<const Judged> all, std::span<const Point3> data, const 
     // What grows by a ratio from outside to the border may do so again to the middle of the hole.
     if (!left.rims.empty()) {
         average.rim_ratio = std::sqrt(worst);
-        square = std::max(square, std::pow(trusted(worst, constants.most_counted), 2));
+        square = std::max(square, std::pow(trusted(worst, HUGE_VAL), 2));
     }
     if (square > 0) average.factor = std::sqrt(square);
 }
@@ -357,7 +362,7 @@ ModelAverage weigh_models(const DataAroundHole& around, const KrigingOptions& op
     if (options.noise)
         for (Likely& l : likely) l.variogram.nugget = *options.noise * *options.noise;
     const auto near = around.data.first(around.near);
-    const auto data = selected(near, well_spread_in_plane(near, constants.block_data));
+    const auto data = selected(near, well_spread_in_plane(near, constants.few_data));
     const auto left = left_out_of(data, around);
     std::vector<Judged> all(likely.size());
     const auto one = [&](std::size_t i) { all[i] = judged(likely[i], data, left, run); };

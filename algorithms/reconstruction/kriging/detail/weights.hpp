@@ -74,7 +74,7 @@ std::vector<Point3> selected(std::span<const Point3> data, std::span<const std::
 ///       radius: where they are missed by more, the surface becomes rougher or steeper towards the
 ///       hole, and may do so again within it. So `factor` is the square of that ratio, if that is more.
 /// Stops early if the run is stopped; the result is of no use then.
-/// Cost: 4/3 n^3 for n = 168 and each of 40 to 90 shapes, with all trends; n^3 for n = 200 and each of
+/// Cost: 4/3 n^3 for n = 168 and each of 40 to 90 shapes, with all trends; n^3 for n = 250 and each of
 /// at most 12 models.
 ModelAverage weigh_models(const DataAroundHole& around, const KrigingOptions& options,
                           const Run& run);

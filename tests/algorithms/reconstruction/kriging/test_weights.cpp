@@ -66,6 +66,37 @@ TEST_CASE("kriging: logarithms of likelihoods are halved", "[kriging]") {
                   Approx((likelihood_of(likelihood, m) - best) / 2).margin(1e-6));
 }
 
+TEST_CASE("kriging: models that weigh less than a hundredth have no say", "[kriging]") {
+    Random random(53);
+    std::normal_distribution<double> normal;
+    const auto noise = lattice(9, [&](double, double) { return normal(random); });
+    int above = 0, below = 0;
+    for (int k = 0; k < 20; ++k) {
+        auto data = noise;
+        for (Point3& p : data) p.z += (0.9 + 0.03 * k) * smooth(p.x, p.y);
+        // The likeliest of many ranges, and of noise alone.
+        const Likelihood likelihood(data);
+        std::array<double, 3> best{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+        for (const Likely& l : likelihood.of_noise()) best[2] = std::max(best[2], l.likelihood);
+        for (double range = 3 * spacing; range < 2 * likelihood.extent(); range *= 1.1)
+            for (const bool twice : {false, true})
+                for (const Likely& l :
+                     likelihood.at({VariogramModel::matern, 0, 1, range, twice ? 2.5 : 1.5}))
+                    best[twice] = std::max(best[twice], l.likelihood);
+        double sum = 0;
+        for (const double b : best) sum += std::exp((b - best[2]) / 2);
+        const bool is_noise_kept = std::ranges::any_of(
+            models_of(data, {.model = VariogramModel::matern, .anisotropy = false}),
+            [](const WeighedModel& m) { return m.variogram.sill == 0; });
+        above += 1 / sum > 0.0125 && 1 / sum < 0.04 ? 1 : 0;
+        below += 1 / sum < 0.008 && 1 / sum > 0.0025 ? 1 : 0;
+        if (1 / sum > 0.0125) CHECK(is_noise_kept);
+        if (1 / sum < 0.008) CHECK(!is_noise_kept);
+    }
+    CHECK(above > 0);
+    CHECK(below > 0);
+}
+
 TEST_CASE("kriging: the range of a smooth surface is the likeliest one within 1.2 percent",
           "[kriging]") {
     for (const double scale : {1.0, 1.1, 1.25, 1.4}) {
