@@ -19,23 +19,18 @@ Soup input(Bytes& bytes) {
 
 namespace {
 
-/// Names the properties that fail, or also those that can't be judged.
-std::string named(const Surface& mesh, std::span<const Surface> inputs, bool in_doubt) {
-    const auto found = judge(std::span(&mesh, 1), inputs);
+/// Names the properties that fail.
+std::string failing(const Result<MeshJudgement>& found) {
     if (!found) return found.error().message();
     std::string names;
     for (const JudgedProperty& p : found->properties)
-        if (p.verdict == PropertyVerdict::fails ||
-            (in_doubt && p.verdict == PropertyVerdict::not_judged))
-            names += " " + p.name;
+        if (p.verdict == PropertyVerdict::fails) names += " " + p.name;
     return names;
-}
-std::string failing(const Surface& mesh, std::span<const Surface> inputs) {
-    return named(mesh, inputs, false);
 }
 /// Damage may be in doubt where the exact result has parts thinner than the bound.
 bool is_accepted(const Surface& mesh, std::span<const Surface> inputs) {
-    return named(mesh, inputs, true).empty();
+    const auto found = judge(std::span(&mesh, 1), inputs);
+    return found && found->holds() && found->complete();
 }
 
 double size_of(const Surface& mesh) {
@@ -81,8 +76,10 @@ std::string flaw(std::span<const Surface> surfaces) {
     const auto made = round_to_doubles(*exact);
     if (!made || !made->report.clean) return "";
     const Surface mesh{"", Role::unknown, made->mesh->vertices, made->mesh->triangles};
-    if (const auto names = failing(mesh, surfaces); !names.empty())
-        return "a good mesh is refused:" + names;
+    const auto found = judge(std::span(&mesh, 1), surfaces);
+    if (!found && found.error().code == ErrorCode::unsupported)
+        return ""; // too large, or too small
+    if (const auto names = failing(found); !names.empty()) return "a good mesh is refused:" + names;
     for (std::size_t t = 0; t < mesh.triangles.size(); t += 1 + mesh.triangles.size() / 4)
         if (const auto what = overlooked(mesh, t, surfaces); !what.empty())
             return "it overlooks " + what;

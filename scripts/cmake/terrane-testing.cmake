@@ -19,8 +19,10 @@ if(CMAKE_SCRIPT_MODE_FILE)
   if(OPERATION)
     set(OPERATION --operation ${OPERATION})
   endif()
-  execute_process(COMMAND ${JUDGE} judge ${OUTPUT} ${INPUTS} ${OPERATION} RESULT_VARIABLE status)
-  if(NOT status MATCHES "^[02]$") # 2: not all can be judged, as parts of the exact result are too near each other
+  execute_process(COMMAND ${JUDGE} judge ${OUTPUT} ${INPUTS} ${OPERATION} RESULT_VARIABLE status OUTPUT_VARIABLE said)
+  message(STATUS "${said}")
+  # Not all can be judged where parts of the exact result are too near each other.
+  if(NOT said MATCHES "result: (all hold|not all judged)\n$")
     message(FATAL_ERROR "${OUTPUT} is not what was asked for")
   endif()
   return()

@@ -165,11 +165,6 @@ private:
     void find_extra_triangles() {
         std::vector<bool> is_off(output_.soup.triangles.size());
         for (const std::uint32_t t : placing_.off) is_off[t] = true;
-        std::vector<std::uint32_t> unsure;
-        for (const std::uint32_t t : placing_.unsure)
-            if (placing_.cell_of[t] != no_index && area(t) <= most_moved_ - moved_area_ &&
-                takes_doubt(t))
-                unsure.push_back(t);
         for (std::uint32_t t = 0; t < is_off.size(); ++t) {
             if (placing_.cell_of[t] != no_index) continue;
             found_.extra_area += area(t);
@@ -180,6 +175,12 @@ private:
                  area(t)},
                 takes_doubt(t)); // rounding joins near parts to triangles in neither
         }
+        // What is left of the doubt may be that of triangles in a region that may not be theirs.
+        std::vector<std::uint32_t> unsure;
+        for (const std::uint32_t t : placing_.unsure)
+            if (placing_.cell_of[t] != no_index && area(t) <= most_moved_ - moved_area_ &&
+                takes_doubt(t))
+                unsure.push_back(t);
         for (const std::uint32_t t : unsure)
             crowding_.area_in_doubt[placing_.cell_of[t]] += area(t);
     }

@@ -118,7 +118,7 @@ bool Crowding::is_near_others(const Point3& p) const {
 bool is_thin(const Point3& a, const Point3& b, const Point3& c, double height) {
     const Point3 u = minus(b, a), v = minus(c, a);
     const double longest = std::max({length(u), length(v), length(minus(u, v))});
-    return length(cross(u, v)) <= height * longest;
+    return longest < 0x1p250 && length(cross(u, v)) <= height * longest; // the product may overflow
 }
 
 Crowding find_crowding(const Target& target, const Cells& cells, double bound) {

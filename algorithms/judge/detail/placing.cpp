@@ -9,6 +9,8 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/kernel/numbers.hpp>
+#include <terrane/kernel/polynomials.hpp>
 
 namespace terrane::judging {
 namespace {
@@ -200,17 +202,22 @@ private:
         for (const std::uint32_t t : flat) placing_.facing[t] = sum < 0 ? -1 : 1;
     }
 
-    /// Whether a corner that stands for no exact point is too far from the plane of a cell.
+    /// Whether a corner that stands for no exact point is too far from the plane of a cell. Exact: the plane of a needle
+    /// far from the origin has none of the digits of doubles.
     [[nodiscard]] bool is_off(std::uint32_t t, std::uint32_t cell) const {
+        using namespace polynomial;
         const auto& points = target_.exact.state->points;
-        const Triangle& plane = cells_.cells[cell].plane;
-        const Point3 &a = points.input(plane[0]), &b = points.input(plane[1]),
-                     &c = points.input(plane[2]);
-        const Point3 normal = cross(minus(b, a), minus(c, a));
-        const double most = 2 * bound_ * length(normal);
+        const auto corner = [&](unsigned i) {
+            return cartesian<Exact>(points.input(cells_.cells[cell].plane[i]));
+        };
+        const auto a = corner(0);
+        const auto normal = cross(difference(corner(1), a), difference(corner(2), a));
+        const Exact most(2 * bound_), limit = most * most * dot(normal, normal);
         return std::ranges::any_of(corners(t), [&](std::uint32_t v) {
             if (!positions_.is_own(v)) return false;
-            return std::abs(dot(normal, minus(output_.soup.points[v], a))) > most;
+            const Exact height =
+                dot(normal, difference(cartesian<Exact>(output_.soup.points[v]), a));
+            return limit < height * height;
         });
     }
 

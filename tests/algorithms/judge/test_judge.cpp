@@ -2,6 +2,7 @@
 #include "damages.hpp"
 #include "support/corefine_oracle.hpp"
 #include "support/random_models.hpp"
+#include "support/read.hpp"
 #include "support/rounded.hpp"
 #include "support/shapes.hpp"
 #include "support/solids.hpp"
@@ -215,14 +216,36 @@ TEST_CASE("judge: meshes of random models raise no false alarm") {
           meshes - 12); // of the others, the exact result has parts thinner than the bound
 }
 
-TEST_CASE("judge: a volume beyond doubles is not judged, and all else is") {
-    const Surface huge = octahedron({0x1p400, 0x1p399, 0}, 0x1p400);
-    const auto found = judged({huge}, {huge, huge}, BooleanOperation::intersect);
-    CHECK(found.failures() == "");
-    CHECK(found.find("volume")->verdict == PropertyVerdict::not_judged);
-    Surface turned = huge;
-    for (Triangle& t : turned.triangles) std::swap(t[0], t[1]);
-    CHECK(fails(judged({turned}, {huge, huge}, BooleanOperation::intersect), "orientation"));
+TEST_CASE("judge: inputs whose areas are no doubles are refused, and results may not be so large") {
+    for (const double size : {0x1p251, 0x1p-251}) {
+        const std::vector<Surface> solid{octahedron({0, 0, 0}, size)};
+        const auto found = judge(solid, solid);
+        REQUIRE_FALSE(found);
+        CHECK(found.error().code == ErrorCode::unsupported);
+    }
+    // The corners at the strip are near each other, so that thin triangles are in doubt.
+    const std::vector<Surface> inputs{level(0, 0, 0, 8, 8), level(1e-13, 1, 1, 2, 2)};
+    Surface spread = as_surface(mesh_of(inputs));
+    spread.vertices.push_back({1e200, 1e200, 1e-200});
+    spread.triangles[0][0] = static_cast<std::uint32_t>(spread.vertices.size() - 1);
+    CHECK(fails(judged({spread}, inputs), "coverage"));
+}
+
+TEST_CASE("judge: vertices that no triangle has do not count") {
+    std::vector<Surface> inputs{level(0, 0, 0, 8, 8), level(1, 1, 1, 2, 2)};
+    const Surface whole = as_surface(mesh_of(inputs));
+    inputs[0].vertices.push_back({1e15, 0, 0});
+    Surface moved = whole;
+    for (Point3& p : moved.vertices) p.z += 1e-3;
+    CHECK(judged({whole}, inputs).holds());
+    CHECK(fails(judged({moved}, inputs), "vertices"));
+}
+
+TEST_CASE("judge: meshes that the fuzz target made are accepted") {
+    for (const std::string name : {"025-parts-in-no-region.obj", "026-plane-of-a-needle.obj"}) {
+        const auto inputs = read_data("regression/" + name);
+        CHECK(judged({as_surface(mesh_of(inputs))}, inputs).failures() == "");
+    }
 }
 
 TEST_CASE("judge: a large flaw is found beside parts that rounding may join") {
