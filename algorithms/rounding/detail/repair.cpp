@@ -2,8 +2,10 @@
 #include <terrane/algorithms/rounding/detail/repair.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <numeric>
+#include <stop_token>
 #include <utility>
 
 #include <terrane/algorithms/arrangement/retriangulation.hpp>
@@ -66,14 +68,20 @@ bool Repair::tidy() {
     return true;
 }
 
-std::vector<CandidatePair> Repair::contacts() {
+std::vector<CandidatePair> Repair::contacts(std::size_t most) {
     if (!has_all_near_dirty()) return {};
+    std::atomic<std::size_t> count = 0;
+    std::stop_source enough;
+    const std::stop_callback also(run_.stop, [&] { enough.request_stop(); });
+    Run until_enough = quiet_;
+    until_enough.stop = enough.get_token();
     const auto is_improper = [&](const CandidatePair& p) {
-        return improper_contact(state_.points, state_.triangles[p.first],
-                                state_.triangles[p.second])
-            .has_value();
+        if (!improper_contact(state_.points, state_.triangles[p.first], state_.triangles[p.second]))
+            return false;
+        if (++count > most) enough.request_stop();
+        return true;
     };
-    return find_contacts(state_, task_.tests_all, is_improper, quiet_);
+    return find_contacts(state_, task_.tests_all, is_improper, until_enough);
 }
 
 std::optional<SnapGrid> Repair::grid(int digits) const {
@@ -94,7 +102,7 @@ void Repair::operator()(std::vector<CandidatePair>& pairs) {
         ++rounds_;
         const RoundingState before = state_;
         const std::size_t count = pairs.size();
-        auto left = snap_round(pairs, *grid) ? contacts() : pairs;
+        auto left = snap_round(pairs, *grid) ? contacts(count - 1) : pairs;
         if (is_stuck()) return;
         if (left.size() < count && deviation() <= task_.limit)
             pairs = std::move(left);
@@ -111,7 +119,7 @@ bool Repair::on_grid(const SnapGrid& grid) {
     const std::size_t most = 2 * pairs.size() + rounding_tuning.sampled;
     for (unsigned round = 0; round < rounding_tuning.place_rounds && !pairs.empty(); ++round) {
         if (grid.reach() > task_.limit - deviation() || !snap_round(pairs, grid)) return false;
-        pairs = contacts();
+        pairs = contacts(most);
         if (is_stuck() || deviation() > task_.limit || pairs.size() > most) return false;
     }
     return pairs.empty() && !is_stuck();
@@ -170,7 +178,7 @@ bool Repair::snap_corners(std::span<const CandidatePair> pairs, const SnapGrid& 
 /// than most_pairs pairs cross, or division would multiply the triangles, it divides nothing and
 /// returns false.
 bool Repair::divide_again(std::size_t most_pairs) {
-    const auto pairs = contacts();
+    const auto pairs = contacts(most_pairs);
     if (pairs.size() > most_pairs) return false;
     if (pairs.empty()) return true;
     Retriangulation division = retriangulate(state_.points, state_.triangles, pairs, {}, quiet_);

@@ -73,8 +73,9 @@ public:
     /// Merges equal points and drops triangles without area, as RoundingState::tidy does. Returns
     /// false, and does nothing, if what it needs is missing.
     bool tidy();
-    /// Finds all contacts; none if what it needs is missing.
-    std::vector<CandidatePair> contacts();
+    /// Finds all contacts, or some more than `most`, after which the state is of no use; none if what
+    /// it needs is missing.
+    std::vector<CandidatePair> contacts(std::size_t most = SIZE_MAX);
 
     [[nodiscard]] unsigned rounds() const { return rounds_; }
     /// Returns the boxes that have to be covered so that a part is repaired as the whole. If there are
