@@ -241,6 +241,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--keep", type=pathlib.Path, metavar="FOLDER", help="keep the outputs there")
     parser.add_argument("--from", dest="known", type=pathlib.Path, metavar="CARD.json", help="write the tables of these results")
+    parser.add_argument("--strict", action="store_true", help="status 1 if a promised result is not right or in doubt")
     parser.add_argument("-o", "--output", required=True, help="name of the files, without an ending")
     arguments = parser.parse_args()
     if arguments.keep:
@@ -249,6 +250,8 @@ def main():
     for ending, text in ((".json", json.dumps(results, indent=0)), (".md", markdown(results)), (".html", page(results))):
         pathlib.Path(arguments.output + ending).write_text(text, encoding="utf-8")
     print(markdown(results))
+    bad = not results or any(r["promised"] and r["end"] not in ("right", "in doubt") for r in results)
+    sys.exit(1 if arguments.strict and bad else 0)
 
 
 if __name__ == "__main__":

@@ -12,10 +12,11 @@ TITLES = {
     "LGPL-3.0-or-later": "GNU LESSER GENERAL PUBLIC LICENSE",
     "GPL-3.0-or-later": "GNU GENERAL PUBLIC LICENSE",  # the LGPL refers to it
     "AGPL-3.0-or-later": "GNU AFFERO GENERAL PUBLIC LICENSE",  # the program with TetGen
-    "MIT": "MIT License",  # the folder fuzzing alone
+    "MIT": "MIT License",  # the folders of MIT alone
 }
 FOLDERS = ("kernel", "algorithms", "io", "capi", "cli", "fuzz", "fuzzing", "scripts", "tests", "docs")
 SOURCES = {".cpp", ".hpp", ".py", ".sh", ".cmake", ".txt"}
+MIT = ("fuzzing/", "docs/examples/clusterfuzzlite/", "docs/examples/github/")
 FOREIGN = ("tests/data", "tests/certified", "fuzz/corpus", "docs/data")
 
 
@@ -36,7 +37,7 @@ def check(root):
         count += 1
         if identifier not in TITLES:
             flaws.append(f"{name}: {identifier or 'no licence'} has no text in LICENSES/")
-        elif (identifier == "MIT") != name.startswith("fuzzing/"):
+        elif (identifier == "MIT") != name.startswith(MIT):
             flaws.append(f"{name}: {identifier} is not the licence of this folder")
     texts = {path.stem: path.read_text() for path in (root / "LICENSES").glob("*.txt")}
     if set(texts) != set(TITLES):

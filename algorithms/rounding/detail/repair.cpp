@@ -81,7 +81,10 @@ std::vector<CandidatePair> Repair::contacts(std::size_t most) {
         if (++count > most) enough.request_stop();
         return true;
     };
-    return find_contacts(state_, task_.tests_all, is_improper, until_enough);
+    auto pairs = find_contacts(state_, task_.tests_all, is_improper, until_enough);
+    if (count > most)
+        pairs.resize(std::max(pairs.size(), most + 1)); // a stopped search may lose some
+    return pairs;
 }
 
 std::optional<SnapGrid> Repair::grid(int digits) const {
