@@ -55,7 +55,7 @@ def files_of(options):
         found.append((f"terrane/_libexec/{os.path.basename(helper)}", helper, 0o755))
     licences = os.path.join(options.source, "LICENSES")
     info = f"terrane-{options.version}.dist-info"
-    for name in sorted(os.listdir(licences)):
+    for name in sorted(set(os.listdir(licences)) - {"MIT.txt"}):  # that of terrane::fuzzing, which is for C++
         found.append((f"{info}/licenses/{name}", os.path.join(licences, name), 0o644))
     return found, info
 

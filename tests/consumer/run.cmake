@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DTETGEN=... -DCOMPILER=... -DSANITIZE=... -P run.cmake
+# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DTETGEN=... -DCOMPILER=... -P run.cmake
 # Installs the build tree into WORK/prefix; then configures, builds and runs the consumer against it, with the
 # library's compiler and, if installed, with the other one of gcc and clang. The first build has all C and C++ of the
 # documentation.
@@ -29,11 +29,8 @@ function(judge_dependencies build)
 endfunction()
 
 file(REMOVE_RECURSE ${WORK})
-set(flags)
 set(compilers ${COMPILER})
-if(SANITIZE) # the runtimes of two compilers can't be mixed
-  set(flags "-DCMAKE_CXX_FLAGS=-fsanitize=address,undefined")
-elseif(COMPILER MATCHES "clang")
+if(COMPILER MATCHES "clang")
   find_program(other NAMES g++)
 else()
   find_program(other NAMES clang++-14 clang++)
@@ -55,7 +52,7 @@ foreach(compiler IN LISTS compilers)
   set(build ${WORK}/build-${name})
   run(${CMAKE_COMMAND} -S ${SOURCE} -B ${build} -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
       -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${compiler} -DWITH_TETGEN=${TETGEN} -DSNIPPETS=${snippets}
-      -DCASES=${WORK}/cases ${flags})
+      -DCASES=${WORK}/cases)
   set(snippets "")
   run(${CMAKE_COMMAND} --build ${build})
   judge_dependencies(${build})
@@ -66,7 +63,7 @@ endforeach()
 # scripts/nightly.sh tries more.
 list(POP_BACK compilers compiler) # clang, if it is installed
 run(${CMAKE_COMMAND} -S ${SOURCE}/fuzzing -B ${WORK}/fuzzing -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
-    -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${compiler} ${flags})
+    -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${compiler})
 run(${CMAKE_COMMAND} --build ${WORK}/fuzzing)
 execute_process(COMMAND ninja -C ${WORK}/fuzzing -t deps CMakeFiles/alone.dir/alone.cpp.o OUTPUT_VARIABLE files
                 COMMAND_ERROR_IS_FATAL ANY)
@@ -100,11 +97,11 @@ function(run_of_readme program)
 endfunction()
 
 run(${CMAKE_COMMAND} -S ${WORK}/readme -B ${WORK}/readme/build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
-    -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${COMPILER} ${flags})
+    -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${COMPILER})
 run(${CMAKE_COMMAND} --build ${WORK}/readme/build)
 run_of_readme(${WORK}/readme/build/blocks)
 file(GLOB_RECURSE package ${WORK}/prefix/lib/*/terrane_c.pc)
-if(package AND NOT SANITIZE)
+if(package)
   cmake_path(GET package PARENT_PATH folder)
   cmake_path(GET folder PARENT_PATH folder)
   run(${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${folder}/pkgconfig sh -c

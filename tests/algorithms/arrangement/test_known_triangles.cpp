@@ -352,7 +352,8 @@ TEST_CASE("known triangles: a contact gets the vertices' new numbers", "[arrange
     CHECK(tested_again({one, two}, {reversed, two}) > 0);
 }
 
-TEST_CASE("known triangles: where triangles meet densely, pairs are left out", "[arrangement]") {
+TEST_CASE("known triangles: where triangles meet densely, pairs are left out",
+          "[arrangement][once]") {
     Engine random(94);
     Surface dense{"dense", Role::unknown, {}, {}};
     const auto add = [&](const Point3& a, const Point3& b, const Point3& c) {

@@ -219,7 +219,8 @@ TEST_CASE("build: vertices slide on the surfaces where tetrahedra are bad", "[vo
     CHECK(parallel->filled->tetrahedra.vertices == moved.filled->tetrahedra.vertices);
 }
 
-TEST_CASE("build: surfaces whose vertices moved are within the bounds of improve", "[volumes]") {
+TEST_CASE("build: surfaces whose vertices moved are within the bounds of improve",
+          "[volumes][once]") {
     // Curved walls that come close to each other; a coarse triangle is as far from them as it may be.
     const auto curved = [](const std::string& name, double y, double bend) {
         Surface s{name, Role::fault, {}, {}};

@@ -154,7 +154,7 @@ TEST_CASE("kept results: changed bytes give a conforming mesh of the same surfac
 
 #ifdef TERRANE_HAS_TETGEN
 
-TEST_CASE("kept results: changed tetrahedra are made again, not believed", "[kept]") {
+TEST_CASE("kept results: changed tetrahedra are made again, not believed", "[kept][once]") {
     Memory memory;
     memory.surfaces.resize(3); // which stay on their sides, so that vertices move for tetrahedra
     const Project project = improving_project();

@@ -136,7 +136,8 @@ std::vector<Vertex> vertices_of(const RoundingState& s, const std::vector<Candid
 
 } // namespace
 
-TEST_CASE("neighbouring doubles: in the end no vertex has a place near with fewer contacts") {
+TEST_CASE("neighbouring doubles: in the end no vertex has a place near with fewer contacts",
+          "[once]") {
     std::size_t searched = 0, moved = 0, left = 0;
     for (unsigned seed = 0; seed < 100; ++seed) {
         INFO("seed " << seed);

@@ -146,7 +146,8 @@ TEST_CASE(
     CHECK(parts[100].back() - parts[100].front() >= 75); // from all over it
 }
 
-TEST_CASE("parents in contact: rounding tells them from a sample where contacts are crowded") {
+TEST_CASE("parents in contact: rounding tells them from a sample where contacts are crowded",
+          "[once]") {
     const auto a = of_regression("016-crowded-contacts-listed.obj");
     const auto naive = rounded(a, {.max_rounds = 0});
     const Mesh& mesh = *naive.mesh;

@@ -344,7 +344,7 @@ TEST_CASE("tetrahedra: progress goes from 0 to 1", "[tetrahedra]") {
     CHECK(std::is_sorted(shares.begin(), shares.end()));
 }
 
-TEST_CASE("tetrahedra: what once failed is filled, but for what TetGen cannot do") {
+TEST_CASE("tetrahedra: what once failed is filled, but for what TetGen cannot do", "[once]") {
     // TetGen 1.5.0 crashes on these, or never ends, in every way in which it is asked.
     const std::set<std::string> beyond_tetgen{"007-slit-after-collapse.obj",
                                               "009-tetgen-never-ends.obj",

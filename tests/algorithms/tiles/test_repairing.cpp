@@ -303,7 +303,7 @@ TEST_CASE("repair in tiles: random soups, in any number of tiles", "[tiles]") {
     CHECK(seen.left == 0);
 }
 
-TEST_CASE("repair in tiles: the input is moved", "[tiles]") {
+TEST_CASE("repair in tiles: the input is moved", "[tiles][once]") {
     for (const bool is_turned : {false, true}) {
         Seen seen;
         for (unsigned seed = 0; seed < 5; ++seed) {
@@ -417,7 +417,8 @@ TEST_CASE("repair in tiles: in files and in threads", "[tiles]") {
     CHECK(seen.moved >= 4);
 }
 
-TEST_CASE("repair in tiles: what lies in few doubles costs what it costs one process", "[tiles]") {
+TEST_CASE("repair in tiles: what lies in few doubles costs what it costs one process",
+          "[tiles][once]") {
     Seen seen;
     std::size_t many = 0, refused = 0;
     for (const std::uint32_t count : {10, 20, 40, 60, 90})
