@@ -97,7 +97,7 @@ TEST_CASE("kriging: models that weigh less than a hundredth have no say", "[krig
     CHECK(below > 0);
 }
 
-TEST_CASE("kriging: the range of a smooth surface is the likeliest one within 1.2 percent",
+TEST_CASE("kriging: the range of a smooth surface is the likeliest one within 1.5 percent",
           "[kriging]") {
     for (const double scale : {1.0, 1.1, 1.25, 1.4}) {
         const auto data =
@@ -112,7 +112,7 @@ TEST_CASE("kriging: the range of a smooth surface is the likeliest one within 1.
             if (l > best) likeliest = model.variogram.range;
             best = std::max(best, l);
         }
-        CHECK(found == Approx(likeliest).epsilon(0.012));
+        CHECK(found == Approx(likeliest).epsilon(0.015));
     }
 }
 
