@@ -27,15 +27,13 @@ namespace {
 constexpr std::array<std::string_view, 4> operation_names{"union", "intersection", "difference",
                                                           "symmetric-difference"};
 
-/// Returns the largest coordinate of a triangle, or its absolute value.
-double largest_coordinate(std::span<const Surface> surfaces) {
+/// Returns the largest coordinate, or its absolute value. Triangles without area are not in it.
+double largest_coordinate(const Arrangement& exact) {
     double most = 0;
-    for (const Surface& s : surfaces)
-        for (const Triangle& t : s.triangles)
-            for (const std::uint32_t v : t) {
-                const Point3& p = s.vertices[v];
-                most = std::max({most, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-            }
+    for (std::uint32_t v = 0; v < exact.vertices.size(); ++v) {
+        const Point3& p = exact.nearest(VertexId(v));
+        most = std::max({most, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
     return most;
 }
 
@@ -92,12 +90,12 @@ void say(Comparison& found, double bound, std::vector<JudgedProperty>& propertie
 
 Result<MeshJudgement> judge_valid(std::span<const Surface> output, std::span<const Surface> inputs,
                                   const JudgeOptions& options, const Run& run) {
-    const double largest = largest_coordinate(inputs);
+    const auto exact = arrange(inputs, {}, run);
+    if (!exact) return exact.error();
+    const double largest = largest_coordinate(*exact);
     if (largest > 0x1p250 || (largest > 0 && largest < 0x1p-250)) // squares of areas are no doubles
         return Error{ErrorCode::unsupported, "the largest coordinate must be from 1e-75 to 1e75",
                      "inputs"};
-    const auto exact = arrange(inputs, {}, run);
-    if (!exact) return exact.error();
     const auto target = target_of(*exact, options, run);
     if (!target) return target.error();
     const auto checked = check(output, run);

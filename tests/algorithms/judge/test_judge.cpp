@@ -231,10 +231,13 @@ TEST_CASE("judge: inputs whose areas are no doubles are refused, and results may
     CHECK(fails(judged({spread}, inputs), "coverage"));
 }
 
-TEST_CASE("judge: vertices that no triangle has do not count") {
+TEST_CASE("judge: vertices that no triangle with area has do not count") {
     std::vector<Surface> inputs{level(0, 0, 0, 8, 8), level(1, 1, 1, 2, 2)};
     const Surface whole = as_surface(mesh_of(inputs));
-    inputs[0].vertices.push_back({1e15, 0, 0});
+    const auto far = static_cast<std::uint32_t>(inputs[0].vertices.size());
+    for (const double x : {1e15, 2e15, 3e15}) inputs[0].vertices.push_back({x, 0, 0});
+    inputs[0].triangles.push_back({far, far + 1, far + 1});
+    inputs[1].vertices.push_back({0, -4e15, 0});
     Surface moved = whole;
     for (Point3& p : moved.vertices) p.z += 1e-3;
     CHECK(judged({whole}, inputs).holds());
