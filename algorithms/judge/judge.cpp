@@ -27,15 +27,28 @@ namespace {
 constexpr std::array<std::string_view, 4> operation_names{"union", "intersection", "difference",
                                                           "symmetric-difference"};
 
-/// Returns the largest coordinate, or its absolute value. Triangles without area are not in it.
-double largest_coordinate(const Arrangement& exact) {
-    double most = 0;
+/// Largest coordinate and extent of what has area.
+struct Size {
+    double largest = 0; ///< absolute coordinate
+    double extent = 0;  ///< diagonal of the bounding box
+};
+
+Size size_of(const Arrangement& exact) {
+    Size size;
+    Point3 low, high;
     for (std::uint32_t v = 0; v < exact.vertices.size(); ++v) {
         const Point3& p = exact.nearest(VertexId(v));
-        most = std::max({most, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        if (v == 0) low = high = p;
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        size.largest = std::max({size.largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     }
-    return most;
+    size.extent = length(minus(high, low));
+    return size;
 }
+
+/// Judges nothing where the bound is more than this share of the extent: nearly all would be in doubt.
+constexpr double most_of_extent = 0x1p-12;
 
 /// Compares the volume of a mesh with the exact one. `bound`: of points. The tolerance follows from the
 /// exact boundary alone: triangles that are too many can't widen it.
@@ -92,19 +105,23 @@ Result<MeshJudgement> judge_valid(std::span<const Surface> output, std::span<con
                                   const JudgeOptions& options, const Run& run) {
     const auto exact = arrange(inputs, {}, run);
     if (!exact) return exact.error();
-    const double largest = largest_coordinate(*exact);
+    const auto [largest, extent] = size_of(*exact);
     if (largest > 0x1p250 || (largest > 0 && largest < 0x1p-250)) // squares of areas are no doubles
         return Error{ErrorCode::unsupported, "the largest coordinate must be from 1e-75 to 1e75",
                      "inputs"};
+    const double spacing =
+        std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
+    const double bound = options.spacings * spacing;
+    if (extent > 0 && bound > most_of_extent * extent)
+        return Error{ErrorCode::unsupported,
+                     "the bound " + figure(bound) + " is more than a 4096th of the inputs' extent",
+                     "spacings"};
     const auto target = target_of(*exact, options, run);
     if (!target) return target.error();
     const auto checked = check(output, run);
     if (!checked) return checked.error();
     MeshJudgement judgement;
     add_checked(*checked, output, options.most_flaws, judgement.properties);
-    const double spacing =
-        std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
-    const double bound = options.spacings * spacing;
     const double reach = std::max(bound, spacing / 4); // the grid of points has cells of some size
     const OutputMesh mesh(merge_surfaces(output, run), reach);
     Comparison found = compare(*target, mesh, reach, options.most_flaws);

@@ -231,6 +231,16 @@ TEST_CASE("judge: inputs whose areas are no doubles are refused, and results may
     CHECK(fails(judged({spread}, inputs), "coverage"));
 }
 
+TEST_CASE("judge: a bound that is wide beside the inputs is refused") {
+    const std::vector<Surface> inputs{level(0, 100, 0, 101, 1)};
+    JudgeOptions options;
+    options.spacings = 0x1p40; // of 2^-46
+    const auto found = judge(inputs, inputs, options);
+    REQUIRE_FALSE(found);
+    CHECK(found.error().code == ErrorCode::unsupported);
+    CHECK(found.error().place == "spacings");
+}
+
 TEST_CASE("judge: vertices that no triangle with area has do not count") {
     std::vector<Surface> inputs{level(0, 0, 0, 8, 8), level(1, 1, 1, 2, 2)};
     const Surface whole = as_surface(mesh_of(inputs));
