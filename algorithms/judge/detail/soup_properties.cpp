@@ -136,7 +136,9 @@ private:
             low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
             high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
         }
-        const double reach = 1e-8 * std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
+        constexpr double tetgen_default = 1e-8; // of its option -T, in diagonals
+        const double reach =
+            tetgen_default * std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
         const PointGrid grid(points_, mesh_.vertices, reach);
         for (const std::uint32_t v : mesh_.vertices)
             grid.for_near(points_[v], [&](std::uint32_t w) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// fuzz_engine MESHES [SEED]   plants each bug of the engine, looks for it in so many meshes, without coverage, and
-// reduces what it finds; then looks for a flaw of the sound engine in a tenth as many. The status is 1 if a bug is not
-// found, or if its mesh is not reduced to ten triangles, or if the sound engine has a flaw.
+// fuzz_engine MESHES [SEED]   plants each bug of the engine, looks for it in at most MESHES meshes, without coverage,
+// and reduces what it finds; then looks for a flaw of the sound engine in a tenth as many. The status is 1 if a bug is
+// not found, if its mesh is not reduced to ten triangles, or if the sound engine has a flaw.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
