@@ -33,8 +33,6 @@ struct KrigingConstants : Constants {
     /// Least range, in median distances of neighbours: a surface that is rougher than that can't be
     /// told from noise.
     double gaps_per_range = add("gaps_per_range", 3);
-    /// Largest range, in extents of the data. Smaller: smooth surfaces look rough. Larger: slower.
-    double most_range = add("most_range", 1.7);
     /// Range across in ranges along of the models with anisotropy.
     double turned_ratio = add("turned_ratio", 0.4);
     /// Logarithms of likelihoods are divided by this: no surface is a draw of any of the models.

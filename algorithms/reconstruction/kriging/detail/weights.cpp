@@ -113,16 +113,16 @@ private:
         return *std::max_element(found.begin(), found.end(), less_likely);
     }
 
-    /// Gives a shape ranges at equal ratios, at most e.
+    /// Gives a shape ranges up to the extent at equal ratios, at most e.
     [[nodiscard]] std::vector<Variogram> ranged(Variogram shape) const {
         using enum VariogramModel;
         const double extent = std::max(likelihood_.extent(), 1e-300);
         shape.range = extent;
         if (shape.model == power || shape.model == thin_plate || shape.model == cubic)
             return {shape}; // a mere unit
-        const double most = constants.most_range * extent;
         const double least = std::numeric_limits<double>::epsilon() * extent;
-        const double low = std::log(std::clamp(least_range_, least, most)), high = std::log(most);
+        const double low = std::log(std::clamp(least_range_, least, extent));
+        const double high = std::log(extent);
         const double steps = std::ceil(high - low);
         std::vector<Variogram> all;
         for (double k = 0; k <= steps; ++k) {
