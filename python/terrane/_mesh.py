@@ -145,7 +145,10 @@ class Mesh(Result):
                 "triangles": len(self.triangles), "intersection edges": len(self.intersection_edges)}
 
     def _repr_html_(self) -> str:
-        return card("Mesh", self._numbers(), self.vertices, self.triangles, self.surfaces_of.first)
+        return card("Mesh", self._numbers(), self.vertices, self.triangles, self.surfaces_of.first, self._legend())
+
+    def _legend(self) -> List[Tuple[str, str, int]]:
+        return [(s.name, "", k) for k, s in enumerate(self.surfaces)]
 
 
 class OnMesh(Result):
@@ -199,7 +202,7 @@ class OnMesh(Result):
 
     def _repr_html_(self) -> str:
         return card(type(self).__name__, self._numbers(), self.mesh.vertices, self.mesh.triangles,
-                    self.mesh.surfaces_of.first)
+                    self.mesh.surfaces_of.first, self.mesh._legend())
 
 
 class Contact(NamedTuple):

@@ -15,7 +15,7 @@ from ._arrays import Path, as_count, as_flag, as_list, as_number, as_pair, as_te
 from ._errors import Doubt, bad_option, doubts_of
 from ._interop import meshio_mesh, package
 from ._parts import Parts
-from ._picture import card
+from ._picture import apart, card, unlike_neighbours
 from ._quality import improve_options
 from ._relations import Juxtaposition, Leak, Relation
 from ._results import counted
@@ -275,8 +275,11 @@ class Model(Parts):
                 "volume": _core.figure(self._core.total_volume)}
 
     def _repr_html_(self) -> str:
-        return card("Model", self._numbers(), self.mesh.vertices, self.mesh.triangles,
-                    self.mesh.surfaces_of.first)
+        sides = self._core.volumes.of_sides
+        vertices, triangles, of = apart(self.mesh.vertices, self.mesh.triangles, sides)
+        colours = unlike_neighbours(sides)
+        legend = [(b.name, _core.figure(b.volume), int(colours[b.number])) for b in self.blocks.values()]
+        return card("Model", self._numbers(), vertices, triangles, colours[of], legend)
 
 
 def _length(value: Any, place: str) -> Tuple[float, bool]:

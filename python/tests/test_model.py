@@ -296,5 +296,5 @@ def test_rounding_report(model):
 def test_repr_and_html(model):
     assert repr(model).startswith("<Model: 6 blocks, 9 surfaces, ")
     for value in (model, next(iter(model.blocks.values()))):
-        assert "<svg" in value._repr_html_() and "\n" not in repr(value)
+        assert "<img" in value._repr_html_() and "\n" not in repr(value)
     assert "\n" not in repr(model.blocks) and "\n" not in repr(model.interfaces[0])

@@ -177,15 +177,13 @@ def test_repr_is_one_line():
 
 def test_html_has_counts_and_a_picture():
     text = terrane.Surface(V, T, "<top>")._repr_html_()
-    assert "<svg" in text and text.count("<polygon") == 2
+    assert "<img" in text
     assert "&lt;top&gt;" in text and "<top>" not in text
     assert "triangles</td><td>2" in text
 
 
-def test_html_of_nothing_and_of_much():
-    assert "no triangles" in terrane.Surface([], [])._repr_html_()
-    from conftest import sheet
-    assert len(sheet(80, 80)._repr_html_()) < 400_000
+def test_html_of_nothing():
+    assert "<img" not in terrane.Surface([], [])._repr_html_()
 
 
 def test_bounds():

@@ -111,7 +111,7 @@ void expect_sum(const Folder& folder, const std::string& command) {
 
 } // namespace
 
-TEST_CASE("cli: volume: more than 1000 parts are two files", "[cli]") {
+TEST_CASE("cli: volume: more than 1000 parts are two files", "[cli][once]") {
     constexpr int n = 7; // 343 blocks, 1176 interfaces
     const Folder folder;
     const auto in = folder.input("planes.obj", planes(n));
@@ -173,7 +173,7 @@ TEST_CASE("cli: volume: a part names its own surfaces alone", "[cli]") {
     }
 }
 
-TEST_CASE("cli: volume: the files do not grow with the number of surfaces", "[cli]") {
+TEST_CASE("cli: volume: the files do not grow with the number of surfaces", "[cli][once]") {
     const Folder folder;
     for (const std::string options : {"", " --parts vtp", " --parts obj"}) {
         std::map<int, std::size_t> bytes;

@@ -357,7 +357,8 @@ TEST_CASE("project: schema and parser know the same keys", "[io][project]") {
     for (const auto& key : known) CHECK(used.contains(key));
 }
 
-TEST_CASE("project: schema and parser give the same verdict on every change", "[io][project]") {
+TEST_CASE("project: schema and parser give the same verdict on every change",
+          "[io][project][once]") {
     const json stated = schema();
     std::size_t good = 0, bad = 0;
     for (const auto& sample : samples()) {

@@ -160,7 +160,7 @@ TEST_CASE("build: refine_bad takes the best round, and each round refines the be
     CHECK(rounds[3].triangles == triangles_with({first, scaled(second, 0.7, 0)}));
 }
 
-TEST_CASE("build: vertices slide on the surfaces where tetrahedra are bad", "[volumes]") {
+TEST_CASE("build: vertices slide on the surfaces where tetrahedra are bad", "[volumes][once]") {
     // Two walls that are near each other over a width of 8, and triangles with edges of 2.
     const std::vector<Surface> surfaces{box({0, 0, 0}, {8, 8, 8}), wall("first", 0, 4, 8, 4),
                                         wall("second", 0, 4.9, 8, 4.2)};
@@ -298,7 +298,7 @@ TEST_CASE(
 }
 
 TEST_CASE("build: surfaces are simplified once, in whatever round tetrahedra are refined",
-          "[volumes]") {
+          "[volumes][once]") {
     // Both walls are simplified, and a second time would move them farther.
     constexpr double resolution = 0.5;
     const auto built = [&](unsigned rounds) {

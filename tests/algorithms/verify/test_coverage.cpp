@@ -46,7 +46,7 @@ struct Needles {
 
 } // namespace
 
-TEST_CASE("verifier: coverage takes time in proportion to the children") {
+TEST_CASE("verifier: coverage takes time in proportion to the children", "[once]") {
     check_growth([](int n) { CHECK(Needles(n).are_covering(0)); });
     check_growth([](int n) { // a triangle across all needles
         Needles needles(n);

@@ -92,7 +92,7 @@ TEST_CASE("certificates of blocks: accepted") {
         }
 }
 
-TEST_CASE("certificates of blocks: accepted, real models") {
+TEST_CASE("certificates of blocks: accepted, real models", "[once]") {
     CHECK(judged(block_subject(files_of_model("ringmesh/modelA1.ml"))) == "");
 }
 

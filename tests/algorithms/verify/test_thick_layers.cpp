@@ -78,7 +78,7 @@ TEST_CASE("thick layers: accepted where layers are held in all ways", "[layers][
     CHECK(judged(squeezed_subject(30)) == "");
 }
 
-TEST_CASE("thick layers: accepted for difficult surfaces", "[layers]") {
+TEST_CASE("thick layers: accepted for difficult surfaces", "[layers][once]") {
     const std::string data = test_support::source_dir() + "/tests/data/layers/";
     const std::vector<std::pair<std::string, std::vector<Layer>>> stacks{
         {"partial_mid.obj", order_of({3, 2, 1})},
