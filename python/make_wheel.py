@@ -24,6 +24,9 @@ Requires-Python: >=3.9
 Requires-Dist: numpy (>=1.21)
 Provides-Extra: plot
 Requires-Dist: pyvista ; extra == 'plot'
+Provides-Extra: ensembles
+Requires-Dist: distributed ; extra == 'ensembles'
+Requires-Dist: h5py ; extra == 'ensembles'
 Description-Content-Type: text/markdown
 
 """
@@ -33,6 +36,11 @@ Generator: terrane make_wheel
 Root-Is-Purelib: false
 Tag: {tag}
 """
+
+
+# PyVista, from 0.48 on, finds these: mesh.terrane, and readers of files.
+ENTRY_POINTS = "[pyvista.accessors]\nterrane = terrane.accessor\n\n[pyvista.readers]\n" + "".join(
+    f"{extension} = terrane.accessor:read\n" for extension in (".ts", ".ml", ".gp", ".irap", ".gri", ".zmap", ".cps3"))
 
 
 def tag():
@@ -84,6 +92,7 @@ def main():
             with open(source, "rb") as file:
                 add(name, file.read(), mode)
         add(f"{info}/METADATA", metadata.encode())
+        add(f"{info}/entry_points.txt", ENTRY_POINTS.encode())
         add(f"{info}/WHEEL", WHEEL.format(tag=tag()).encode())
         records.append(f"{info}/RECORD,,")
         add(f"{info}/RECORD", ("\n".join(records) + "\n").encode())

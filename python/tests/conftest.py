@@ -124,7 +124,8 @@ class FakeData(dict):
 
 class FakePolyData:
     def __init__(self, points, faces):
-        self.points, self.faces, self.cell_data, self.point_data = points, faces, FakeData(), FakeData()
+        self.points, self.faces, self.n_points = np.asarray(points), np.asarray(faces), len(points)
+        self.cell_data, self.point_data, self.field_data = FakeData(), FakeData(), FakeData()
         self.shown = None
 
     def plot(self, **options):
