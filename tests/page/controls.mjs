@@ -144,6 +144,11 @@ export async function tryFindings(page) {
     return list.every((f, i) => i === 0 || f.kind !== list[i - 1].kind || f.measure === "angle" || f.size <= list[i - 1].size);
   });
   check(sorted, "findings of a kind come by their size");
+  const counts = await page.evaluate(() => window.terrane.report.content.findings.counts);
+  const wrong = Object.entries(counts).filter(([kind]) => !/^worst /.test(kind)).reduce((sum, [, count]) => sum + count, 0);
+  const badge = await page.getByRole("tab", { name: "Findings" }).locator(".badge").allTextContents();
+  check(badge.join() === (wrong ? String(wrong) : ""), "the tab counts what is wrong, not the worst of sound triangles", ...badge);
+  check((await page.getByText("Nothing was found that is wrong").count() > 0) === (wrong === 0), "the page says so where nothing is wrong");
   const rows = await page.locator(".finding").allTextContents();
   const worst = rows.filter((text) => /smallest angle|dihedral angle/.test(text));
   const twice = worst.filter((text) => text.match(text.includes("dihedral") ? /°|degrees/g : /\bq /g)?.length !== 1);

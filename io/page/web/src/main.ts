@@ -41,7 +41,7 @@ class Page {
     const bar = element("div", { role: "tablist", "aria-label": "Contents" });
     aside.append(bar);
     this.addTab(bar, aside, "Model", this.modelPanel());
-    this.addTab(bar, aside, `Findings`, this.findingsPanel(), this.content.findings.list.length);
+    this.addTab(bar, aside, "Findings", this.findingsPanel(), this.found());
     const plots = element("div");
     this.plots = new Plots(plots, this.content.plots, this.quantities);
     this.addTab(bar, aside, "Plots", plots);
@@ -144,10 +144,14 @@ class Page {
     this.view.mark([]);
   }
 
+  /** The number of findings, without the worst triangles and tetrahedra, which every mesh has. */
+  private found(): number {
+    return Object.entries(this.content.findings.counts).reduce((sum, [kind, count]) => sum + (kind.startsWith("worst") ? 0 : count), 0);
+  }
   private findingsPanel(): HTMLElement {
     const { list, counts } = this.content.findings;
-    if (list.length === 0) return element("div", {}, element("p", {}, "Nothing was found that is wrong or worth a look."));
     const panel = element("div");
+    if (this.found() === 0) panel.append(element("p", {}, "Nothing was found that is wrong or worth a look."));
     for (const [kind, count] of Object.entries(counts)) {
       const of = list.filter((f) => f.kind === kind);
       const rows = of.map((finding) => {
