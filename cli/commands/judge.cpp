@@ -25,6 +25,8 @@ constexpr auto judge_footer =
     R"(Properties of a mesh, which any program may have made: conforming, distinct, welded, vertices,
 curves, coverage, topology, orientation; with --operation volume, too. It is compared with the exact
 arrangement of the inputs, or with the boundary of the operation; each input file is one operand.
+Tetrahedra (VTU, MSH, legacy VTK) are compared with the blocks between the inputs: positive, conforming, welded,
+vertices, curves, coverage, topology, labels, volume.
 --soup judges triangles alone: conforming, distinct, welded, closed, manifold, oriented, tetgen.
 docs/how-to/judge.md says what each property means.
 
@@ -85,28 +87,40 @@ Inputs read_output(const JudgeCommand& command, const FileOptions& files, Sessio
     }
 }
 
+/// Returns the tetrahedra of a file that is judged by inputs, if it has any.
+std::optional<LabelledTetrahedra> tetrahedra_in(const JudgeCommand& command) {
+    if (command.soup || command.output == "-" || !command.operation.empty()) return std::nullopt;
+    auto found = read_tetrahedra(command.output);
+    if (!found && found.error().code == ErrorCode::nothing_to_do) return std::nullopt;
+    return must(std::move(found));
+}
+
 ExitStatus judge_file(const JudgeCommand& command) {
     check_usage(command);
     Session session(1); // processor time is that of one thread
     FileOptions of_output;
     of_output.inputs = {command.output};
-    const Inputs output = read_output(command, of_output, session);
+    const auto tetrahedra = tetrahedra_in(command);
+    Inputs output = tetrahedra ? Inputs() : read_output(command, of_output, session);
     const Inputs inputs = command.soup ? Inputs() : read_inputs(command.inputs, session);
+    if (tetrahedra) output.extent = inputs.extent;
     const JudgeOptions options = options_of(command, inputs);
     session.begin("judge", Phase::computing);
     const auto judged =
         judge_within(command.limits, session.run().stop, [&](const std::stop_token& stop) {
             Run run = session.run();
             run.stop = stop;
-            return command.soup ? judge_soup(output.surfaces, options, run)
-                                : judge(output.surfaces, inputs.surfaces, options, run);
+            return tetrahedra     ? judge(*tetrahedra, inputs.surfaces, options, run)
+                   : command.soup ? judge_soup(output.surfaces, options, run)
+                                  : judge(output.surfaces, inputs.surfaces, options, run);
         });
     session.end_stage();
     if (!judged) return not_judged(judged.error(), command.tags);
-    if (command.json) print(stdout, judge_json(*judged, output));
+    const JudgedMesh mesh{output, name_of_inputs(of_output),
+                          tetrahedra ? tetrahedra->tetrahedra.size() : 0};
+    if (command.json) print(stdout, judge_json(*judged, mesh));
     if (command.tags) print(stdout, tag_line(tag_of(*judged)));
-    if (!command.json && !command.tags)
-        say(stdout, judge_text(*judged, output, name_of_inputs(of_output)));
+    if (!command.json && !command.tags) say(stdout, judge_text(*judged, mesh));
     if (!judged->holds()) return ExitStatus::negative;
     return judged->complete() ? ExitStatus::done : ExitStatus::bad_input;
 }

@@ -68,6 +68,7 @@ public:
         find_repeated();
         compare_chains();
         find_turned();
+        note_placed();
         return std::move(found_);
     }
 
@@ -327,6 +328,13 @@ private:
         }
     }
 
+    void note_placed() {
+        found_.placed.resize(output_.soup.first_input_triangle.back());
+        for (std::uint32_t t = 0; t < output_.soup.triangles.size(); ++t)
+            if (const auto c = placing_.cell_of[t]; c != no_index)
+                found_.placed[number(t)] = {cells_.cells[c].triangle, placing_.facing[t]};
+    }
+
     const Target& target_;
     const OutputMesh& output_;
     const std::vector<Point3>& points_;
@@ -343,6 +351,26 @@ private:
 };
 
 } // namespace
+
+void add_compared(Comparison& found, double bound, std::vector<JudgedProperty>& properties) {
+    const auto count = [](const Flaws& f, std::string_view one, std::string_view many) {
+        return counted_as(f.count(), one, many);
+    };
+    properties.push_back(
+        found.welded.said(count(found.welded, "point twice or torn", "points twice or torn")));
+    properties.push_back(found.vertices.said(
+        count(found.vertices, "point", "points") + " missing; the others moved by " +
+            figure(found.largest_move) + " at most, of " + figure(bound) + " allowed",
+        found.largest_move));
+    properties.push_back(
+        found.curves.said(count(found.curves, "edge", "edges") + " of curves missing"));
+    properties.push_back(found.coverage.said("area missing " + figure(found.missing_area) +
+                                                 ", too much " + figure(found.extra_area),
+                                             found.missing_area + found.extra_area));
+    properties.push_back(found.topology.said(count(found.topology, "difference", "differences")));
+    properties.push_back(
+        found.orientation.said(count(found.orientation, "triangle turned", "triangles turned")));
+}
 
 Comparison compare(const Target& target, const OutputMesh& output, double bound,
                    std::size_t most_flaws) {
