@@ -62,21 +62,24 @@ Result<MeshJudgement> judge_valid(std::span<const Surface> output, std::span<con
     if (!exact) return exact.error();
     const auto allowed = bound_of(*exact, options.spacings);
     if (!allowed) return allowed.error();
-    const auto [bound, reach] = *allowed;
     const auto target = target_of(*exact, options, run);
     if (!target) return target.error();
     const auto checked = check(output, run);
     if (!checked) return checked.error();
-    MeshJudgement judgement;
-    add_checked(*checked, output, options.most_flaws, judgement.properties);
-    const OutputMesh mesh(merge_surfaces(output, run), reach);
-    Comparison found = compare(*target, mesh, reach, options.most_flaws);
-    add_points_twice(output, found.welded);
-    add_compared(found, bound, judgement.properties);
-    if (options.operation)
-        judgement.properties.push_back(volume_property(mesh, *target, bound, options.most_flaws));
+    auto judged = judge_with_doubt(*allowed, [&](const Bound& bound) -> Result<Judged> {
+        Judged found;
+        add_checked(*checked, output, options.most_flaws, found.properties);
+        const OutputMesh mesh(merge_surfaces(output, run), bound.reach);
+        Comparison compared = compare(*target, mesh, bound.reach, options.most_flaws);
+        add_points_twice(output, compared.welded);
+        add_compared(compared, bound.bound, found);
+        if (options.operation)
+            found.properties.push_back(
+                volume_property(mesh, *target, bound.bound, options.most_flaws));
+        return found;
+    });
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
-    return judgement;
+    return judged;
 }
 
 } // namespace

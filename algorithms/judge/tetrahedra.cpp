@@ -92,32 +92,31 @@ public:
         chosen_(choose_surface_faces(mesh_, target_, find_cells(target_), 2 * bound.reach)),
         component_(components()) {}
 
-    Result<MeshJudgement> operator()(const Run& run) {
-        const auto volumes = find_volumes(target_.exact, run);
-        if (!volumes) return volumes.error();
+    Result<Judged> operator()(const Volumes& volumes, const Run& run) {
         const Surface faces = surface_of_faces();
         const auto checked = check(std::span(&faces, 1), run);
         if (!checked) return checked.error();
         const OutputMesh output(merge_surfaces(std::span(&faces, 1), run), bound_.reach);
         Comparison found = compare(target_, output, bound_.reach, most_);
         find_torn(found.welded);
-        std::vector<JudgedProperty> on_faces;
-        add_checked(*checked, std::span(&faces, 1), most_, on_faces);
+        Judged on_faces;
+        add_checked(*checked, std::span(&faces, 1), most_, on_faces.properties);
         add_compared(found, bound_.bound, on_faces);
-        find_volumes_of(*volumes, found.placed);
+        find_volumes_of(volumes, found.placed);
 
-        auto& properties = judgement_.properties;
+        std::vector<JudgedProperty> properties;
         properties.push_back(
             mesh_.positive.said(counted_as(mesh_.positive.count(), "tetrahedron", "tetrahedra") +
                                 " without volume or wound the other way"));
-        for (JudgedProperty& p : on_faces) {
+        for (JudgedProperty& p : on_faces.properties) {
             if (p.name == "distinct" || p.name == "orientation") continue;
             for (PropertyFlaw& flaw : p.flaws) flaw.triangles = tetrahedra_at(flaw.triangles);
             properties.push_back(p.name == "conforming" ? conforming(std::move(p)) : std::move(p));
         }
         if (!mesh_.made.labels.empty()) properties.push_back(labels());
-        properties.push_back(volume(*volumes));
-        return std::move(judgement_);
+        properties.push_back(volume(volumes));
+        on_faces.properties = std::move(properties);
+        return on_faces;
     }
 
 private:
@@ -276,7 +275,6 @@ private:
     const SurfaceFaces chosen_;
     const std::vector<std::uint32_t> component_;       ///< per tetrahedron
     std::map<std::uint32_t, std::uint32_t> volume_of_; ///< by component
-    MeshJudgement judgement_;
 };
 
 Status validate_tetrahedra(const LabelledTetrahedra& output) {
@@ -306,7 +304,11 @@ Result<MeshJudgement> judge(const LabelledTetrahedra& output, std::span<const Su
         if (!exact) return exact.error();
         const auto bound = bound_of(*exact, options.spacings);
         if (!bound) return bound.error();
-        auto judged = TetrahedraJudge(output, *exact, *bound, options.most_flaws)(run);
+        const auto volumes = find_volumes(*exact, run);
+        if (!volumes) return volumes.error();
+        auto judged = judge_with_doubt(*bound, [&](const Bound& by) {
+            return TetrahedraJudge(output, *exact, by, options.most_flaws)(*volumes, run);
+        });
         if (run.stop.stop_requested())
             return Error{ErrorCode::interrupted, "stopped on request", ""};
         return judged;

@@ -8,6 +8,8 @@
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/reports/judge_report.hpp>
+#include <terrane/cli/stages/page_output.hpp>
+#include <terrane/io/atomic/file_set.hpp>
 #include <terrane/io/judgement/limits.hpp>
 
 namespace terrane::cli {
@@ -95,11 +97,22 @@ std::optional<LabelledTetrahedra> tetrahedra_in(const JudgeCommand& command) {
     return must(std::move(found));
 }
 
+/// Begins the page, if it is wanted; it is about the mesh and its inputs.
+page::Page plan_report(const JudgeCommand& command, const Session& session) {
+    FileOptions files = command.inputs;
+    files.inputs.insert(files.inputs.begin(), command.output);
+    page::Page page = plan_page(files, session);
+    if (page.wanted())
+        for (const std::string& path : files.inputs) must(page.add_file(path));
+    return page;
+}
+
 ExitStatus judge_file(const JudgeCommand& command) {
     check_usage(command);
     Session session(1); // processor time is that of one thread
     FileOptions of_output;
     of_output.inputs = {command.output};
+    page::Page page = plan_report(command, session);
     const auto tetrahedra = tetrahedra_in(command);
     Inputs output = tetrahedra ? Inputs() : read_output(command, of_output, session);
     const Inputs inputs = command.soup ? Inputs() : read_inputs(command.inputs, session);
@@ -121,8 +134,15 @@ ExitStatus judge_file(const JudgeCommand& command) {
     if (command.json) print(stdout, judge_json(*judged, mesh));
     if (command.tags) print(stdout, tag_line(tag_of(*judged)));
     if (!command.json && !command.tags) say(stdout, judge_text(*judged, mesh));
+    if (page.wanted()) {
+        page.set_inputs(output.unit, tetrahedra ? inputs.files : output.files);
+        must(page.add_judged(tetrahedra ? inputs.surfaces : output.surfaces, *judged));
+        write_page(page, command.inputs, judge_statistics(*judged), session);
+    }
     if (!judged->holds()) return ExitStatus::negative;
-    return judged->complete() ? ExitStatus::done : ExitStatus::bad_input;
+    if (judged->complete()) return ExitStatus::done;
+    must(FileSet::current()->publish()); // the page, though the status is that of a failure
+    return ExitStatus::bad_input;
 }
 
 } // namespace
@@ -151,6 +171,7 @@ Command judge_command(CLI::App& program) {
     app->add_flag("--json", options->json, "One line of JSON per property");
     app->add_flag("--tags", options->tags,
                   "One line with a tag, as CGAL's robustness benchmarks have it");
+    add_report(*app, options->inputs);
     app->footer(judge_footer);
     return {app, [options] { return judge_file(*options); }};
 }

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/styles.hpp>
 
@@ -85,6 +84,14 @@ std::string judge_json(const MeshJudgement& judged, const JudgedMesh& mesh) {
         lines += json.dump() + "\n";
     }
     return lines;
+}
+
+Json judge_statistics(const MeshJudgement& judged) {
+    Json properties;
+    for (const JudgedProperty& p : judged.properties)
+        properties[p.name] = {
+            {"verdict", name_of(p.verdict)}, {"count", p.count}, {"size", p.size}};
+    return properties;
 }
 
 std::string tag_line(std::string_view tag) {

@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/judge/judge.hpp>
 #include <terrane/cli/options/files.hpp>
+#include <terrane/cli/options/statistics.hpp>
 
 namespace terrane::cli {
 
@@ -24,6 +25,9 @@ std::string judge_text(const MeshJudgement& judged, const JudgedMesh& mesh);
 /// Returns one line per property. A triangle is {"surface": index, "triangle": number within it}, a tetrahedron
 /// its number.
 std::string judge_json(const MeshJudgement& judged, const JudgedMesh& mesh);
+
+/// Returns the verdict, count and size of each property, by its name.
+Json judge_statistics(const MeshJudgement& judged);
 
 /// Returns a line as the scripts of CGAL's robustness benchmarks write it.
 std::string tag_line(std::string_view tag);

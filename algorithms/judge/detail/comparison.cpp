@@ -61,6 +61,7 @@ public:
 
     Comparison operator()() {
         found_.largest_move = matching_.largest_move;
+        note_free_moves();
         find_torn();
         find_missing_points();
         find_missing_curves();
@@ -203,6 +204,12 @@ private:
         }
     }
 
+    /// A part of a cell that another one near it may have instead.
+    struct Exchange {
+        double net, by_rounding;
+        PropertyFlaw flaw;
+    };
+
     void compare_chains() {
         std::vector<ChainEdge> edges;
         for (const CellEdge& e : separation_.boundary())
@@ -220,13 +227,15 @@ private:
             while (end < edges.size() && edges[end].cell == edges[i].cell) ++end;
             differences[edges[i].cell] = std::span(edges).subspan(i, end - i);
         }
+        std::vector<Exchange> exchanged;
         const auto lacking = lacking_corners();
         const auto covered = covered_areas();
         for (std::uint32_t c = 0; c < differences.size(); ++c)
             if (lacking[c])
                 report_unknown(c, *lacking[c], covered[c]);
             else if (!differences[c].empty())
-                report_difference(differences[c]);
+                report_difference(differences[c], exchanged);
+        settle(exchanged);
     }
 
     /// Returns, of cells whose boundaries are known in part, a corner without a vertex: one that must have
@@ -249,21 +258,25 @@ private:
         const Cell& cell = cells_.cells[c];
         const Triangle& k = target_.triangles[cell.triangle];
         const Point3& at = nearest(k[0]);
-        found_.topology.add({"a region lacks a corner", at, {}, cell.area},
-                            crowding_.crowded[corner]);
+        found_.topology.add({"a region lacks a corner", at}, crowding_.crowded[corner]);
         add_area(c, cell.area - covered, length(minus(nearest(k[0]), nearest(k[1]))), at);
     }
-    /// Adds an area that is missing, or too much if it is negative, unless rounding may make it.
-    void add_area(std::uint32_t c, double net, double perimeter, const Point3& at) {
+    /// Adds an area that is missing, or too much if it is negative, unless rounding may make it; or to `exchanged`.
+    void add_area(std::uint32_t c, double net, double perimeter, const Point3& at,
+                  std::vector<Exchange>* exchanged = nullptr) {
         const double by_rounding = 2 * bound_ * perimeter;
         if (std::abs(net) <= by_rounding) return;
         (net > 0 ? found_.missing_area : found_.extra_area) += std::abs(net);
         const char* const what = net > 0
                                      ? "a part of a region is not covered"
                                      : "a region is covered more than once, or beyond its boundary";
-        found_.coverage.add({what, at, {}, std::abs(net)},
-                            std::abs(net) <= by_rounding + crowding_.area_in_doubt[c] +
-                                                 (net > 0 ? moved_area_ : 0));
+        const PropertyFlaw flaw{what, at, {}, std::abs(net)};
+        const bool in_doubt =
+            std::abs(net) <= by_rounding + crowding_.area_in_doubt[c] + (net > 0 ? moved_area_ : 0);
+        if (exchanged && !in_doubt)
+            exchanged->push_back({net, by_rounding, flaw});
+        else
+            found_.coverage.add(flaw, in_doubt);
     }
 
     /// Divides edges at the vertices that they pass along edges of cells.
@@ -281,7 +294,18 @@ private:
         return parts;
     }
 
-    void report_difference(std::span<const ChainEdge> edges) {
+    /// Adds the flaws of parts. What is missing may be what is too much elsewhere, if there is as much of both.
+    void settle(const std::vector<Exchange>& parts) {
+        double net = 0, by_rounding = 0;
+        for (const Exchange& part : parts) {
+            net += part.net;
+            by_rounding += part.by_rounding;
+        }
+        for (const Exchange& part : parts)
+            found_.coverage.add(part.flaw, std::abs(net) <= by_rounding);
+    }
+
+    void report_difference(std::span<const ChainEdge> edges, std::vector<Exchange>& exchanged) {
         const Cell& cell = cells_.cells[edges[0].cell];
         const Point3& origin = points_[edges[0].low];
         Point3 sum{};
@@ -293,12 +317,13 @@ private:
             perimeter += std::abs(e.count) * length(minus(points_[e.low], points_[e.high]));
         }
         const double net = dot(sum, cell.normal) / 2;
+        const bool in_doubt = begins_crowded(edges);
         found_.topology.add({"the triangles in a region do not meet along its boundary",
                              middle(edges[0]),
                              {},
                              perimeter},
-                            begins_crowded(edges));
-        add_area(edges[0].cell, net, perimeter, middle(edges[0]));
+                            in_doubt);
+        add_area(edges[0].cell, net, perimeter, middle(edges[0]), in_doubt ? &exchanged : nullptr);
     }
 
     /// Whether each connected part of a difference has a crowded vertex.
@@ -328,6 +353,18 @@ private:
         }
     }
 
+    /// Notes how far vertices moved that share no triangle with one near others.
+    void note_free_moves() {
+        std::vector<bool> is_free(matching_.image.size(), true);
+        for (const Triangle& t : target_.triangles)
+            if (std::ranges::any_of(t, [this](std::uint32_t x) { return crowding_.crowded[x]; }))
+                for (const std::uint32_t x : t) is_free[x] = false;
+        for (std::uint32_t x = 0; x < is_free.size(); ++x)
+            if (is_free[x] && matching_.image[x] != no_index)
+                found_.largest_free_move = std::max(
+                    found_.largest_free_move, difference(nearest(x), points_[matching_.image[x]]));
+    }
+
     void note_placed() {
         found_.placed.resize(output_.soup.first_input_triangle.back());
         for (std::uint32_t t = 0; t < output_.soup.triangles.size(); ++t)
@@ -352,7 +389,30 @@ private:
 
 } // namespace
 
-void add_compared(Comparison& found, double bound, std::vector<JudgedProperty>& properties) {
+Result<MeshJudgement>
+judge_with_doubt(const Bound& bound, const std::function<Result<Judged>(const Bound&)>& judge_by) {
+    constexpr double step = 4, most = 64; // of 16 spacings 1024, which surfaces may move by
+    auto found = judge_by(bound);
+    if (!found) return found.error();
+    MeshJudgement judgement{std::move(found->properties)};
+    for (double times = step; !judgement.holds() && times <= most; times *= step) {
+        const double wide = times * bound.bound;
+        if (wide > bound.widest) break;
+        const auto wider = judge_by({wide, wide, bound.widest});
+        if (!wider) return wider.error();
+        if (wider->largest_move <= bound.bound || wider->largest_free_move > bound.bound ||
+            !MeshJudgement{wider->properties}.holds())
+            continue;
+        for (JudgedProperty& p : judgement.properties)
+            if (p.verdict == PropertyVerdict::fails) p.verdict = PropertyVerdict::not_judged;
+    }
+    return judgement;
+}
+
+void add_compared(Comparison& found, double bound, Judged& judged) {
+    judged.largest_move = found.largest_move;
+    judged.largest_free_move = found.largest_free_move;
+    auto& properties = judged.properties;
     const auto count = [](const Flaws& f, std::string_view one, std::string_view many) {
         return counted_as(f.count(), one, many);
     };

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <terrane/algorithms/core/no_index.hpp>
@@ -23,7 +24,8 @@ struct Placed {
 /// What a comparison found.
 struct Comparison {
     Flaws welded, vertices, curves, coverage, topology, orientation;
-    double largest_move = 0; ///< of a vertex
+    double largest_move = 0;      ///< of a vertex
+    double largest_free_move = 0; ///< of one that shares no triangle with one near others
     double missing_area = 0, extra_area = 0;
     std::vector<Placed> placed; ///< per triangle of the output
 
@@ -34,7 +36,18 @@ struct Comparison {
 Comparison compare(const Target& target, const OutputMesh& output, double bound,
                    std::size_t most_flaws);
 
-/// Appends the properties that a comparison found, with their sentences.
-void add_compared(Comparison& found, double bound, std::vector<JudgedProperty>& properties);
+/// The properties of a mesh by some bound.
+struct Judged {
+    std::vector<JudgedProperty> properties;
+    double largest_move = 0, largest_free_move = 0; ///< see Comparison
+};
+
+/// Judges by the bound. Where vertices that are near others, or share triangles with these, and no other ones, moved farther, as rounding has to move
+/// surfaces that nearly coincide, and all holds or is in doubt by a wider bound, what fails is not judged.
+Result<MeshJudgement> judge_with_doubt(const Bound& bound,
+                                       const std::function<Result<Judged>(const Bound&)>& judge_by);
+
+/// Appends the properties that a comparison found, with their sentences, and notes its moves.
+void add_compared(Comparison& found, double bound, Judged& judged);
 
 } // namespace terrane::judging

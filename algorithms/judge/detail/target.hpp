@@ -23,8 +23,9 @@ struct Target {
 
 /// How far points may be from where they should be.
 struct Bound {
-    double bound = 0; ///< largest difference of a coordinate
-    double reach = 0; ///< not less, and not 0: grids of points have cells of some size
+    double bound = 0;  ///< largest difference of a coordinate
+    double reach = 0;  ///< not less, and not 0: grids of points have cells of some size
+    double widest = 0; ///< that may be judged by: nearly all would be in doubt
 };
 
 /// Returns what is wrong with the options: bad_option (spacings).

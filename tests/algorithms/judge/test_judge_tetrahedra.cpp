@@ -432,6 +432,35 @@ TEST_CASE("judge: what tetrahedra may be") {
     }
 }
 
+TEST_CASE(
+    "judge: a tetrahedron that rounding leaves between two layers of faces is of either side") {
+    constexpr double spacing = 0x1p-52;
+    const std::vector<Point3> corners{{0, 0, 0}, {1, 0, 0},     {1, 1, 0},
+                                      {0, 1, 0}, {0.5, 0.5, 1}, {0.5, 0.5, -1}};
+    Filled f;
+    f.inputs = {
+        {"hull",
+         Role::boundary,
+         corners,
+         {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}}},
+        {"sheet", Role::horizon, corners, {{0, 1, 2}, {0, 2, 3}}}};
+    f.made = {corners, {{0, 1, 2, 4}, {0, 2, 3, 4}, {1, 0, 3, 5}, {2, 1, 3, 5}, {1, 0, 2, 3}}, {}};
+    f.made.vertices[0].z = f.made.vertices[2].z = spacing;
+    for (const std::uint32_t between : {1U, 2U})
+        for (const bool turned : {false, true}) {
+            f.made.labels = {1, 1, 2, 2, between};
+            for (Triangle& t : f.inputs[1].triangles)
+                if (turned) std::swap(t[0], t[1]);
+            const auto found = judged(f);
+            INFO(found.failures());
+            CHECK(found.holds());
+            CHECK(found.complete());
+        }
+    f.made.tetrahedra.pop_back();
+    f.made.labels.pop_back();
+    CHECK(!judged(f).holds());
+}
+
 TEST_CASE("judge: tetrahedra that are none are errors") {
     Filled f = bent();
     f.made.tetrahedra[3][2] = 5000;
