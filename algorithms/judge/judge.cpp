@@ -66,18 +66,19 @@ Result<MeshJudgement> judge_valid(std::span<const Surface> output, std::span<con
     if (!target) return target.error();
     const auto checked = check(output, run);
     if (!checked) return checked.error();
-    auto judged = judge_with_doubt(*allowed, [&](const Bound& bound) -> Result<Judged> {
-        Judged found;
-        add_checked(*checked, output, options.most_flaws, found.properties);
-        const OutputMesh mesh(merge_surfaces(output, run), bound.reach);
-        Comparison compared = compare(*target, mesh, bound.reach, options.most_flaws);
-        add_points_twice(output, compared.welded);
-        add_compared(compared, bound.bound, found);
-        if (options.operation)
-            found.properties.push_back(
-                volume_property(mesh, *target, bound.bound, options.most_flaws));
-        return found;
-    });
+    auto judged =
+        judge_with_doubt(*target, *allowed, run, [&](const Bound& bound) -> Result<Judged> {
+            Judged found;
+            add_checked(*checked, output, options.most_flaws, found.properties);
+            const OutputMesh mesh(merge_surfaces(output, run), bound.reach);
+            Comparison compared = compare(*target, mesh, bound, options.most_flaws);
+            add_points_twice(output, compared.welded);
+            add_compared(compared, bound.bound, found);
+            if (options.operation)
+                found.properties.push_back(
+                    volume_property(mesh, *target, bound.bound, options.most_flaws));
+            return found;
+        });
     if (run.stop.stop_requested()) return Error{ErrorCode::interrupted, "stopped on request", ""};
     return judged;
 }

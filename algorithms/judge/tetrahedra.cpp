@@ -97,7 +97,7 @@ public:
         const auto checked = check(std::span(&faces, 1), run);
         if (!checked) return checked.error();
         const OutputMesh output(merge_surfaces(std::span(&faces, 1), run), bound_.reach);
-        Comparison found = compare(target_, output, bound_.reach, most_);
+        Comparison found = compare(target_, output, bound_, most_);
         find_torn(found.welded);
         Judged on_faces;
         add_checked(*checked, std::span(&faces, 1), most_, on_faces.properties);
@@ -306,9 +306,10 @@ Result<MeshJudgement> judge(const LabelledTetrahedra& output, std::span<const Su
         if (!bound) return bound.error();
         const auto volumes = find_volumes(*exact, run);
         if (!volumes) return volumes.error();
-        auto judged = judge_with_doubt(*bound, [&](const Bound& by) {
-            return TetrahedraJudge(output, *exact, by, options.most_flaws)(*volumes, run);
-        });
+        auto judged =
+            judge_with_doubt(whole_arrangement(*exact), *bound, run, [&](const Bound& by) {
+                return TetrahedraJudge(output, *exact, by, options.most_flaws)(*volumes, run);
+            });
         if (run.stop.stop_requested())
             return Error{ErrorCode::interrupted, "stopped on request", ""};
         return judged;

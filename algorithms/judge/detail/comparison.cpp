@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
@@ -52,12 +53,13 @@ ChainEdge chain_edge(std::uint32_t cell, std::uint32_t from, std::uint32_t to, i
 
 class Comparer {
 public:
-    Comparer(const Target& target, const OutputMesh& output, double bound, std::size_t most) :
-        target_(target), output_(output), points_(output.soup.points), bound_(bound), found_(most),
-        cells_(find_cells(target)), crowding_(find_crowding(target, cells_, bound)),
-        matching_(match_vertices(target, cells_, output, bound)),
-        separation_(target, cells_, output, matching_, bound),
-        placing_(place(target, cells_, crowding_, output, matching_, separation_, bound)) {}
+    Comparer(const Target& target, const OutputMesh& output, const Bound& by, std::size_t most) :
+        target_(target), output_(output), points_(output.soup.points), bound_(by.reach),
+        found_(most), cells_(find_cells(target)),
+        crowding_(find_crowding(target, cells_, bound_, by.clashing)),
+        matching_(match_vertices(target, cells_, output, bound_)),
+        separation_(target, cells_, output, matching_, bound_),
+        placing_(place(target, cells_, crowding_, output, matching_, separation_, bound_)) {}
 
     Comparison operator()() {
         found_.largest_move = matching_.largest_move;
@@ -387,24 +389,52 @@ private:
     Placing placing_;
 };
 
+/// Returns the triangles of a target, ascending, at corners of such as meet improperly or have no area at the
+/// nearest doubles, so that these corners have to move.
+Result<std::vector<std::uint32_t>> clashing_triangles(const Target& target, const Run& run) {
+    Surface rounded{"", Role::unknown, {}, target.triangles};
+    for (std::uint32_t x = 0; x < target.exact.vertices.size(); ++x)
+        rounded.vertices.push_back(target.exact.nearest(VertexId(x)));
+    const auto checked = check(std::span(&rounded, 1), run);
+    if (!checked) return checked.error();
+    std::vector<std::uint32_t> clashing = checked->degenerate;
+    for (const ImproperContact& c : checked->contacts)
+        clashing.insert(clashing.end(), c.triangles.begin(), c.triangles.end());
+    for (const auto& pair : checked->repeated)
+        clashing.insert(clashing.end(), pair.begin(), pair.end());
+    std::vector<bool> moves(rounded.vertices.size());
+    for (const std::uint32_t t : clashing)
+        for (const std::uint32_t x : target.triangles[t]) moves[x] = true;
+    clashing.clear();
+    for (std::uint32_t t = 0; t < target.triangles.size(); ++t)
+        if (std::ranges::any_of(target.triangles[t], [&](std::uint32_t x) { return moves[x]; }))
+            clashing.push_back(t);
+    return clashing;
+}
+
 } // namespace
 
 Result<MeshJudgement>
-judge_with_doubt(const Bound& bound, const std::function<Result<Judged>(const Bound&)>& judge_by) {
+judge_with_doubt(const Target& target, Bound bound, const Run& run,
+                 const std::function<Result<Judged>(const Bound&)>& judge_by) {
     constexpr double step = 4, most = 64; // of 16 spacings 1024, which surfaces may move by
     auto found = judge_by(bound);
     if (!found) return found.error();
     MeshJudgement judgement{std::move(found->properties)};
-    for (double times = step; !judgement.holds() && times <= most; times *= step) {
-        const double wide = times * bound.bound;
-        if (wide > bound.widest) break;
-        const auto wider = judge_by({wide, wide, bound.widest});
+    if (judgement.holds()) return judgement;
+    auto clashing = clashing_triangles(target, run);
+    if (!clashing) return clashing.error();
+    bound.clashing = std::move(*clashing);
+    const double allowed = bound.bound;
+    for (double times = 1; times <= most && times * allowed <= bound.widest; times *= step) {
+        if (times > 1) bound.bound = bound.reach = times * allowed;
+        const auto wider = judge_by(bound);
         if (!wider) return wider.error();
-        if (wider->largest_move <= bound.bound || wider->largest_free_move > bound.bound ||
-            !MeshJudgement{wider->properties}.holds())
-            continue;
+        const bool moved = wider->largest_move > allowed && wider->largest_free_move <= allowed;
+        if ((times > 1 && !moved) || !MeshJudgement{wider->properties}.holds()) continue;
         for (JudgedProperty& p : judgement.properties)
             if (p.verdict == PropertyVerdict::fails) p.verdict = PropertyVerdict::not_judged;
+        return judgement;
     }
     return judgement;
 }
@@ -432,7 +462,7 @@ void add_compared(Comparison& found, double bound, Judged& judged) {
         found.orientation.said(count(found.orientation, "triangle turned", "triangles turned")));
 }
 
-Comparison compare(const Target& target, const OutputMesh& output, double bound,
+Comparison compare(const Target& target, const OutputMesh& output, const Bound& bound,
                    std::size_t most_flaws) {
     return Comparer(target, output, bound, most_flaws)();
 }

@@ -33,7 +33,7 @@ struct Comparison {
 };
 
 /// Compares the mesh; no two of its points coincide.
-Comparison compare(const Target& target, const OutputMesh& output, double bound,
+Comparison compare(const Target& target, const OutputMesh& output, const Bound& bound,
                    std::size_t most_flaws);
 
 /// The properties of a mesh by some bound.
@@ -42,9 +42,12 @@ struct Judged {
     double largest_move = 0, largest_free_move = 0; ///< see Comparison
 };
 
-/// Judges by the bound. Where vertices that are near others, or share triangles with these, and no other ones, moved farther, as rounding has to move
-/// surfaces that nearly coincide, and all holds or is in doubt by a wider bound, what fails is not judged.
-Result<MeshJudgement> judge_with_doubt(const Bound& bound,
+/// Judges by the bound. What fails is not judged if all holds or is in doubt
+/// - where triangles with corners that have to move, as some at these meet improperly at the nearest doubles, are in
+///   doubt, too; or
+/// - by a wider bound as well, if vertices that are near others, or share triangles with these, and no other ones, moved
+///   farther than the bound: rounding has to move surfaces that nearly coincide.
+Result<MeshJudgement> judge_with_doubt(const Target& target, Bound bound, const Run& run,
                                        const std::function<Result<Judged>(const Bound&)>& judge_by);
 
 /// Appends the properties that a comparison found, with their sentences, and notes its moves.

@@ -181,7 +181,7 @@ Result<Bound> bound_of(const Arrangement& exact, double spacings) {
         return Error{ErrorCode::unsupported,
                      "the bound " + figure(bound) + " is more than a 4096th of the inputs' extent",
                      "spacings"};
-    return Bound{bound, std::max(bound, spacing / 4), most_of_extent * extent};
+    return Bound{bound, std::max(bound, spacing / 4), most_of_extent * extent, {}};
 }
 
 Sign turn_of(const Arrangement& exact, std::uint32_t input, Axis axis) {

@@ -26,6 +26,7 @@ struct Bound {
     double bound = 0;  ///< largest difference of a coordinate
     double reach = 0;  ///< not less, and not 0: grids of points have cells of some size
     double widest = 0; ///< that may be judged by: nearly all would be in doubt
+    std::vector<std::uint32_t> clashing{}; ///< triangles of the target that are in doubt; ascending
 };
 
 /// Returns what is wrong with the options: bad_option (spacings).
