@@ -18,6 +18,7 @@ DECLARED = re.compile(r"^\s*(?:\[\[nodiscard\]\] )?(?:static )?(?:Result<.*>|Sta
 WITHIN = {
     "add_holes": "Page::add_holes",
     "add_check": "Page::add_check",
+    "add_judged": "Page::add_judged",
     "add_file": "Page::add_file",
     "file_row": "Page::add_file",
     "check_pages": "Page::html",

@@ -45,7 +45,7 @@ struct Judged {
 /// Judges by the bound. What fails is not judged if all holds or is in doubt
 /// - where triangles with corners that have to move, as some at these meet improperly at the nearest doubles, are in
 ///   doubt, too; or
-/// - by a wider bound as well, if vertices that are near others, or share triangles with these, and no other ones, moved
+/// - by a wider bound as well, if vertices that are near others, or share triangles with these, and no others, moved
 ///   farther than the bound: rounding has to move surfaces that nearly coincide.
 Result<MeshJudgement> judge_with_doubt(const Target& target, Bound bound, const Run& run,
                                        const std::function<Result<Judged>(const Bound&)>& judge_by);
