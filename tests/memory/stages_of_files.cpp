@@ -342,9 +342,8 @@ std::vector<Stage> certifying() {
         judged_text));
     stages.push_back(stage(
         "judge, tetrahedra",
-        [surfaces] {
-            const Surface& s = surfaces[0];
-            return judge(LabelledTetrahedra{s.vertices, {{0, 1, 2, 3}}, {1}}, surfaces);
+        [surfaces, made = LabelledTetrahedra{surfaces[0].vertices, {{0, 1, 2, 3}}, {1}}] {
+            return judge(made, surfaces);
         },
         judged_text));
     stages.push_back(stage(
