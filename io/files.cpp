@@ -410,7 +410,7 @@ Result<LabelledTetrahedra> read_tetrahedra(const fs::path& path, std::optional<F
         const auto read = *chosen == Format::vtu   ? read_vtu_tetrahedra
                           : *chosen == Format::vtk ? read_vtk_tetrahedra
                           : *chosen == Format::msh ? read_msh_tetrahedra
-                                                  : nullptr;
+                                                   : nullptr;
         if (!read) return Error{ErrorCode::nothing_to_do, "the format has no tetrahedra", place};
         const auto contents = plain_file(path, place);
         if (!contents) return contents.error();
