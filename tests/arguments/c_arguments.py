@@ -28,7 +28,7 @@ from trials import conclude, make_calls, parse, supervise
 FREE = {"user": "it is passed on", "hardness": "the order counts alone", "name": "a name may be any text", "source": "it is only named in messages",
         "helper": "it is looked for where tetrahedra are made", "gmsh_helper": "likewise"}
 MAY_BE_NULL = {"left", "run", "error", "count", "length", "options", "search", "format", "unit", "variogram", "progress", "timing", "folder",
-               "part_format", "helper", "gmsh_helper", "vertex_count", "triangle_count", "surface_count", "face_count",
+               "part_format", "helper", "gmsh_helper", "columns", "vertex_count", "triangle_count", "surface_count", "face_count",
                "block_count", "column", "improved", "rules", "size_of", "size_in", "split", "inputs", "edge_length_of", "merged",
                "surfaces_or_null", "holes", "layered", "layers", "growth", "volume_files", "model_folder", "tetrahedra", "model"}
 #: Limits, which a number may exceed so far that nothing reaches them.
