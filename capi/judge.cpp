@@ -61,6 +61,26 @@ terrane_code terrane_judge(const terrane_surfaces* output, const terrane_surface
     });
 }
 
+terrane_code terrane_judge_tetrahedra(const double* vertices, size_t vertex_count,
+                                      const uint32_t* tetrahedra, size_t tetrahedron_count,
+                                      const uint32_t* labels, const terrane_surfaces* inputs,
+                                      const terrane_judge_options* options, const terrane_run* run,
+                                      terrane_mesh_judgement** out, terrane_error** error) {
+    return produce(out, error, [&] {
+        need_array(vertices, vertex_count, "vertices");
+        need_array(tetrahedra, tetrahedron_count, "tetrahedra");
+        terrane::LabelledTetrahedra made{points_of(vertices, vertex_count), {}, {}};
+        for (size_t t = 0; t < tetrahedron_count; ++t)
+            made.tetrahedra.push_back({tetrahedra[4 * t], tetrahedra[4 * t + 1],
+                                       tetrahedra[4 * t + 2], tetrahedra[4 * t + 3]});
+        if (labels) made.labels.assign(labels, labels + tetrahedron_count);
+        auto found = std::make_unique<terrane_mesh_judgement>();
+        found->judgement = must(
+            terrane::judge(made, needed(inputs, "inputs").list, judging_of(options), run_of(run)));
+        return found;
+    });
+}
+
 void terrane_mesh_judgement_free(terrane_mesh_judgement* judgement) {
     release(judgement);
 }

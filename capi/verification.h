@@ -127,6 +127,16 @@ TERRANE_API terrane_code terrane_judge(const terrane_surfaces* output,
                                        const terrane_surfaces* inputs,
                                        const terrane_judge_options* options, const terrane_run* run,
                                        terrane_mesh_judgement** out, terrane_error** error);
+/// Judges tetrahedra, whatever program made them, by the surfaces that they fill. `vertices` has 3 numbers for
+/// each of `vertex_count`, `tetrahedra` 4 indices for each of `tetrahedron_count`, and `labels` the number of
+/// its block for each; NULL: none. In flaws, tetrahedra stand for triangles. Free the judgement with
+/// terrane_mesh_judgement_free. Errors: BAD_ARGUMENT, BAD_NUMBER, BAD_INDEX, BAD_OPTION, INTERRUPTED,
+/// OUT_OF_MEMORY, INTERNAL.
+TERRANE_API terrane_code terrane_judge_tetrahedra(
+    const double* vertices, size_t vertex_count, const uint32_t* tetrahedra,
+    size_t tetrahedron_count, const uint32_t* labels, const terrane_surfaces* inputs,
+    const terrane_judge_options* options, const terrane_run* run, terrane_mesh_judgement** out,
+    terrane_error** error);
 /// Frees a judgement.
 TERRANE_API void terrane_mesh_judgement_free(terrane_mesh_judgement* judgement);
 /// Returns 1 if all properties hold, else 0.

@@ -78,8 +78,9 @@ std::string flaw(std::span<const Surface> surfaces) {
     const Surface mesh{"", Role::unknown, made->mesh->vertices, made->mesh->triangles};
     const auto found = judge(std::span(&mesh, 1), surfaces);
     if (!found && found.error().code == ErrorCode::unsupported)
-        return "";                                         // too large, or too small
-    if (const auto names = failing(found); !names.empty()) // known: where surfaces had to move
+        return ""; // too large, or too small
+    if (const auto names = failing(found);
+        !names.empty()) // known, and rare: heaps where surfaces had to move
         return made->report.naive_contacts > 0 ? "" : "a good mesh is refused:" + names;
     for (std::size_t t = 0; t < mesh.triangles.size(); t += 1 + mesh.triangles.size() / 4)
         if (const auto what = overlooked(mesh, t, surfaces); !what.empty())

@@ -18,6 +18,9 @@
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/gocad/gocad.hpp>
+#include <terrane/io/meshes/gmsh_reader.hpp>
+#include <terrane/io/meshes/legacy_vtk.hpp>
+#include <terrane/io/meshes/vtp_reader.hpp>
 #include <terrane/io/points/outline.hpp>
 
 #include "report.hpp"
@@ -157,6 +160,19 @@ void check_outline(std::string_view contents) {
     require(again && *again == *corners, "the corners differ after writing and reading");
 }
 
+/// Tetrahedra name vertices that there are, and have a label each or none at all.
+void check_tetrahedra(std::string_view contents) {
+    const auto found = format_name == "vtu"   ? read_vtu_tetrahedra(contents, "fuzz")
+                       : format_name == "vtk" ? read_vtk_tetrahedra(contents, "fuzz")
+                                              : read_msh_tetrahedra(contents, "fuzz");
+    if (!found) return check_error(found.error());
+    for (const auto& corners : found->tetrahedra)
+        for (const auto v : corners)
+            require(v < found->vertices.size(), "a corner that is no vertex");
+    require(found->labels.empty() || found->labels.size() == found->tetrahedra.size(),
+            "other labels than tetrahedra");
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -165,6 +181,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         check_outline(contents);
         return 0;
     }
+    if (format_name == "vtu" || format_name == "vtk" || format_name == "msh")
+        check_tetrahedra(contents);
     const auto surfaces = read(contents);
     if (!surfaces) {
         check_error(surfaces.error());

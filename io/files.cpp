@@ -403,6 +403,21 @@ Result<std::vector<Surface>> read_surfaces(const fs::path& path, std::optional<F
     });
 }
 
+Result<LabelledTetrahedra> read_tetrahedra(const fs::path& path, std::optional<Format> format) {
+    return guard_file(path, true, [&](const std::string& place) -> Result<LabelledTetrahedra> {
+        const auto chosen = choose_format(path, format, true);
+        if (!chosen) return chosen.error();
+        const auto read = *chosen == Format::vtu   ? read_vtu_tetrahedra
+                          : *chosen == Format::vtk ? read_vtk_tetrahedra
+                          : *chosen == Format::msh ? read_msh_tetrahedra
+                                                   : nullptr;
+        if (!read) return Error{ErrorCode::nothing_to_do, "the format has no tetrahedra", place};
+        const auto contents = plain_file(path, place);
+        if (!contents) return contents.error();
+        return read(*contents, place);
+    });
+}
+
 Result<GocadModel> read_model(const fs::path& path) {
     return guard_file(path, true, [&](const std::string& place) -> Result<GocadModel> {
         const auto contents = plain_file(path, place);

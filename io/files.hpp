@@ -99,6 +99,11 @@ Result<std::vector<Surface>> read_surfaces(const std::filesystem::path& path,
 Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::string_view source,
                                             Format format, const ReadOptions& options = {});
 
+/// Reads the tetrahedra of a file with their labels: VTU, legacy VTK and MSH. Errors: those of
+/// read_surfaces; nothing_to_do if there is none, also in other formats.
+Result<LabelledTetrahedra> read_tetrahedra(const std::filesystem::path& path,
+                                           std::optional<Format> format = std::nullopt);
+
 /// Reads the blocks that a file states, by its surfaces in the order of read_surfaces(): those of
 /// the first model of a GOCAD file but the outside, "Universe". There are none in other formats, in
 /// standard input, and where the model cannot be read. Cost: that of reading a file with a model again.

@@ -5,8 +5,10 @@
 # It builds the preset fuzz (or FUZZ_PRESET) and runs each target (all, unless some are named) for
 # SECONDS (default 60), two at a time (or FUZZ_JOBS), from the committed seeds. FUZZ_SEED makes a
 # run repeatable as far as timing allows (0, the default, is different each time); FUZZ_CORPUS
-# names a folder that keeps the corpora from one run to the next. It ends with a table; for each
-# finding the table names the file that reproduces it, and the status is 1.
+# names a folder that keeps the corpora from one run to the next, merged: what adds no coverage goes.
+# With FUZZ_RESUME=1 each target goes on from where the last run was stopped.
+# A target goes on after a finding, up to ten. Of findings of one property the shortest is kept, and its
+# file, the property and the number are listed after a table; the status is 1 then.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -29,7 +31,8 @@ binaries=$PWD/build/$preset/fuzz
 results=$PWD/build/$preset/campaign
 findings=$PWD/build/$preset/findings
 corpora=${FUZZ_CORPUS:-$results/corpus}
-rm -rf "$results" && mkdir -p "$results" "$findings" "$corpora"
+[[ -n ${FUZZ_RESUME:-} ]] || rm -rf "$results"
+mkdir -p "$results" "$findings" "$corpora"
 
 # Record only the innermost caller of each allocation: whole stacks took a third of the time.
 export ASAN_OPTIONS=malloc_context_size=1${ASAN_OPTIONS:+:$ASAN_OPTIONS}
@@ -37,9 +40,21 @@ export ASAN_OPTIONS=malloc_context_size=1${ASAN_OPTIONS:+:$ASAN_OPTIONS}
 # The target pieces writes files for each input.
 [[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm
 
-# A finding ends the target, as the first finding is to be fixed first.
+# Keeps the shortest finding of each property: a sentence without its numbers. Lists them in TARGET.found.
+keep_finding() {
+    local target=$1 log=$2 file property kept
+    property=$(grep -aoE -m1 '^FOUND: .*' "$log" || grep -aoE -m1 '(SUMMARY|ERROR): .*' "$log" || echo "no reason given")
+    kept=$findings/$target-$(sed -E 's/[-+.0-9]+//g; s/0x[0-9a-f]+//g' <<<"$property" | sha256sum | cut -c1-8)
+    for file in "$results/new-$target-"*; do
+        [[ -e $file ]] || continue
+        if [[ -e $kept && $(stat -c %s "$kept") -le $(stat -c %s "$file") ]]; then rm "$file"; else mv "$file" "$kept"; fi
+    done
+    printf '%s\t%s\n' "$kept" "$property" >>"$results/$target.found"
+}
+
+# Runs a target in slices, after each of which the seconds spent are noted.
 run_target() {
-    local target=$1 options=(-max_len=400 -len_control=10 -entropic=0)
+    local target=$1 spent start status merged options=(-max_len=400 -len_control=10 -entropic=0)
     local seed=${FUZZ_SEED:-0}
     local seeds=$PWD/fuzz/corpus/$target
     mkdir -p "$corpora/$target"
@@ -50,10 +65,24 @@ run_target() {
     [[ ! -x $binaries/minimise_$target ]] || options[0]=-max_len=1500 # literal meshes: 24 bytes per point
     # len_control lets inputs grow sooner. entropic is off, as its cost is linear in the features of
     # a run and took two thirds of the time.
-    "$binaries/fuzz_$target" "${options[@]}" -seed="$seed" -max_total_time="$seconds" -timeout=20 \
-        -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$findings/$target-" \
-        "$corpora/$target" "$seeds" >"$results/$target.log" 2>&1 ||
-        echo "$target" >>"$results/failed"
+    spent=$(cat "$results/$target.spent" 2>/dev/null || echo 0)
+    while ((spent < seconds)) && [[ $(grep -c . "$results/$target.found" 2>/dev/null) -lt 10 ]]; do
+        start=$SECONDS status=0
+        "$binaries/fuzz_$target" "${options[@]}" -seed=$((seed == 0 ? 0 : seed + spent)) \
+            -max_total_time=$((seconds - spent < 300 ? seconds - spent : 300)) -timeout=20 \
+            -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$results/new-$target-" \
+            "$corpora/$target" "$seeds" >"$results/$target.slice" 2>&1 || status=$?
+        cat "$results/$target.slice" >>"$results/$target.log"
+        spent=$((spent + (SECONDS > start ? SECONDS - start : 1)))
+        echo "$spent" >"$results/$target.spent"
+        [[ $status == 0 ]] || keep_finding "$target" "$results/$target.slice"
+    done
+    [[ -n ${FUZZ_CORPUS:-} ]] || return 0
+    merged=$corpora/$target.merged
+    rm -rf "$merged" && mkdir "$merged"
+    if "$binaries/fuzz_$target" "${options[@]}" -merge=1 "$merged" "$corpora/$target" >>"$results/$target.log" 2>&1; then
+        rm -r "${corpora:?}/$target" && mv "$merged" "$corpora/$target"
+    fi
 }
 
 for target in "${targets[@]}"; do
@@ -68,15 +97,16 @@ for target in "${targets[@]}"; do
     log=$results/$target.log
     progress=$(grep -aE '^#[0-9]+.* cov: ' "$log" | tail -1) || true # no line if the first seed failed
     printf '%-17s %12s %9s %9s %9s\n' "$target" \
-        "$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")" \
-        "$(sed -n 's/^stat::average_exec_per_sec: *//p' "$log")" \
+        "$(awk '/^stat::number_of_executed_units:/ { sum += $2 } END { print sum }' "$log")" \
+        "$(sed -n 's/^stat::average_exec_per_sec: *//p' "$log" | tail -1)" \
         "$(sed -nE 's/.* cov: ([0-9]+).*/\1/p' <<<"$progress")" \
         "$(sed -nE 's/.* ft: ([0-9]+).*/\1/p' <<<"$progress")"
 done
 
-[[ -e $results/failed ]] || exit 0
-while read -r target; do
-    echo "fuzz: $target found something:" >&2
-    grep -aE '^FOUND|ERROR: |SUMMARY: |Test unit written to' "$results/$target.log" >&2 || true
-done <"$results/failed"
+# One line for each property: how often, the file, the sentence.
+cat "$results"/*.found 2>/dev/null | awk -F'\t' '{ ++n[$1]; what[$1] = $2 }
+    END { for (file in n) print n[file] "\t" file "\t" what[file] }' | sort -k2 >"$results/findings" || true
+[[ -s $results/findings ]] || exit 0
+echo "fuzz: found, by property:" >&2
+cat "$results/findings" >&2
 exit 1

@@ -26,7 +26,7 @@
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
-#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane {
@@ -107,6 +107,18 @@ struct MeshJudgement {
 /// Errors: bad_number, bad_index, unsupported, bad_option (operand_of); not_closed if an operand bounds
 /// no solid; interrupted, out_of_memory, internal.
 Result<MeshJudgement> judge(std::span<const Surface> output, std::span<const Surface> inputs,
+                            const JudgeOptions& options = {}, const Run& run = {});
+
+/// Judges tetrahedra by the surfaces that they fill; where they reach beyond these on all sides, by the box round
+/// all tetrahedra as well:
+/// - positive: no tetrahedron is without volume, and all are wound the same way;
+/// - conforming: two tetrahedra share a corner, an edge, a face, or nothing;
+/// - welded: nodes are torn nowhere but at surfaces;
+/// - vertices, curves, coverage, topology: as above, of the faces of tetrahedra on the surfaces;
+/// - labels (if there are any): all tetrahedra of a block have one, which no other block has;
+/// - volume: that of each block is the exact one, within the bound times its area.
+/// In flaws, tetrahedra stand for triangles. Errors: as above; bad_option (operation).
+Result<MeshJudgement> judge(const LabelledTetrahedra& output, std::span<const Surface> inputs,
                             const JudgeOptions& options = {}, const Run& run = {});
 
 /// Judges triangles alone: conforming and distinct as above, welded (no point is there twice), closed

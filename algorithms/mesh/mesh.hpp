@@ -61,6 +61,13 @@ struct TetrahedralMesh {
     std::string failure{};         ///< why another mesher, asked before, made none; or empty
 };
 
+/// Tetrahedra as any program may have made them.
+struct LabelledTetrahedra {
+    std::vector<Point3> vertices;                         ///< unit of the input
+    std::vector<std::array<std::uint32_t, 4>> tetrahedra; ///< indices into vertices
+    std::vector<std::uint32_t> labels; ///< per tetrahedron: the number of its block; or none at all
+};
+
 /// A named array with one value per cell, for the formats that have such arrays (VTP, VTU).
 struct CellArray {
     std::string name; ///< "volume", "quality", ...

@@ -8,6 +8,8 @@
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/reports/judge_report.hpp>
+#include <terrane/cli/stages/page_output.hpp>
+#include <terrane/io/atomic/file_set.hpp>
 #include <terrane/io/judgement/limits.hpp>
 
 namespace terrane::cli {
@@ -25,6 +27,8 @@ constexpr auto judge_footer =
     R"(Properties of a mesh, which any program may have made: conforming, distinct, welded, vertices,
 curves, coverage, topology, orientation; with --operation volume, too. It is compared with the exact
 arrangement of the inputs, or with the boundary of the operation; each input file is one operand.
+Tetrahedra (VTU, MSH, legacy VTK) are compared with the blocks between the inputs: positive, conforming, welded,
+vertices, curves, coverage, topology, labels, volume.
 --soup judges triangles alone: conforming, distinct, welded, closed, manifold, oriented, tetgen.
 docs/how-to/judge.md says what each property means.
 
@@ -85,30 +89,60 @@ Inputs read_output(const JudgeCommand& command, const FileOptions& files, Sessio
     }
 }
 
+/// Returns the tetrahedra of a file that is judged by inputs, if it has any.
+std::optional<LabelledTetrahedra> tetrahedra_in(const JudgeCommand& command) {
+    if (command.soup || command.output == "-" || !command.operation.empty()) return std::nullopt;
+    auto found = read_tetrahedra(command.output);
+    if (!found && found.error().code == ErrorCode::nothing_to_do) return std::nullopt;
+    return must(std::move(found));
+}
+
+/// Begins the page, if it is wanted; it is about the mesh and its inputs.
+page::Page plan_report(const JudgeCommand& command, const Session& session) {
+    FileOptions files = command.inputs;
+    files.inputs.insert(files.inputs.begin(), command.output);
+    page::Page page = plan_page(files, session);
+    if (page.wanted())
+        for (const std::string& path : files.inputs) must(page.add_file(path));
+    return page;
+}
+
 ExitStatus judge_file(const JudgeCommand& command) {
     check_usage(command);
     Session session(1); // processor time is that of one thread
     FileOptions of_output;
     of_output.inputs = {command.output};
-    const Inputs output = read_output(command, of_output, session);
+    page::Page page = plan_report(command, session);
+    const auto tetrahedra = tetrahedra_in(command);
+    Inputs output = tetrahedra ? Inputs() : read_output(command, of_output, session);
     const Inputs inputs = command.soup ? Inputs() : read_inputs(command.inputs, session);
+    if (tetrahedra) output.extent = inputs.extent;
     const JudgeOptions options = options_of(command, inputs);
     session.begin("judge", Phase::computing);
     const auto judged =
         judge_within(command.limits, session.run().stop, [&](const std::stop_token& stop) {
             Run run = session.run();
             run.stop = stop;
-            return command.soup ? judge_soup(output.surfaces, options, run)
-                                : judge(output.surfaces, inputs.surfaces, options, run);
+            return tetrahedra     ? judge(*tetrahedra, inputs.surfaces, options, run)
+                   : command.soup ? judge_soup(output.surfaces, options, run)
+                                  : judge(output.surfaces, inputs.surfaces, options, run);
         });
     session.end_stage();
     if (!judged) return not_judged(judged.error(), command.tags);
-    if (command.json) print(stdout, judge_json(*judged, output));
+    const JudgedMesh mesh{output, name_of_inputs(of_output),
+                          tetrahedra ? tetrahedra->tetrahedra.size() : 0};
+    if (command.json) print(stdout, judge_json(*judged, mesh));
     if (command.tags) print(stdout, tag_line(tag_of(*judged)));
-    if (!command.json && !command.tags)
-        say(stdout, judge_text(*judged, output, name_of_inputs(of_output)));
+    if (!command.json && !command.tags) say(stdout, judge_text(*judged, mesh));
+    if (page.wanted()) {
+        page.set_inputs(output.unit, tetrahedra ? inputs.files : output.files);
+        must(page.add_judged(tetrahedra ? inputs.surfaces : output.surfaces, *judged));
+        write_page(page, command.inputs, judge_statistics(*judged), session);
+    }
     if (!judged->holds()) return ExitStatus::negative;
-    return judged->complete() ? ExitStatus::done : ExitStatus::bad_input;
+    if (judged->complete()) return ExitStatus::done;
+    must(FileSet::current()->publish()); // the page, though the status is that of a failure
+    return ExitStatus::bad_input;
 }
 
 } // namespace
@@ -137,6 +171,7 @@ Command judge_command(CLI::App& program) {
     app->add_flag("--json", options->json, "One line of JSON per property");
     app->add_flag("--tags", options->tags,
                   "One line with a tag, as CGAL's robustness benchmarks have it");
+    add_report(*app, options->inputs);
     app->footer(judge_footer);
     return {app, [options] { return judge_file(*options); }};
 }

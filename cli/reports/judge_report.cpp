@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/styles.hpp>
 
@@ -20,13 +19,15 @@ std::vector<std::uint32_t> first_triangles(const Inputs& output) {
     return first;
 }
 
-std::string flaw_text(const PropertyFlaw& flaw, const Inputs& output,
+std::string flaw_text(const PropertyFlaw& flaw, const JudgedMesh& mesh,
                       const std::vector<std::uint32_t>& first) {
-    std::string triangles;
+    std::string elements;
     for (const std::uint32_t t : flaw.triangles)
-        triangles += (triangles.empty() ? ": " : ", ") + triangle_name(t, first, output.labels);
-    return fmt::format("  {} at {}{}\n", flaw.sentence, output.quantities().place(flaw.place),
-                       triangles);
+        elements += (elements.empty() ? ": " : ", ") +
+                    (mesh.tetrahedra > 0 ? fmt::format("tetrahedron {}", t)
+                                         : triangle_name(t, first, mesh.surfaces.labels));
+    return fmt::format("  {} at {}{}\n", flaw.sentence,
+                       mesh.surfaces.quantities().place(flaw.place), elements);
 }
 
 std::string verdict_word(PropertyVerdict verdict) {
@@ -38,12 +39,15 @@ std::string verdict_word(PropertyVerdict verdict) {
 
 } // namespace
 
-std::string judge_text(const MeshJudgement& judged, const Inputs& output, const std::string& name) {
-    const auto first = first_triangles(output);
-    std::string text = fmt::format("{}: {}\n", name, counted(output.triangles, "triangle"));
+std::string judge_text(const MeshJudgement& judged, const JudgedMesh& mesh) {
+    const auto first = first_triangles(mesh.surfaces);
+    std::string text =
+        fmt::format("{}: {}\n", mesh.name,
+                    mesh.tetrahedra > 0 ? fmt::format("{} tetrahedra", mesh.tetrahedra)
+                                        : counted(mesh.surfaces.triangles, "triangle"));
     for (const JudgedProperty& p : judged.properties) {
         text += fmt::format("{}: {}: {}\n", p.name, verdict_word(p.verdict), p.sentence);
-        for (const PropertyFlaw& flaw : p.flaws) text += flaw_text(flaw, output, first);
+        for (const PropertyFlaw& flaw : p.flaws) text += flaw_text(flaw, mesh, first);
         if (p.count > p.flaws.size())
             text += fmt::format("  and {} more (--all lists them)\n", p.count - p.flaws.size());
     }
@@ -55,8 +59,8 @@ std::string judge_text(const MeshJudgement& judged, const Inputs& output, const 
                                              judged.properties.size()));
 }
 
-std::string judge_json(const MeshJudgement& judged, const Inputs& output) {
-    const auto first = first_triangles(output);
+std::string judge_json(const MeshJudgement& judged, const JudgedMesh& mesh) {
+    const auto first = first_triangles(mesh.surfaces);
     std::string lines;
     for (const JudgedProperty& p : judged.properties) {
         Json json{{"property", p.name}, {"verdict", name_of(p.verdict)}, {"count", p.count},
@@ -64,18 +68,30 @@ std::string judge_json(const MeshJudgement& judged, const Inputs& output) {
         for (const PropertyFlaw& flaw : p.flaws) {
             Json triangles = Json::array();
             for (const std::uint32_t t : flaw.triangles) {
+                if (mesh.tetrahedra > 0) {
+                    triangles.push_back(t);
+                    continue;
+                }
                 const auto s = std::ranges::upper_bound(first, t) - first.begin() - 1;
                 triangles.push_back(
                     {{"surface", s}, {"triangle", t - first[static_cast<std::size_t>(s)]}});
             }
             json["flaws"].push_back({{"sentence", flaw.sentence},
                                      {"place", flaw.place},
-                                     {"triangles", triangles},
+                                     {mesh.tetrahedra > 0 ? "tetrahedra" : "triangles", triangles},
                                      {"size", flaw.size}});
         }
         lines += json.dump() + "\n";
     }
     return lines;
+}
+
+Json judge_statistics(const MeshJudgement& judged) {
+    Json properties;
+    for (const JudgedProperty& p : judged.properties)
+        properties[p.name] = {
+            {"verdict", name_of(p.verdict)}, {"count", p.count}, {"size", p.size}};
+    return properties;
 }
 
 std::string tag_line(std::string_view tag) {

@@ -8,14 +8,26 @@
 
 #include <terrane/algorithms/judge/judge.hpp>
 #include <terrane/cli/options/files.hpp>
+#include <terrane/cli/options/statistics.hpp>
 
 namespace terrane::cli {
 
-/// Says the verdict of each property and lists flaws. `name`: of the output.
-std::string judge_text(const MeshJudgement& judged, const Inputs& output, const std::string& name);
+/// The mesh that was judged.
+struct JudgedMesh {
+    const Inputs& surfaces; ///< none of a mesh of tetrahedra
+    std::string name;
+    std::size_t tetrahedra = 0; ///< number of them; 0: triangles
+};
 
-/// Returns one line per property. A triangle is {"surface": index, "triangle": number within it}.
-std::string judge_json(const MeshJudgement& judged, const Inputs& output);
+/// Says the verdict of each property and lists flaws.
+std::string judge_text(const MeshJudgement& judged, const JudgedMesh& mesh);
+
+/// Returns one line per property. A triangle is {"surface": index, "triangle": number within it}, a tetrahedron
+/// its number.
+std::string judge_json(const MeshJudgement& judged, const JudgedMesh& mesh);
+
+/// Returns the verdict, count and size of each property, by its name.
+Json judge_statistics(const MeshJudgement& judged);
 
 /// Returns a line as the scripts of CGAL's robustness benchmarks write it.
 std::string tag_line(std::string_view tag);

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/io/meshes/detail/vtk_cells.hpp>
 #include <terrane/io/surfaces/parts.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
@@ -21,6 +22,7 @@ using namespace detail;
 namespace {
 
 constexpr std::int64_t msh_triangle = 2, msh_quadrilateral = 3; // types of elements
+constexpr std::int64_t msh_tetrahedron = 4, msh_tetrahedron_10 = 11;
 /// Triangles and quadrilaterals of higher order; their sides are curved.
 constexpr std::array<std::int64_t, 13> curved_types{9,  10, 16, 20, 21, 22, 23,
                                                     24, 25, 36, 37, 38, 39};
@@ -33,19 +35,33 @@ public:
         in_(contents, source), name_(name) {}
 
     Result<std::vector<Surface>> read() {
-        if (!next()) return in_.file_error(ErrorCode::nothing_to_do, "the file is empty");
-        if (word_ != "$MeshFormat")
-            return in_.error(ErrorCode::bad_syntax, "the first line is not $MeshFormat");
-        if (auto trouble = read_format()) return *trouble;
-        while (next())
-            if (auto trouble = read_section(std::string(word_))) return *trouble;
+        if (auto trouble = read_sections()) return *trouble;
         auto surfaces = surfaces_of_parts(vertices_, parts(), values_);
         if (surfaces.empty())
             return in_.file_error(ErrorCode::nothing_to_do, "there is no triangle");
         return surfaces;
     }
 
+    Result<LabelledTetrahedra> read_tetrahedra() {
+        for_tetrahedra_ = true;
+        if (auto trouble = read_sections()) return *trouble;
+        if (tetrahedra_.tetrahedra.empty())
+            return in_.file_error(ErrorCode::nothing_to_do, "there is no tetrahedron");
+        tetrahedra_.vertices = std::move(vertices_);
+        return std::move(tetrahedra_);
+    }
+
 private:
+    MaybeError read_sections() {
+        if (!next()) return in_.file_error(ErrorCode::nothing_to_do, "the file is empty");
+        if (word_ != "$MeshFormat")
+            return in_.error(ErrorCode::bad_syntax, "the first line is not $MeshFormat");
+        if (auto trouble = read_format()) return trouble;
+        while (next())
+            if (auto trouble = read_section(std::string(word_))) return trouble;
+        return std::nullopt;
+    }
+
     /// A physical surface, or an entity without one; physical surfaces come first.
     struct Key {
         bool is_entity = false;
@@ -163,13 +179,16 @@ private:
         for (std::size_t d = 0; d < 4; ++d)
             for (std::size_t i = 0; i < counts[d]; ++i) {
                 if (auto trouble = need_line("$Entities")) return trouble;
-                if (d != 2) continue;
-                if (auto trouble = read_surface_entity()) return trouble;
+                if (d != dimension()) continue;
+                if (auto trouble = read_entity()) return trouble;
             }
         return std::nullopt;
     }
 
-    MaybeError read_surface_entity() {
+    /// Of the entities that are read.
+    [[nodiscard]] std::size_t dimension() const { return for_tetrahedra_ ? 3 : 2; }
+
+    MaybeError read_entity() {
         std::int64_t tag = 0, groups = 0;
         if (auto trouble = integer(word_, tag)) return trouble;
         for (int k = 0; k < 6; ++k) tokens_.next(); // its box
@@ -236,7 +255,8 @@ private:
     }
 
     [[nodiscard]] MaybeError check_type(std::int64_t type) const {
-        if (std::find(curved_types.begin(), curved_types.end(), type) == curved_types.end())
+        if (for_tetrahedra_ ||
+            std::find(curved_types.begin(), curved_types.end(), type) == curved_types.end())
             return std::nullopt;
         return in_.error(ErrorCode::unsupported,
                          fmt::format("elements of type {} have curved sides; only triangles and "
@@ -244,10 +264,10 @@ private:
                                      type));
     }
 
-    /// Reads the nodes of a triangle or quadrilateral from the rest of the line.
+    /// Reads the corners of an element from the rest of the line.
     MaybeError read_corners(std::int64_t type, std::vector<std::uint32_t>& corners) {
         corners.clear();
-        for (std::int64_t k = 0; k < type + 1; ++k) {
+        for (std::int64_t k = 0; k < (for_tetrahedra_ ? 4 : type + 1); ++k) {
             std::int64_t tag = 0;
             if (auto trouble = integer(tokens_.next(), tag)) return trouble;
             const auto node = node_of_.find(tag);
@@ -260,8 +280,15 @@ private:
         return std::nullopt;
     }
 
-    static bool has_area(std::int64_t type) {
+    [[nodiscard]] bool is_wanted(std::int64_t type) const {
+        if (for_tetrahedra_) return type == msh_tetrahedron || type == msh_tetrahedron_10;
         return type == msh_triangle || type == msh_quadrilateral;
+    }
+    MaybeError add_tetrahedron(const std::vector<std::uint32_t>& corners, std::int64_t label) {
+        append_tetrahedron(corners, tetrahedra_);
+        if (append_label(label, tetrahedra_)) return std::nullopt;
+        return in_.error(ErrorCode::bad_number,
+                         fmt::format("the tag {} is no number of 32 bits", label));
     }
 
     MaybeError read_elements22() {
@@ -274,7 +301,7 @@ private:
             if (auto trouble = need_line("$Elements")) return trouble;
             if (auto trouble = integer(tokens_.next(), type)) return trouble;
             if (auto trouble = check_type(type)) return trouble;
-            if (!has_area(type)) continue;
+            if (!is_wanted(type)) continue;
             if (auto trouble = integer(tokens_.next(), tags)) return trouble;
             for (std::int64_t k = 0; k < tags; ++k)
                 if (auto trouble = integer(tokens_.next(), k == 0   ? physical
@@ -282,6 +309,11 @@ private:
                                                                     : unused))
                     return trouble;
             if (auto trouble = read_corners(type, corners)) return trouble;
+            if (for_tetrahedra_) {
+                if (auto trouble = add_tetrahedron(corners, physical != 0 ? physical : entity))
+                    return trouble;
+                continue;
+            }
             append_face(corners, parts_[physical != 0 ? Key{false, physical} : Key{true, entity}]);
         }
         return std::nullopt;
@@ -305,15 +337,21 @@ private:
         if (auto trouble = count(tokens_.next(), elements)) return trouble;
         if (auto trouble = check_type(type)) return trouble;
         std::vector<FilePart*> to;
-        if (const auto groups = physical_of_.find(entity); groups != physical_of_.end())
+        const auto groups = physical_of_.find(entity);
+        const bool grouped = groups != physical_of_.end() && !groups->second.empty();
+        if (grouped && !for_tetrahedra_)
             for (const std::int64_t group : groups->second)
                 to.push_back(&parts_[Key{false, group}]);
-        if (to.empty() && has_area(type)) to.push_back(&parts_[Key{true, entity}]);
+        if (to.empty() && is_wanted(type) && !for_tetrahedra_)
+            to.push_back(&parts_[Key{true, entity}]);
         std::vector<std::uint32_t> corners;
         for (std::size_t i = 0; i < elements; ++i) {
             if (auto trouble = need_line("$Elements")) return trouble;
-            if (!has_area(type)) continue;
+            if (!is_wanted(type)) continue;
             if (auto trouble = read_corners(type, corners)) return trouble;
+            if (for_tetrahedra_)
+                if (auto trouble = add_tetrahedron(corners, grouped ? groups->second[0] : entity))
+                    return trouble;
             for (FilePart* part : to) append_face(corners, *part);
         }
         return std::nullopt;
@@ -337,11 +375,13 @@ private:
 
     LineParser in_;
     std::string_view name_;
+    bool for_tetrahedra_ = false;   ///< instead of surfaces
+    LabelledTetrahedra tetrahedra_; ///< without vertices
     Tokens tokens_{""};
     std::string_view word_;                                         ///< the first of the line
     int version_ = 0;                                               ///< 2 or 4
     std::map<std::int64_t, std::string> name_of_;                   ///< of physical surfaces
-    std::map<std::int64_t, std::vector<std::int64_t>> physical_of_; ///< per surface entity
+    std::map<std::int64_t, std::vector<std::int64_t>> physical_of_; ///< per entity
     std::unordered_map<std::int64_t, std::uint32_t> node_of_;       ///< by tag
     std::vector<Point3> vertices_;
     std::vector<std::string> values_; ///< see Surface
@@ -353,6 +393,10 @@ private:
 Result<std::vector<Surface>> read_msh(std::string_view contents, std::string_view source,
                                       std::string_view name) {
     return MshReader(contents, source, name).read();
+}
+
+Result<LabelledTetrahedra> read_msh_tetrahedra(std::string_view contents, std::string_view source) {
+    return MshReader(contents, source, "").read_tetrahedra();
 }
 
 } // namespace terrane

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
-#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
 
 namespace terrane {
 
@@ -23,5 +23,9 @@ namespace terrane {
 /// triangle. Cost: n log n.
 Result<std::vector<Surface>> read_msh(std::string_view contents, std::string_view source,
                                       std::string_view name);
+
+/// Reads the tetrahedra of a file in text, of second order by their corners. Their labels are the tags of
+/// physical volumes, or of entities. Errors: those of read_msh; nothing_to_do if there is none.
+Result<LabelledTetrahedra> read_msh_tetrahedra(std::string_view contents, std::string_view source);
 
 } // namespace terrane

@@ -35,15 +35,8 @@ public:
         in_(contents, source), name_(name) {}
 
     Result<std::vector<Surface>> read() {
-        if (auto trouble = read_header()) return *trouble;
         std::string section;
-        for (auto keyword = in_.token(); !keyword.empty(); keyword = in_.token()) {
-            section = lower(keyword);
-            if (section == "cell_data" || section == "point_data")
-                break; // the geometry is complete
-            if (auto trouble = read_section(section)) return *trouble;
-            section.clear();
-        }
+        if (auto trouble = read_geometry(section)) return *trouble;
         if (auto trouble = read_names(section)) return *trouble;
         if (auto trouble = make_triangles()) return *trouble;
         auto surfaces = surfaces_of_parts(vertices_, std::move(parts_), values_);
@@ -51,7 +44,35 @@ public:
         return surfaces;
     }
 
+    Result<LabelledTetrahedra> read_tetrahedra() {
+        for_tetrahedra_ = true;
+        std::string section;
+        if (auto trouble = read_geometry(section)) return *trouble;
+        (void)read_attributes(section); // up to what is not known; the geometry is complete
+        for (const auto name : label_arrays)
+            if (labels_.empty()) labels_ = cell_arrays_[std::string(name)];
+        if (auto trouble = make_triangles()) return *trouble;
+        if (tetrahedra_.tetrahedra.empty())
+            return Error{ErrorCode::nothing_to_do, "there is no tetrahedron",
+                         std::string(in_.source())};
+        tetrahedra_.vertices = std::move(vertices_);
+        return std::move(tetrahedra_);
+    }
+
 private:
+    /// Reads up to the section that follows the geometry.
+    MaybeError read_geometry(std::string& section) {
+        if (auto trouble = read_header()) return trouble;
+        for (auto keyword = in_.token(); !keyword.empty(); keyword = in_.token()) {
+            section = lower(keyword);
+            if (section == "cell_data" || section == "point_data")
+                break; // the geometry is complete
+            if (auto trouble = read_section(section)) return trouble;
+            section.clear();
+        }
+        return std::nullopt;
+    }
+
     MaybeError read_header() {
         if (!lower(in_.line()).starts_with("# vtk datafile version"))
             return in_.error(ErrorCode::bad_syntax,
@@ -169,8 +190,9 @@ private:
         if (auto trouble = in_.read_numbers(count, legacy_int, types)) return trouble;
         for (const std::int64_t type : types) {
             kinds_.push_back(kind_of_cell(type));
-            if (kinds_.back() == CellKind::passed_over) ++other_cells_;
-            if (kinds_.back() == CellKind::curved)
+            if (kinds_.back() == CellKind::passed_over || kinds_.back() == CellKind::tetrahedron)
+                ++other_cells_;
+            if (kinds_.back() == CellKind::curved && !for_tetrahedra_)
                 return in_.error_at(at, ErrorCode::unsupported,
                                     fmt::format("cell {} is of type {}, with curved sides, which "
                                                 "is not read",
@@ -199,7 +221,8 @@ private:
             std::vector<double> values;
             if (auto trouble = read_array(components * tuples, values)) return trouble;
             if (&arrays != &fields_) note_values(name, values_);
-            if (name.starts_with("surface")) arrays[name] = std::move(values);
+            if (name.starts_with("surface") || std::ranges::count(label_arrays, name) != 0)
+                arrays[name] = std::move(values);
         }
         return std::nullopt;
     }
@@ -333,8 +356,12 @@ private:
             if (is_grid_ && c >= kinds_.size())
                 return in_.error_at(cells.at, ErrorCode::bad_index,
                                     fmt::format("CELL_TYPES has no type for cell {}", c));
-            if (auto trouble = add_cell(is_grid_ ? kinds_[c] : kind, cells.at, polygon, corners))
+            if (for_tetrahedra_) {
+                if (auto trouble = add_tetrahedron(c, cells.at, corners)) return trouble;
+            } else if (auto trouble =
+                           add_cell(is_grid_ ? kinds_[c] : kind, cells.at, polygon, corners)) {
                 return trouble;
+            }
         }
         return std::nullopt;
     }
@@ -379,6 +406,16 @@ private:
         return std::nullopt;
     }
 
+    MaybeError add_tetrahedron(std::size_t c, std::size_t at,
+                               const std::vector<std::uint32_t>& corners) {
+        if (!is_grid_ || kinds_[c] != CellKind::tetrahedron) return std::nullopt;
+        append_tetrahedron(corners, tetrahedra_);
+        if (labels_.empty()) return std::nullopt;
+        if (c < labels_.size() && append_label(labels_[c], tetrahedra_)) return std::nullopt;
+        return in_.error_at(at, ErrorCode::bad_number,
+                            fmt::format("the label of cell {} is no number of 32 bits", c));
+    }
+
     /// Tells whether the lists of surfaces fit this number of polygons.
     [[nodiscard]] bool lists_are_sound(std::size_t polygons) {
         const auto& offsets = fields_["surfaces_offset"];
@@ -412,6 +449,9 @@ private:
 
     LegacyVtkScanner in_;
     std::string_view name_;
+    bool for_tetrahedra_ = false;   ///< instead of surfaces
+    LabelledTetrahedra tetrahedra_; ///< without vertices
+    std::vector<double> labels_;    ///< per cell; or none
     bool is_grid_ = false;
     std::vector<std::string> values_; ///< see Surface
     std::vector<Point3> vertices_;
@@ -429,6 +469,10 @@ private:
 Result<std::vector<Surface>> read_vtk(std::string_view contents, std::string_view source,
                                       std::string_view name) {
     return LegacyVtkReader(contents, source, name).read();
+}
+
+Result<LabelledTetrahedra> read_vtk_tetrahedra(std::string_view contents, std::string_view source) {
+    return LegacyVtkReader(contents, source, "").read_tetrahedra();
 }
 
 } // namespace terrane

@@ -25,6 +25,10 @@ namespace terrane {
 Result<std::vector<Surface>> read_vtk(std::string_view contents, std::string_view source,
                                       std::string_view name);
 
+/// Reads the tetrahedra of an UNSTRUCTURED_GRID, of second order by their corners, with the labels that
+/// read_vtu_tetrahedra() reads. Errors: those of read_vtk; nothing_to_do if there is none.
+Result<LabelledTetrahedra> read_vtk_tetrahedra(std::string_view contents, std::string_view source);
+
 /// Writes the triangles as POLYDATA in text, version 3.0. The cell array `surface` (int) is the number
 /// of the first surface of each triangle, `surface_count` the number of its surfaces. Field arrays:
 /// surface_name and surface_role (unsigned_char), the codes of the characters of all names and roles,

@@ -52,22 +52,38 @@ public:
         source_(source), name_(name), type_(type) {}
 
     Result<std::vector<Surface>> read() {
-        if (auto trouble = parse()) return *trouble;
-        if (auto trouble = read_header()) return *trouble;
-        const pugi::xml_node data = root_.child(std::string(type_).c_str());
-        if (!data)
-            return error(root_, ErrorCode::bad_syntax,
-                         fmt::format("there is no element {}", type_));
-        if (auto trouble = read_names(data)) return *trouble;
-        if (parts_.empty()) parts_.push_back({std::string(name_)});
-        for (const pugi::xml_node piece : data.children("Piece"))
-            if (auto trouble = read_piece(data, piece)) return *trouble;
+        if (auto trouble = read_pieces()) return *trouble;
         auto surfaces = surfaces_of_parts(vertices_, std::move(parts_), values_);
         if (surfaces.empty()) return no_triangle_among(other_cells_, source_);
         return surfaces;
     }
 
+    Result<LabelledTetrahedra> read_tetrahedra() {
+        for_tetrahedra_ = true;
+        if (auto trouble = read_pieces()) return *trouble;
+        if (tetrahedra_.tetrahedra.empty())
+            return Error{ErrorCode::nothing_to_do, "there is no tetrahedron", std::string(source_)};
+        if (tetrahedra_.labels.size() < tetrahedra_.tetrahedra.size())
+            tetrahedra_.labels.clear(); // some piece has none
+        tetrahedra_.vertices = std::move(vertices_);
+        return std::move(tetrahedra_);
+    }
+
 private:
+    MaybeError read_pieces() {
+        if (auto trouble = parse()) return trouble;
+        if (auto trouble = read_header()) return trouble;
+        const pugi::xml_node data = root_.child(std::string(type_).c_str());
+        if (!data)
+            return error(root_, ErrorCode::bad_syntax,
+                         fmt::format("there is no element {}", type_));
+        if (auto trouble = read_names(data)) return trouble;
+        if (parts_.empty()) parts_.push_back({std::string(name_)});
+        for (const pugi::xml_node piece : data.children("Piece"))
+            if (auto trouble = read_piece(data, piece)) return trouble;
+        return std::nullopt;
+    }
+
     [[nodiscard]] std::string place(std::ptrdiff_t offset) const {
         const auto end = std::min(contents_.size(),
                                   static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)));
@@ -361,8 +377,9 @@ private:
         if (auto trouble = values_of(node, types)) return trouble;
         for (const std::int64_t type : types) {
             kinds.push_back(kind_of_cell(type));
-            if (kinds.back() == CellKind::passed_over) ++other_cells_;
-            if (kinds.back() == CellKind::curved)
+            if (kinds.back() == CellKind::passed_over || kinds.back() == CellKind::tetrahedron)
+                ++other_cells_;
+            if (kinds.back() == CellKind::curved && !for_tetrahedra_)
                 return error(node, ErrorCode::unsupported,
                              fmt::format("cell {} is of type {}, with curved sides, which is not "
                                          "read",
@@ -378,6 +395,7 @@ private:
         std::vector<CellKind> kinds;
         Ownership of;
         if (auto trouble = read_kinds(cells, kinds)) return trouble;
+        if (for_tetrahedra_) return read_grid_tetrahedra(piece, points, kinds);
         if (auto trouble = read_ownership(data, piece, of, kinds)) return trouble;
         std::size_t polygons = 0;
         const auto use = [&](std::size_t k, const Corners& corners) -> MaybeError {
@@ -393,9 +411,28 @@ private:
         return for_each_cell(cells, points, use);
     }
 
+    MaybeError read_grid_tetrahedra(const pugi::xml_node& piece, std::size_t points,
+                                    const std::vector<CellKind>& kinds) {
+        Integers labels;
+        for (const auto name : label_arrays)
+            if (const auto array = array_named(piece.child("CellData"), name);
+                array && labels.empty())
+                if (auto trouble = values_of(array, labels)) return trouble;
+        const auto use = [&](std::size_t k, const Corners& corners) -> MaybeError {
+            if (k >= kinds.size() || kinds[k] != CellKind::tetrahedron) return std::nullopt;
+            append_tetrahedron(corners, tetrahedra_);
+            if (k >= labels.size() || append_label(labels[k], tetrahedra_)) return std::nullopt;
+            return error(piece, ErrorCode::bad_number,
+                         fmt::format("the label of cell {} is no number of 32 bits", k));
+        };
+        return for_each_cell(piece.child("Cells"), points, use);
+    }
+
     std::string_view contents_, source_, name_;
-    std::string_view type_;       ///< of the data that are read: PolyData or UnstructuredGrid
-    std::size_t other_cells_ = 0; ///< cells of a grid that are no faces
+    bool for_tetrahedra_ = false;   ///< instead of surfaces
+    LabelledTetrahedra tetrahedra_; ///< without vertices
+    std::string_view type_;         ///< of the data that are read: PolyData or UnstructuredGrid
+    std::size_t other_cells_ = 0;   ///< cells of a grid that are no faces
     pugi::xml_document document_;
     pugi::xml_node root_;
     VtkEncoding encoding_;
@@ -419,6 +456,10 @@ Result<std::vector<Surface>> read_vtp(std::string_view contents, std::string_vie
 Result<std::vector<Surface>> read_vtu(std::string_view contents, std::string_view source,
                                       std::string_view name) {
     return VtkXmlReader(contents, source, name, "UnstructuredGrid").read();
+}
+
+Result<LabelledTetrahedra> read_vtu_tetrahedra(std::string_view contents, std::string_view source) {
+    return VtkXmlReader(contents, source, "", "UnstructuredGrid").read_tetrahedra();
 }
 
 } // namespace terrane

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
-#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
 
 namespace terrane {
 
@@ -32,5 +32,9 @@ Result<std::vector<Surface>> read_vtp(std::string_view contents, std::string_vie
 /// sides.
 Result<std::vector<Surface>> read_vtu(std::string_view contents, std::string_view source,
                                       std::string_view name);
+
+/// Reads the tetrahedra of all pieces, of second order by their corners, and their labels: the array `block`,
+/// `cell_scalars`, `CellEntityIds` or `gmsh:physical`. Errors: those of read_vtu; nothing_to_do if there is none.
+Result<LabelledTetrahedra> read_vtu_tetrahedra(std::string_view contents, std::string_view source);
 
 } // namespace terrane

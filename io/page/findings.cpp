@@ -130,6 +130,29 @@ void add_flaws(Findings& findings, const CheckReport& report, std::span<const Su
     }
 }
 
+void add_flaws(Findings& findings, const MeshJudgement& judged, std::span<const Surface> surfaces) {
+    constexpr double seen = 0.02; // share of the model that a flaw without a size is seen in
+    Point3 low, high;
+    bool first = true;
+    for (const Surface& s : surfaces)
+        for (const Point3& p : s.vertices) {
+            if (std::exchange(first, false)) low = high = p;
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+    for (const JudgedProperty& p : judged.properties) {
+        const std::string kind =
+            p.verdict == PropertyVerdict::fails ? p.name : p.name + " in doubt";
+        const char* measure = p.name == "coverage" ? "area"
+                              : p.name == "volume" ? "volume"
+                              : p.name == "tetgen" ? "angle"
+                                                   : "length";
+        for (const PropertyFlaw& flaw : p.flaws)
+            findings.push_back({kind, flaw.sentence, std::abs(flaw.size), measure, flaw.place,
+                                seen * distance_between(low, high)});
+    }
+}
+
 Status add_holes(Findings& findings, std::span<const Surface> surfaces, const Run& run) {
     const auto labels = unique_labels(infos_of(surfaces));
     for (std::size_t s = 0; s < surfaces.size(); ++s) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/judge/judge.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
@@ -35,6 +36,8 @@ void add_contacts(Findings& findings, const Mesh& mesh, const RoundingReport& re
                   const std::vector<std::string>& labels);
 /// Improper contacts, triangles without area and repeated ones of the surfaces as they are.
 void add_flaws(Findings& findings, const CheckReport& report, std::span<const Surface> surfaces);
+/// The listed flaws of a judged mesh; `surfaces` have its triangles, or those that tetrahedra fill.
+void add_flaws(Findings& findings, const MeshJudgement& judged, std::span<const Surface> surfaces);
 /// The holes of the surfaces as they are.
 Status add_holes(Findings& findings, std::span<const Surface> surfaces, const Run& run);
 /// Holes that were filled, and those left open.

@@ -81,6 +81,20 @@ Status Page::add_check(std::span<const Surface> surfaces, const CheckReport& rep
     });
 }
 
+Status Page::add_judged(std::span<const Surface> surfaces, const MeshJudgement& judged) {
+    return guarded("for the page", "page", [&]() -> Status {
+        if (!wanted_) return Done{};
+        const StageTimer timer(run_, "page");
+        add_mesh(SharedMesh(concatenate(surfaces)));
+        add_flaws(findings_, judged, surfaces);
+        set_verdict(!judged.holds()     ? "Not all properties hold."
+                    : judged.complete() ? "All properties hold."
+                                        : "No property fails, but not all are judged.",
+                    judged.holds() && judged.complete());
+        return Done{};
+    });
+}
+
 Status Page::add_holes(std::span<const Surface> surfaces, const Run& run) {
     return guarded("for the page", "page", [&]() -> Status {
         if (!wanted_) return Done{};

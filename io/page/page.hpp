@@ -14,6 +14,7 @@
 #include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/judge/judge.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
@@ -71,6 +72,8 @@ public:
     /// Draws the surfaces as they are, with the findings of an exact check, and their holes.
     /// Errors: those of find_border_loops.
     Status add_check(std::span<const Surface> surfaces, const CheckReport& report, const Run& run);
+    /// Draws surfaces with the listed flaws of a judged mesh: those of the mesh, or those that it fills.
+    Status add_judged(std::span<const Surface> surfaces, const MeshJudgement& judged);
     /// Draws a rounded mesh, and the places left to mend.
     void add_rounded(const SharedMesh& mesh, const RoundingReport& report);
     /// Draws the rounded mesh, the places left to mend, and the changes by sealing and merging.

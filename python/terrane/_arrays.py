@@ -177,7 +177,7 @@ def as_point(value: Any, place: str) -> Point:
     return x, y, z
 
 
-def _as_indices(value: Any, place: str) -> UInt32Array:
+def as_indices(value: Any, place: str) -> UInt32Array:
     """Return a copy as a list of indices."""
     array = np.array(_as_array(value, place, "must be a list of indices"))
     if array.size == 0:
@@ -212,8 +212,8 @@ class IndexLists:
     __slots__ = ("offsets", "values")
 
     def __init__(self, offsets: Any, values: Any) -> None:
-        self.offsets = _as_indices(offsets, "offsets")
-        self.values = _as_indices(values, "values")
+        self.offsets = as_indices(offsets, "offsets")
+        self.values = as_indices(values, "values")
         o = self.offsets.astype(np.int64)
         if len(o) == 0 or o[0] != 0 or o[-1] != len(self.values) or np.any(np.diff(o) < 0):
             raise Error("bad_index", f"do not ascend from 0 to {len(self.values)}", "offsets")

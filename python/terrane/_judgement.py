@@ -5,13 +5,16 @@ from __future__ import annotations
 
 from typing import Any, List, NamedTuple, Optional, Tuple
 
+import numpy as np
+
 from . import _core
 from ._arrangement import _whole
-from ._arrays import as_count, as_number, as_word
+from ._arrays import as_count, as_indices, as_number, as_points, as_word
 from ._errors import bad_option
 from ._mesh import Mesh
 from ._run import how
 from ._surface import as_surfaces, parts_of_surfaces
+from ._tetrahedra import Tetrahedra
 
 OPERATIONS = ("union", "intersection", "difference", "symmetric-difference")
 
@@ -19,7 +22,7 @@ OPERATIONS = ("union", "intersection", "difference", "symmetric-difference")
 class PropertyFlaw(NamedTuple):
     """A place where a property fails: a sentence, the place, triangles, and an area, distance or angle, or 0.
 
-    Triangles are those of the judged mesh, counted through all of its surfaces.
+    Triangles are those of the judged mesh, counted through all of its surfaces; of tetrahedra they are these.
 
     Examples
     --------
@@ -92,11 +95,12 @@ def judge(output: Any, inputs: Any = None, *, operation: Optional[str] = None, s
 
     Parameters
     ----------
-    output : Mesh, surface or list of surfaces
-        The mesh that is judged.
+    output : Mesh, surface, list of surfaces, Tetrahedra or tuple of arrays
+        The mesh that is judged. Of tetrahedra of any program it is ``(vertices, tetrahedra)`` or ``(vertices, tetrahedra,
+        labels)``: arrays of the shapes (n, 3), (m, 4) and (m,), with a label for each block.
     inputs : list of surfaces, optional
-        The surfaces that it was made from. The mesh is compared with their exact arrangement. Without inputs the triangles
-        are judged alone.
+        The surfaces that it was made from. The mesh is compared with their exact arrangement, or with its blocks. Without
+        inputs the triangles are judged alone.
     operation : str, optional
         "union", "intersection", "difference" or "symmetric-difference": what the mesh is of the inputs, each a solid.
     spacings : float, optional
@@ -114,6 +118,15 @@ def judge(output: Any, inputs: Any = None, *, operation: Optional[str] = None, s
     >>> terrane.judge([flat, wall])
     <MeshJudgement: conforming, closed, tetgen fail>
     """
+    if isinstance(output, Tetrahedra):
+        output = output.vertices, output.tetrahedra, output.block_of
+    if isinstance(output, tuple) and len(output) in (2, 3) and np.shape(output[1])[1:] == (4,):
+        if inputs is None or operation is not None:
+            raise TypeError("tetrahedra are judged by inputs, without operation")
+        return _judgement(_core.judge_tetrahedra(
+            as_points(output[0], "vertices"), as_indices(np.ravel(output[1]), "tetrahedra").reshape(-1, 4),
+            as_indices(output[2] if len(output) == 3 else [], "labels"), parts_of_surfaces(as_surfaces(inputs)),
+            as_number(spacings, "spacings", least=0), as_count(most_flaws, "most_flaws"), how(threads, progress)))
     made = output if isinstance(output, Mesh) else getattr(output, "mesh", output)
     parts = _whole(made) if isinstance(made, Mesh) else as_surfaces(made)
     if operation is not None:
@@ -121,8 +134,11 @@ def judge(output: Any, inputs: Any = None, *, operation: Optional[str] = None, s
             raise TypeError("operation is for a mesh with inputs")
         if as_word(operation, "operation") not in OPERATIONS:
             raise bad_option(f"is one of {', '.join(OPERATIONS)}, not {operation}", "operation")
-    found = _core.judge(parts_of_surfaces(parts), None if inputs is None else parts_of_surfaces(as_surfaces(inputs)),
-                        operation, as_number(spacings, "spacings", least=0), as_count(most_flaws, "most_flaws"),
-                        how(threads, progress))
+    return _judgement(_core.judge(parts_of_surfaces(parts), None if inputs is None else parts_of_surfaces(as_surfaces(inputs)),
+                                  operation, as_number(spacings, "spacings", least=0), as_count(most_flaws, "most_flaws"),
+                                  how(threads, progress)))
+
+
+def _judgement(found: List[Tuple[Any, ...]]) -> MeshJudgement:
     return MeshJudgement([JudgedProperty(name, verdict, sentence, count, size, [PropertyFlaw(*f) for f in flaws])
                           for name, verdict, sentence, count, size, flaws in found])

@@ -61,6 +61,30 @@ def test_triangles_alone():
     assert terrane.judge(octahedron(0).replace(triangles=octahedron(0).triangles[1:]))["closed"].flaw_count == 3
 
 
+def test_tetrahedra_of_any_program():
+    corners, cells = [[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4], [4, 4, 4]], [[0, 1, 2, 3], [1, 2, 3, 4]]
+    sides = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 4], [1, 4, 3], [2, 3, 4]]
+    hull, wall = terrane.Surface(corners, sides, "hull"), terrane.Surface(corners, [[1, 2, 3]], "wall")
+    judged = terrane.judge((corners, cells, [3, 8]), [hull, wall])
+    assert judged and [p.name for p in judged.properties] == [
+        "positive", "conforming", "welded", "vertices", "curves", "coverage", "topology", "labels", "volume"]
+    assert terrane.judge((corners, cells), [hull, wall])
+    assert terrane.judge((corners, cells, [3, 3]), [hull, wall])["labels"].verdict == "fails"
+    lost = terrane.judge((corners, cells[:1]), [hull, wall])
+    assert lost["volume"].verdict == "fails" and lost["volume"].flaw_count == 1
+    with pytest.raises(TypeError, match="tetrahedra are judged by inputs"):
+        terrane.judge((corners, cells))
+    with pytest.raises(terrane.Error, match="there is no vertex 9"):
+        terrane.judge((corners, [[0, 1, 2, 9]]), [hull])
+    with pytest.raises(terrane.Error, match="one label per tetrahedron"):
+        terrane.judge((corners, cells, [1]), [hull])
+
+
+def test_tetrahedra_that_terrane_made():
+    model = terrane.model(stack(), box=((-3, -3, -4), (8, 8, 4)))
+    assert terrane.judge(terrane.tetrahedralize(model), terrane.Surface(model.mesh.vertices, model.mesh.triangles))
+
+
 def test_assertions_name_the_property_and_the_place():
     a, far = octahedron(0), octahedron(9)
     assert_conforming(a.vertices, a.triangles, closed=True)

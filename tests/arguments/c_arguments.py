@@ -28,7 +28,7 @@ from trials import conclude, make_calls, parse, supervise
 FREE = {"user": "it is passed on", "hardness": "the order counts alone", "name": "a name may be any text", "source": "it is only named in messages",
         "helper": "it is looked for where tetrahedra are made", "gmsh_helper": "likewise"}
 MAY_BE_NULL = {"left", "run", "error", "count", "length", "options", "search", "format", "unit", "variogram", "progress", "timing", "folder",
-               "part_format", "helper", "gmsh_helper", "vertex_count", "triangle_count", "surface_count", "face_count",
+               "part_format", "helper", "gmsh_helper", "columns", "vertex_count", "triangle_count", "surface_count", "face_count",
                "block_count", "column", "improved", "rules", "size_of", "size_in", "split", "inputs", "edge_length_of", "merged",
                "surfaces_or_null", "holes", "layered", "layers", "growth", "volume_files", "model_folder", "tetrahedra", "model"}
 #: Limits, which a number may exceed so far that nothing reaches them.
@@ -43,9 +43,24 @@ DEFAULT_BELOW_0 = {"max_move", "max_deviation", "max_change", "smoothing"}
 #: Members that are true for all numbers but 0.
 FLAGS = {m for header in check_abi.HEADERS for m in re.findall(r"int32_t (\w+);\s*///<[^;]*?\bnot 0", header.read_text())}
 
+TWO_TETRAHEDRA = [(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (4, 4, 4)]
+
+
+def faces_of_two_tetrahedra(lib):
+    surfaces = lib.make("terrane_surfaces_new")
+    lib.add(surfaces, "hull", TWO_TETRAHEDRA, [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 4), (1, 4, 3), (2, 3, 4)])
+    lib.add(surfaces, "wall", TWO_TETRAHEDRA, [(1, 2, 3)])
+    return surfaces
+
+
 #: Good values of arguments that their types do not decide, by "function.argument" or by the name alone.
 GOOD = {
     "terrane_surfaces_add.surfaces": lambda lib: lib.make("terrane_surfaces_new"),
+    "terrane_judge_tetrahedra.vertices": lambda lib: lib.array(ctypes.c_double, [x for v in TWO_TETRAHEDRA for x in v]),
+    "terrane_judge_tetrahedra.vertex_count": lambda lib: 5, "terrane_judge_tetrahedra.tetrahedron_count": lambda lib: 2,
+    "terrane_judge_tetrahedra.tetrahedra": lambda lib: lib.array(ctypes.c_uint32, [0, 1, 2, 3, 1, 2, 3, 4]),
+    "terrane_judge_tetrahedra.labels": lambda lib: lib.array(ctypes.c_uint32, [7, 9]),
+    "terrane_judge_tetrahedra.inputs": lambda lib: faces_of_two_tetrahedra(lib),
     "terrane_surfaces_add.vertices": lambda lib: lib.array(ctypes.c_double, [0, 0, 0, 1, 0, 0, 0, 1, 0]),
     "terrane_surfaces_add.vertex_count": lambda lib: 3,
     "terrane_surfaces_add.triangles": lambda lib: lib.array(ctypes.c_uint32, [0, 1, 2]),
@@ -186,7 +201,7 @@ def nonsense_of(kind, own):
             yield "null", put(None)
         if kind == "const double*":
             for label, bad in (("nan", math.nan), ("inf", math.inf), ("huge", 1e308)):
-                yield label, put(lambda c, bad=bad: c.lib.array(ctypes.c_double, [bad] * 9))
+                yield label, put(lambda c, bad=bad: c.lib.array(ctypes.c_double, [bad] * 15))
         if kind == "const uint32_t*":
             yield "no such index", put(lambda c: c.lib.array(ctypes.c_uint32, [0xffffffff] * 9))
         if kind == "const char*":
@@ -201,8 +216,9 @@ def nonsense_of(kind, own):
     elif own == "struct_size":
         for bad in (0, 2**63, 4096):
             yield str(bad), put(bad)
-    elif own in ("corner_count", "vertex_count", "triangle_count", "boundary_count", "point_count", "layer_count", "task_count"):
-        pointer = {"vertex_count": "vertices", "triangle_count": "triangles", "point_count": "points", "boundary_count": "boundary",
+    elif own in ("corner_count", "vertex_count", "triangle_count", "boundary_count", "point_count", "layer_count", "task_count",
+                 "tetrahedron_count"):
+        pointer = {"vertex_count": "vertices", "triangle_count": "triangles", "tetrahedron_count": "tetrahedra", "point_count": "points", "boundary_count": "boundary",
                    "layer_count": "layers", "task_count": "tasks", "corner_count": "corners"}[own]
         yield "0", put(0)
         for bad in (5, 2**61, 2**64 - 1):

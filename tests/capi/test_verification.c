@@ -147,8 +147,34 @@ static void test_judgement(void) {
     terrane_surfaces_free(s);
 }
 
+/// A tetrahedron that fills its faces.
+static void test_judged_tetrahedra(void) {
+    const double vertices[] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4};
+    const uint32_t faces[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
+    const uint32_t corners[] = {0, 1, 2, 3}, label[] = {5};
+    terrane_surfaces* s = NULL;
+    terrane_mesh_judgement* judged = NULL;
+    WORKS(terrane_surfaces_new(&s, &error));
+    WORKS(terrane_surfaces_add(s, "faces", TERRANE_ROLE_BOUNDARY, vertices, 4, faces, 4, &error));
+    WORKS(terrane_judge_tetrahedra(vertices, 4, corners, 1, label, s, NULL, NULL, &judged, &error));
+    CHECK(terrane_mesh_judgement_holds(judged) == 1 && terrane_mesh_judgement_count(judged) == 9);
+    terrane_mesh_judgement_free(judged);
+    WORKS(terrane_judge_tetrahedra(vertices, 4, corners, 1, NULL, s, NULL, NULL, &judged, &error));
+    CHECK(terrane_mesh_judgement_count(judged) == 8);
+    terrane_mesh_judgement_free(judged);
+    WORKS(terrane_judge_tetrahedra(NULL, 0, NULL, 0, NULL, s, NULL, NULL, &judged, &error));
+    CHECK(terrane_mesh_judgement_holds(judged) == 0);
+    terrane_mesh_judgement_free(judged);
+    FAILS(TERRANE_BAD_INDEX,
+          terrane_judge_tetrahedra(vertices, 3, corners, 1, NULL, s, NULL, NULL, &judged, &error));
+    FAILS(TERRANE_BAD_ARGUMENT, terrane_judge_tetrahedra(vertices, 4, corners, 1, NULL, NULL, NULL,
+                                                         NULL, &judged, &error));
+    terrane_surfaces_free(s);
+}
+
 void test_verification(void) {
     test_results();
     test_judgement();
+    test_judged_tetrahedra();
     test_certificates();
 }

@@ -87,6 +87,27 @@ TEST_CASE("judge: Boolean operations of the solids in files") {
     CHECK(folder.run("judge --soup " + open).out.find("closed: fails") != std::string::npos);
 }
 
+TEST_CASE("judge: tetrahedra of a file are judged by the surfaces that they fill") {
+    const Folder folder;
+    const auto in = folder.input("solid.off", solids(0));
+    const std::string start = "# vtk DataFile Version 2.0\n\nASCII\nDATASET "
+                              "UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 2 0 0 "
+                              "0 2 0 0 0 ",
+                      cells = "\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
+    const auto good = folder.input("good.vtk", start + "2" + cells),
+               bad = folder.input("bad.vtk", start + "3" + cells);
+    auto outcome = folder.run("judge " + good + " " + in);
+    CHECK(outcome.status == 0);
+    CHECK(outcome.out.find("good.vtk: 1 tetrahedra\npositive: holds") != std::string::npos);
+    CHECK(outcome.out.find("labels") == std::string::npos);
+    outcome = folder.run("judge " + bad + " " + in + " --json");
+    CHECK(outcome.status == 1);
+    CHECK(outcome.out.find("\"tetrahedra\":[0]") != std::string::npos);
+    CHECK(folder.run("judge " + bad + " " + in).out.find(": tetrahedron 0\n") != std::string::npos);
+    // Without triangles it is an empty mesh.
+    CHECK(folder.run("judge " + good + " " + in + " --operation union").status == 1);
+}
+
 TEST_CASE("judge: bad usage has the status 2, and limits 3") {
     const Folder folder;
     const auto in = folder.input("sheets.obj", sheets);

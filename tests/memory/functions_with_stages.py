@@ -18,6 +18,7 @@ DECLARED = re.compile(r"^\s*(?:\[\[nodiscard\]\] )?(?:static )?(?:Result<.*>|Sta
 WITHIN = {
     "add_holes": "Page::add_holes",
     "add_check": "Page::add_check",
+    "add_judged": "Page::add_judged",
     "add_file": "Page::add_file",
     "file_row": "Page::add_file",
     "check_pages": "Page::html",
@@ -44,7 +45,10 @@ WITHIN = {
     "read_gocad_file": "read_model",
     "read_gocad_model": "read_model",
     "read_model3d": "read_model",
+    "read_msh_tetrahedra": "read_tetrahedra",
     "read_tsurf": "read_model",
+    "read_vtk_tetrahedra": "read_tetrahedra",
+    "read_vtu_tetrahedra": "read_tetrahedra",
     "read_shape_outline": "read_outline",
     "relay": "arrange_in_tiles",
     "step": "arrange_in_tiles",

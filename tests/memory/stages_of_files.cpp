@@ -124,6 +124,13 @@ std::vector<Stage> reading() {
         },
         [](const Done&) { return std::string("sound"); }));
     stages.back().returns_errors = false; // its arguments are made here
+    const auto msh = written(
+        "tetrahedra with a long name.msh",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
+        "$EndNodes\n$Elements\n1\n1 4 2 7 1 1 2 3 4\n$EndElements\n");
+    stages.push_back(stage(
+        "read_tetrahedra", [msh] { return read_tetrahedra(msh); },
+        [](const LabelledTetrahedra& read) { return std::to_string(read.labels[0]); }));
     const auto model =
         written("model with a long name.ml",
                 to_gocad_model(*f.mesh, f.model.volumes, f.model.structure, "model"));
@@ -331,6 +338,12 @@ std::vector<Stage> certifying() {
             return judge_within({}, {}, [&](const std::stop_token& stop) {
                 return judge(surfaces, surfaces, {}, {.stop = stop});
             });
+        },
+        judged_text));
+    stages.push_back(stage(
+        "judge, tetrahedra",
+        [surfaces, made = LabelledTetrahedra{surfaces[0].vertices, {{0, 1, 2, 3}}, {1}}] {
+            return judge(made, surfaces);
         },
         judged_text));
     stages.push_back(stage(

@@ -164,6 +164,7 @@ std::vector<Stage> making_pages() {
     if (!page::check_pages()) return {};
     const Fixture& f = Fixture::get();
     static const CheckReport flaws = needed(check(f.surfaces));
+    static const MeshJudgement judged = needed(judge_soup(f.surfaces));
     static const std::string file = written("an input with a long name.obj", "v 0 0 0\n").string();
     const auto done = [](const Done&) { return std::string("done"); };
     return {
@@ -175,6 +176,9 @@ std::vector<Stage> making_pages() {
         stage_of(
             "Page::add_check", new_page,
             [&f](page::Page page) { return page.add_check(f.surfaces, flaws, {}); }, done),
+        stage_of(
+            "Page::add_judged", new_page,
+            [&f](page::Page page) { return page.add_judged(f.surfaces, judged); }, done),
         stage(
             "Page::add_model", [] { return page_of_model(); },
             [](page::Page page) {

@@ -5,7 +5,8 @@
     tests/oracles/judged.py --terrane build/release/cli/terrane [FILE ...]
 
 FILEs are arranged, each alone, instead. Files that cannot be read, or not be made conforming, are left out and counted.
-So are those not judged: exact results with parts that are thinner than the bound for rounded points.
+So are those not judged: exact results with parts that are thinner than the bound for rounded points, or that rounding
+had to move farther.
 """
 import argparse
 import pathlib
@@ -16,13 +17,10 @@ import tempfile
 DATA = pathlib.Path(__file__).resolve().parent.parent / "data"
 ENDINGS = {".ts", ".obj", ".off", ".ply", ".stl", ".ml", ".vtp", ".vtu", ".vtk", ".msh"}
 
-#: Where rounding moves points farther than the bound, or joins surfaces up to a border.
-FAR = ("008-", "017-", "019-", "020-", "022-")
-
 
 def groups():
     """Files that are arranged together: each alone, and those of some folders."""
-    files = sorted(f for f in DATA.rglob("*") if f.suffix in ENDINGS and not f.name.startswith(FAR))
+    files = sorted(f for f in DATA.rglob("*") if f.suffix in ENDINGS)
     together = [sorted(DATA.glob(p)) for p in ("manifold/Cray_*.obj", "manifold/Havoc*.obj", "arch-platform/*.ts")]
     return [[f] for f in files] + [group for group in together if len(group) > 1]
 

@@ -116,6 +116,13 @@ def check_contents(folder):
     check(contacts == len(listed) > 0, "all contacts are findings", content["findings"]["counts"])
     check(all(abs(f["place"][2] - 5) < 1e-9 for f in listed), "they are where the squares cross")
     check(not content["verdict"]["good"], "the verdict says no")
+    status, said = run(folder, "judge", "two.ts", "two.ts", "--report", "judge.html")
+    judged, *_ = parts((folder / "judge.html").read_text())
+    check(status == 1 and not judged["verdict"]["good"], "a mesh that fails has a page", status, said)
+    check(judged["findings"]["counts"]["conforming"] == len([f for f in judged["findings"]["list"] if f["kind"] == "conforming"]) > 0
+          and judged["statistics"]["conforming"]["verdict"] == "fails", "its flaws are findings", judged["findings"]["counts"])
+    status, said = run(folder, "judge", "--soup", "two.ts", "--report", "soup.html")
+    check(status == 1 and parts((folder / "soup.html").read_text())[0]["findings"]["counts"]["closed"] == 8, "triangles alone have a page", said)
     corners = array(content, arrays, "triangles")
     vertices = array(content, arrays, "vertices")
     check(len(corners) == 12 and max(corners) == 7, "all triangles are drawn")

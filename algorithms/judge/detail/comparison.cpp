@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include <terrane/algorithms/check/check.hpp>
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
@@ -52,15 +53,17 @@ ChainEdge chain_edge(std::uint32_t cell, std::uint32_t from, std::uint32_t to, i
 
 class Comparer {
 public:
-    Comparer(const Target& target, const OutputMesh& output, double bound, std::size_t most) :
-        target_(target), output_(output), points_(output.soup.points), bound_(bound), found_(most),
-        cells_(find_cells(target)), crowding_(find_crowding(target, cells_, bound)),
-        matching_(match_vertices(target, cells_, output, bound)),
-        separation_(target, cells_, output, matching_, bound),
-        placing_(place(target, cells_, crowding_, output, matching_, separation_, bound)) {}
+    Comparer(const Target& target, const OutputMesh& output, const Bound& by, std::size_t most) :
+        target_(target), output_(output), points_(output.soup.points), bound_(by.reach),
+        found_(most), cells_(find_cells(target)),
+        crowding_(find_crowding(target, cells_, bound_, by.clashing)),
+        matching_(match_vertices(target, cells_, output, bound_)),
+        separation_(target, cells_, output, matching_, bound_),
+        placing_(place(target, cells_, crowding_, output, matching_, separation_, bound_)) {}
 
     Comparison operator()() {
         found_.largest_move = matching_.largest_move;
+        note_free_moves();
         find_torn();
         find_missing_points();
         find_missing_curves();
@@ -68,6 +71,7 @@ public:
         find_repeated();
         compare_chains();
         find_turned();
+        note_placed();
         return std::move(found_);
     }
 
@@ -202,6 +206,12 @@ private:
         }
     }
 
+    /// A part of a cell that another one near it may have instead.
+    struct Exchange {
+        double net, by_rounding;
+        PropertyFlaw flaw;
+    };
+
     void compare_chains() {
         std::vector<ChainEdge> edges;
         for (const CellEdge& e : separation_.boundary())
@@ -219,13 +229,15 @@ private:
             while (end < edges.size() && edges[end].cell == edges[i].cell) ++end;
             differences[edges[i].cell] = std::span(edges).subspan(i, end - i);
         }
+        std::vector<Exchange> exchanged;
         const auto lacking = lacking_corners();
         const auto covered = covered_areas();
         for (std::uint32_t c = 0; c < differences.size(); ++c)
             if (lacking[c])
                 report_unknown(c, *lacking[c], covered[c]);
             else if (!differences[c].empty())
-                report_difference(differences[c]);
+                report_difference(differences[c], exchanged);
+        settle(exchanged);
     }
 
     /// Returns, of cells whose boundaries are known in part, a corner without a vertex: one that must have
@@ -248,21 +260,25 @@ private:
         const Cell& cell = cells_.cells[c];
         const Triangle& k = target_.triangles[cell.triangle];
         const Point3& at = nearest(k[0]);
-        found_.topology.add({"a region lacks a corner", at, {}, cell.area},
-                            crowding_.crowded[corner]);
+        found_.topology.add({"a region lacks a corner", at}, crowding_.crowded[corner]);
         add_area(c, cell.area - covered, length(minus(nearest(k[0]), nearest(k[1]))), at);
     }
-    /// Adds an area that is missing, or too much if it is negative, unless rounding may make it.
-    void add_area(std::uint32_t c, double net, double perimeter, const Point3& at) {
+    /// Adds an area that is missing, or too much if it is negative, unless rounding may make it; or to `exchanged`.
+    void add_area(std::uint32_t c, double net, double perimeter, const Point3& at,
+                  std::vector<Exchange>* exchanged = nullptr) {
         const double by_rounding = 2 * bound_ * perimeter;
         if (std::abs(net) <= by_rounding) return;
         (net > 0 ? found_.missing_area : found_.extra_area) += std::abs(net);
         const char* const what = net > 0
                                      ? "a part of a region is not covered"
                                      : "a region is covered more than once, or beyond its boundary";
-        found_.coverage.add({what, at, {}, std::abs(net)},
-                            std::abs(net) <= by_rounding + crowding_.area_in_doubt[c] +
-                                                 (net > 0 ? moved_area_ : 0));
+        const PropertyFlaw flaw{what, at, {}, std::abs(net)};
+        const bool in_doubt =
+            std::abs(net) <= by_rounding + crowding_.area_in_doubt[c] + (net > 0 ? moved_area_ : 0);
+        if (exchanged && !in_doubt)
+            exchanged->push_back({net, by_rounding, flaw});
+        else
+            found_.coverage.add(flaw, in_doubt);
     }
 
     /// Divides edges at the vertices that they pass along edges of cells.
@@ -280,7 +296,18 @@ private:
         return parts;
     }
 
-    void report_difference(std::span<const ChainEdge> edges) {
+    /// Adds the flaws of parts. What is missing may be what is too much elsewhere, if there is as much of both.
+    void settle(const std::vector<Exchange>& parts) {
+        double net = 0, by_rounding = 0;
+        for (const Exchange& part : parts) {
+            net += part.net;
+            by_rounding += part.by_rounding;
+        }
+        for (const Exchange& part : parts)
+            found_.coverage.add(part.flaw, std::abs(net) <= by_rounding);
+    }
+
+    void report_difference(std::span<const ChainEdge> edges, std::vector<Exchange>& exchanged) {
         const Cell& cell = cells_.cells[edges[0].cell];
         const Point3& origin = points_[edges[0].low];
         Point3 sum{};
@@ -292,12 +319,13 @@ private:
             perimeter += std::abs(e.count) * length(minus(points_[e.low], points_[e.high]));
         }
         const double net = dot(sum, cell.normal) / 2;
+        const bool in_doubt = begins_crowded(edges);
         found_.topology.add({"the triangles in a region do not meet along its boundary",
                              middle(edges[0]),
                              {},
                              perimeter},
-                            begins_crowded(edges));
-        add_area(edges[0].cell, net, perimeter, middle(edges[0]));
+                            in_doubt);
+        add_area(edges[0].cell, net, perimeter, middle(edges[0]), in_doubt ? &exchanged : nullptr);
     }
 
     /// Whether each connected part of a difference has a crowded vertex.
@@ -327,6 +355,25 @@ private:
         }
     }
 
+    /// Notes how far vertices moved that share no triangle with one near others.
+    void note_free_moves() {
+        std::vector<bool> is_free(matching_.image.size(), true);
+        for (const Triangle& t : target_.triangles)
+            if (std::ranges::any_of(t, [this](std::uint32_t x) { return crowding_.crowded[x]; }))
+                for (const std::uint32_t x : t) is_free[x] = false;
+        for (std::uint32_t x = 0; x < is_free.size(); ++x)
+            if (is_free[x] && matching_.image[x] != no_index)
+                found_.largest_free_move = std::max(
+                    found_.largest_free_move, difference(nearest(x), points_[matching_.image[x]]));
+    }
+
+    void note_placed() {
+        found_.placed.resize(output_.soup.first_input_triangle.back());
+        for (std::uint32_t t = 0; t < output_.soup.triangles.size(); ++t)
+            if (const auto c = placing_.cell_of[t]; c != no_index)
+                found_.placed[number(t)] = {cells_.cells[c].triangle, placing_.facing[t]};
+    }
+
     const Target& target_;
     const OutputMesh& output_;
     const std::vector<Point3>& points_;
@@ -342,9 +389,80 @@ private:
     Placing placing_;
 };
 
+/// Returns the triangles of a target, ascending, at corners of such as meet improperly or have no area at the
+/// nearest doubles, so that these corners have to move.
+Result<std::vector<std::uint32_t>> clashing_triangles(const Target& target, const Run& run) {
+    Surface rounded{"", Role::unknown, {}, target.triangles};
+    for (std::uint32_t x = 0; x < target.exact.vertices.size(); ++x)
+        rounded.vertices.push_back(target.exact.nearest(VertexId(x)));
+    const auto checked = check(std::span(&rounded, 1), run);
+    if (!checked) return checked.error();
+    std::vector<std::uint32_t> clashing = checked->degenerate;
+    for (const ImproperContact& c : checked->contacts)
+        clashing.insert(clashing.end(), c.triangles.begin(), c.triangles.end());
+    for (const auto& pair : checked->repeated)
+        clashing.insert(clashing.end(), pair.begin(), pair.end());
+    std::vector<bool> moves(rounded.vertices.size());
+    for (const std::uint32_t t : clashing)
+        for (const std::uint32_t x : target.triangles[t]) moves[x] = true;
+    clashing.clear();
+    for (std::uint32_t t = 0; t < target.triangles.size(); ++t)
+        if (std::ranges::any_of(target.triangles[t], [&](std::uint32_t x) { return moves[x]; }))
+            clashing.push_back(t);
+    return clashing;
+}
+
 } // namespace
 
-Comparison compare(const Target& target, const OutputMesh& output, double bound,
+Result<MeshJudgement>
+judge_with_doubt(const Target& target, Bound bound, const Run& run,
+                 const std::function<Result<Judged>(const Bound&)>& judge_by) {
+    constexpr double step = 4, most = 64; // of 16 spacings 1024, which surfaces may move by
+    auto found = judge_by(bound);
+    if (!found) return found.error();
+    MeshJudgement judgement{std::move(found->properties)};
+    if (judgement.holds()) return judgement;
+    auto clashing = clashing_triangles(target, run);
+    if (!clashing) return clashing.error();
+    bound.clashing = std::move(*clashing);
+    const double allowed = bound.bound;
+    for (double times = 1; times <= most && times * allowed <= bound.widest; times *= step) {
+        if (times > 1) bound.bound = bound.reach = times * allowed;
+        const auto wider = judge_by(bound);
+        if (!wider) return wider.error();
+        const bool moved = wider->largest_move > allowed && wider->largest_free_move <= allowed;
+        if ((times > 1 && !moved) || !MeshJudgement{wider->properties}.holds()) continue;
+        for (JudgedProperty& p : judgement.properties)
+            if (p.verdict == PropertyVerdict::fails) p.verdict = PropertyVerdict::not_judged;
+        return judgement;
+    }
+    return judgement;
+}
+
+void add_compared(Comparison& found, double bound, Judged& judged) {
+    judged.largest_move = found.largest_move;
+    judged.largest_free_move = found.largest_free_move;
+    auto& properties = judged.properties;
+    const auto count = [](const Flaws& f, std::string_view one, std::string_view many) {
+        return counted_as(f.count(), one, many);
+    };
+    properties.push_back(
+        found.welded.said(count(found.welded, "point twice or torn", "points twice or torn")));
+    properties.push_back(found.vertices.said(
+        count(found.vertices, "point", "points") + " missing; the others moved by " +
+            figure(found.largest_move) + " at most, of " + figure(bound) + " allowed",
+        found.largest_move));
+    properties.push_back(
+        found.curves.said(count(found.curves, "edge", "edges") + " of curves missing"));
+    properties.push_back(found.coverage.said("area missing " + figure(found.missing_area) +
+                                                 ", too much " + figure(found.extra_area),
+                                             found.missing_area + found.extra_area));
+    properties.push_back(found.topology.said(count(found.topology, "difference", "differences")));
+    properties.push_back(
+        found.orientation.said(count(found.orientation, "triangle turned", "triangles turned")));
+}
+
+Comparison compare(const Target& target, const OutputMesh& output, const Bound& bound,
                    std::size_t most_flaws) {
     return Comparer(target, output, bound, most_flaws)();
 }

@@ -24,7 +24,7 @@ public:
         found_.area_in_doubt.assign(cells.cells.size(), 0);
     }
 
-    Crowding operator()() {
+    Crowding operator()(std::span<const std::uint32_t> clashing) {
         std::vector<std::uint32_t> corners;
         for (const Triangle& t : target_.triangles)
             corners.insert(corners.end(), t.begin(), t.end());
@@ -42,6 +42,11 @@ public:
                                             near_x_.end());
             found_.cells_near.close();
             near_x_.clear();
+        }
+        for (const std::uint32_t i : clashing) {
+            const Triangle& t = target_.triangles[i];
+            for (const std::uint32_t x : t) found_.crowded[x] = true;
+            add_doubt(t, area(t));
         }
         for (const Triangle& t : target_.triangles) note_thin(t);
         return std::move(found_);
@@ -121,8 +126,9 @@ bool is_thin(const Point3& a, const Point3& b, const Point3& c, double height) {
     return longest < 0x1p250 && length(cross(u, v)) <= height * longest; // the product may overflow
 }
 
-Crowding find_crowding(const Target& target, const Cells& cells, double bound) {
-    return CrowdingFinder(target, cells, bound)();
+Crowding find_crowding(const Target& target, const Cells& cells, double bound,
+                       std::span<const std::uint32_t> clashing) {
+    return CrowdingFinder(target, cells, bound)(clashing);
 }
 
 } // namespace terrane::judging

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <terrane/algorithms/core/index_lists.hpp>
@@ -29,7 +30,9 @@ struct Crowding {
 
 /// Finds parts nearer than 16 bounds. Cost: O(n log n) and, for each near pair of a vertex and a triangle,
 /// the triangles at the vertex.
-Crowding find_crowding(const Target& target, const Cells& cells, double bound);
+/// `clashing`: triangles that are near others, too.
+Crowding find_crowding(const Target& target, const Cells& cells, double bound,
+                       std::span<const std::uint32_t> clashing);
 
 /// Whether a height of a triangle is at most `height`.
 bool is_thin(const Point3& a, const Point3& b, const Point3& c, double height);

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
@@ -137,7 +139,50 @@ private:
     Cells cells_;
 };
 
+/// Largest coordinate and extent of what has area.
+struct Size {
+    double largest = 0; ///< absolute coordinate
+    double extent = 0;  ///< diagonal of the bounding box
+};
+
+Size size_of(const Arrangement& exact) {
+    Size size;
+    Point3 low, high;
+    for (std::uint32_t v = 0; v < exact.vertices.size(); ++v) {
+        const Point3& p = exact.nearest(VertexId(v));
+        if (v == 0) low = high = p;
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        size.largest = std::max({size.largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+    size.extent = length(minus(high, low));
+    return size;
+}
+
+/// Judges nothing where the bound is more than this share of the extent: nearly all would be in doubt.
+constexpr double most_of_extent = 0x1p-12;
+
 } // namespace
+
+Status check_options(const JudgeOptions& options) {
+    if (options.spacings >= 0 && options.spacings <= 0x1p40) return Done{};
+    return Error{ErrorCode::bad_option, "must be from 0 to 2^40", "spacings"};
+}
+
+Result<Bound> bound_of(const Arrangement& exact, double spacings) {
+    const auto [largest, extent] = size_of(exact);
+    if (largest > 0x1p250 || (largest > 0 && largest < 0x1p-250)) // squares of areas are no doubles
+        return Error{ErrorCode::unsupported, "the largest coordinate must be from 1e-75 to 1e75",
+                     "inputs"};
+    const double spacing =
+        std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
+    const double bound = spacings * spacing;
+    if (extent > 0 && bound > most_of_extent * extent)
+        return Error{ErrorCode::unsupported,
+                     "the bound " + figure(bound) + " is more than a 4096th of the inputs' extent",
+                     "spacings"};
+    return Bound{bound, std::max(bound, spacing / 4), most_of_extent * extent, {}};
+}
 
 Sign turn_of(const Arrangement& exact, std::uint32_t input, Axis axis) {
     const Triangle& c = exact.input_corners()[input];

@@ -21,6 +21,21 @@ struct Target {
     double volume = 0;                 ///< of that
 };
 
+/// How far points may be from where they should be.
+struct Bound {
+    double bound = 0;  ///< largest difference of a coordinate
+    double reach = 0;  ///< not less, and not 0: grids of points have cells of some size
+    double widest = 0; ///< that may be judged by: nearly all would be in doubt
+    std::vector<std::uint32_t> clashing{}; ///< triangles of the target that are in doubt; ascending
+};
+
+/// Returns what is wrong with the options: bad_option (spacings).
+Status check_options(const JudgeOptions& options);
+
+/// Returns the bound of so many spacings of doubles. Errors: unsupported (too large or too small a
+/// coordinate, or a bound that is wide beside the extent).
+Result<Bound> bound_of(const Arrangement& exact, double spacings);
+
 /// All triangles of an arrangement.
 Target whole_arrangement(const Arrangement& exact);
 

@@ -397,3 +397,71 @@ TEST_CASE("MSH: what can't be read is named with its line", "[io][msh]") {
     check_error(start + "$Nodes\n0\n$EndElements\n", Format::msh, bad_syntax,
                 "a:6: expected $EndNodes, found \"$EndElements\"");
 }
+
+TEST_CASE("tetrahedra and their labels are read from VTU, legacy VTK and MSH",
+          "[io][vtu][vtk][msh]") {
+    const std::string points = "0 0 0 1 0 0 0 1 0 0 0 1 1 1 1";
+    const std::string vtu =
+        "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"5\"><Points>"
+        "<DataArray type=\"Float64\" format=\"ascii\" NumberOfComponents=\"3\">" +
+        points +
+        "</DataArray></Points><Cells><DataArray Name=\"connectivity\" format=\"ascii\">"
+        "0 1 2 3 0 1 2 1 2 3 4</DataArray><DataArray Name=\"offsets\" format=\"ascii\">4 7 11"
+        "</DataArray><DataArray Name=\"types\" format=\"ascii\">10 5 "
+        "10</DataArray></Cells><CellData>"
+        "<DataArray Name=\"ARRAY\" format=\"ascii\">7 -1 9</DataArray></CellData></Piece>"
+        "</UnstructuredGrid></VTKFile>";
+    const std::string vtk =
+        "# vtk DataFile Version 2.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n" +
+        points +
+        "\nCELLS 3 14\n4 0 1 2 3\n3 0 1 2\n4 1 2 3 4\nCELL_TYPES 3\n10 5 10\nCELL_DATA 3\n"
+        "SCALARS ARRAY int 1\nLOOKUP_TABLE default\n7 -1 9\n";
+    const std::string nodes = "1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n";
+    const std::string msh =
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n" + nodes +
+        "$EndNodes\n$Elements\n3\n1 4 2 7 1 1 2 3 4\n2 2 2 3 1 1 2 3\n3 4 2 0 9 2 3 4 5\n"
+        "$EndElements\n";
+    const std::string msh4 =
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 2\n1 0 0 0 1 1 0 1 3 0\n"
+        "1 0 0 0 1 1 1 1 7 0\n9 0 0 0 1 1 1 0 0\n$EndEntities\n$Nodes\n1 5 1 5\n3 1 0 5\n1\n2\n3\n"
+        "4\n5\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n$EndNodes\n$Elements\n3 3 1 3\n3 1 4 1\n1 1 2 3 "
+        "4\n"
+        "2 1 2 1\n2 1 2 3\n3 9 4 1\n3 2 3 4 5\n$EndElements\n";
+    const auto with = [](std::string text, const std::string& array) {
+        return text.replace(text.find("ARRAY"), 5, array);
+    };
+    const TemporaryFolder folder;
+    const auto read = [&](const std::string& name, const std::string& text) {
+        REQUIRE(write_file(folder.path() / name, text));
+        return read_tetrahedra(folder.path() / name);
+    };
+    for (const auto& [name, text] :
+         {std::pair<std::string, std::string>{"a.vtu", with(vtu, "block")},
+          {"b.vtu", with(vtu, "CellEntityIds")},
+          {"a.vtk", with(vtk, "cell_scalars")},
+          {"a.msh", msh},
+          {"b.msh", msh4}}) {
+        INFO(name);
+        const auto found = read(name, text);
+        INFO((found ? std::string() : found.error().message()));
+        REQUIRE(found);
+        CHECK(found->tetrahedra ==
+              std::vector<std::array<std::uint32_t, 4>>{{0, 1, 2, 3}, {1, 2, 3, 4}});
+        CHECK(found->labels == std::vector<std::uint32_t>{7, 9});
+        CHECK(found->vertices.size() == 5);
+        CHECK(found->vertices[4] == Point3{1, 1, 1});
+    }
+    CHECK(read("c.vtu", with(vtu, "other"))->labels.empty());
+    CHECK(read("c.vtk", with(vtk, "other"))->labels.empty());
+    auto wrong = with(vtu, "block");
+    wrong.replace(wrong.find("7 -1 9"), 6, "-7 0 9");
+    CHECK(read("d.vtu", wrong)
+              .error()
+              .message()
+              .find("the label of cell 0 is no number of 32 bits") != std::string::npos);
+    CHECK(read("d.msh", msh.substr(0, msh.find("1 4 2 7")) +
+                            "1 2 2 3 1 1 2 3\n2 2 2 3 1 1 2 3\n3 2 2 3 1 1 2 3\n$EndElements\n")
+              .error()
+              .code == ErrorCode::nothing_to_do);
+    CHECK(read("d.obj", "v 0 0 0\n").error().code == ErrorCode::nothing_to_do);
+}
