@@ -68,9 +68,9 @@ struct RoundingTuning : Constants {
     std::size_t many = add("many", 1024);
     /// Contacts are crowded if there are fewer triangles per contact.
     std::size_t crowded = add("crowded", 8);
-    /// Contacts of a sample of one in eight input triangles are crowded if there are at least
+    /// Contacts of a sample of one in 32 input triangles are crowded if there are at least
     /// RoundingReport::least_sampled, and fewer triangles per contact than this.
-    std::size_t sampled_crowded = add("sampled_crowded", 128);
+    std::size_t sampled_crowded = add("sampled_crowded", 512);
     /// So many parts of a triangle, or up to twice, tell with which others it is in contact where
     /// contacts are too many to list.
     std::size_t sampled = add("sampled", 16);
