@@ -32,19 +32,14 @@ namespace terrane::rounding::detail {
 ///     their parts are so far from each other that rounding to doubles does not make them cross.
 struct RoundingTuning : Constants {
     /// Grids for the output, in this order.
-    std::array<int, 3> fine_digits =
-        add<int>({"fine_digits_1", "fine_digits_2", "fine_digits_3"}, {4, 8, 12});
+    std::array<int, 2> fine_digits = add<int>({"fine_digits_1", "fine_digits_2"}, {4, 8});
     /// Grids for the input, in this order, and for parts.
     std::array<int, 6> coarse_digits =
         add<int>({"coarse_digits_1", "coarse_digits_2", "coarse_digits_3", "coarse_digits_4",
                   "coarse_digits_5", "coarse_digits_6"},
                  {9, 16, 20, 24, 28, 32});
     /// Grids for a place that is repaired by itself, in this order, as far as the limit of moves allows.
-    std::array<int, 12> place_digits =
-        add<int>({"place_digits_1", "place_digits_2", "place_digits_3", "place_digits_4",
-                  "place_digits_5", "place_digits_6", "place_digits_7", "place_digits_8",
-                  "place_digits_9", "place_digits_10", "place_digits_11", "place_digits_12"},
-                 {4, 6, 8, 9, 10, 12, 14, 16, 18, 20, 24, 28});
+    std::array<int, 2> place_digits = add<int>({"place_digits_1", "place_digits_2"}, {4, 6});
     /// Rounds on each of them.
     unsigned place_rounds = add("place_rounds", 4);
     /// How often all places that are left are repaired again, and how often what a place needs around it grows.
