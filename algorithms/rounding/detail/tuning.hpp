@@ -55,6 +55,9 @@ struct RoundingTuning : Constants {
     double decimal_share = add("decimal_share", 0.125);
     /// Triangles are nearly coplanar within this many spacings of the doubles from one plane.
     double cluster_spacings = add("cluster_spacings", 16);
+    /// A frame has the planes of at least this share of the contacts in clusters: most of those in
+    /// other planes would stay.
+    double cluster_share = add("cluster_share", 0.75);
     /// So few contacts are separated by moves to doubles nearby first.
     std::size_t few = add("few", 64);
     /// How many doubles away along each axis.
