@@ -23,7 +23,7 @@ typedef struct terrane_rounding_report {
     int32_t is_conforming;         ///< 1: by exact check of the doubles
     uint32_t rounds;               ///< number of snapping rounds
     uint64_t naive_contacts;       ///< pairs that meet improperly at the nearest doubles; if it is
-                                   ///< 256 or more, there may be more
+                                   ///< 64 or more, there may be more
     double max_move;               ///< no vertex is farther from its exact point; unit of the input
     double surface_deviation;      ///< no point of the mesh is farther from the input triangles
                                    ///< that it is part of, nor the reverse, except for what

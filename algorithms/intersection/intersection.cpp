@@ -56,11 +56,8 @@ std::optional<Simplex> place_from_sides(const Signs& inside) {
 /// and 1 for the second.
 class TrianglePair {
 public:
-    /// `contact` receives the result; it is passed by reference because it is large.
-    TrianglePair(std::span<const Point3> points, const Triangle& first, const Triangle& second,
-                 std::optional<Contact>& contact) :
-        points_(points),
-        t_{first, second}, contact_(contact) {
+    TrianglePair(std::span<const Point3> points, const Triangle& first, const Triangle& second) :
+        points_(points), t_{first, second} {
         for (unsigned i = 0; i < 3; ++i)
             for (unsigned j = 0; j < 3; ++j)
                 if (first[i] == second[j]) {
@@ -71,7 +68,8 @@ public:
     }
 
     [[nodiscard]] bool quickly_apart() const;
-    [[nodiscard]] bool improper();
+    /// Returns the contact, if it is improper.
+    [[nodiscard]] std::optional<Contact> contact();
 
 private:
     const Point3& at(unsigned k, unsigned i) const { return points_[t_[k][i]]; }
@@ -84,6 +82,7 @@ private:
     void set_axis(unsigned k);
     std::optional<Simplex> locate_in_plane(unsigned k, unsigned i);
     std::optional<Simplex> pierce(unsigned k, unsigned i) const;
+    [[nodiscard]] bool is_improper();
     void add_corner(unsigned k, unsigned i, Simplex on_other);
     void add_edge_point(unsigned k, unsigned i, Simplex on_other);
     void add(const Construction& how, unsigned k, Simplex on_k, Simplex on_other);
@@ -102,7 +101,7 @@ private:
     std::array<bool, 2> axis_known_{};
     std::array<Axis, 2> axis_{};
     std::array<Sign, 2> turn_{}; // orientation of triangle k in its projection
-    std::optional<Contact>& contact_;
+    Contact* contact_ = nullptr; ///< at hand, while it is found
 };
 
 Signs TrianglePair::sides(unsigned k) const {
@@ -298,8 +297,7 @@ bool TrianglePair::quickly_apart() const {
     return quickly_beside_edge(0, axis) || quickly_beside_edge(1, axis);
 }
 
-bool TrianglePair::improper() {
-    contact_.emplace();
+bool TrianglePair::is_improper() {
     sides_[0] = sides(0);
     if (all_on_one_side(sides_[0])) return false;
     if (shared_count_ == 2 && !all_zero(sides_[0])) return false;
@@ -324,15 +322,21 @@ bool TrianglePair::improper() {
     return true;
 }
 
+std::optional<Contact> TrianglePair::contact() {
+    std::optional<Contact> found(std::in_place);
+    contact_ = &*found;
+    if (!is_improper()) found.reset();
+    return found;
+}
+
 } // namespace
 
+// A Contact is large: most pairs are apart, and make none.
 std::optional<Contact> improper_contact(std::span<const Point3> points, const Triangle& first,
                                         const Triangle& second, Filters filters) {
-    std::optional<Contact> contact;
-    TrianglePair pair(points, first, second, contact);
-    if (filters == Filters::all && pair.quickly_apart()) return contact;
-    if (!pair.improper()) contact.reset();
-    return contact;
+    TrianglePair pair(points, first, second);
+    if (filters == Filters::all && pair.quickly_apart()) return std::nullopt;
+    return pair.contact();
 }
 
 Construction line_plane(std::array<std::uint32_t, 2> line, Triangle plane) {

@@ -58,7 +58,7 @@ struct RoundingReport {
     /// Number of pairs that meet improperly at the nearest doubles; a lower bound from least_sampled on,
     /// where the pairs of a sample of the triangles decide that the input is moved at once.
     std::size_t naive_contacts = 0;
-    static constexpr std::size_t least_sampled = 256;
+    static constexpr std::size_t least_sampled = 64;
     static constexpr std::size_t most_counted = 100'000;
     /// Remaining contacts, by triangles of the mesh: all, or the first most_counted in the order of
     /// their triangles.

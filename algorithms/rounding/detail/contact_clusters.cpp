@@ -207,12 +207,18 @@ bool is_independent(std::span<const Point3> chosen, const Point3& n) {
     return chosen.empty();
 }
 
-/// Adds the most frequent directions, until there are three.
-void choose(std::vector<Point3>& chosen, std::vector<Direction> from) {
+/// Adds the most frequent directions, until there are three. Returns whether these have most of all counts.
+bool choose(std::vector<Point3>& chosen, std::vector<Direction> from) {
     std::stable_sort(from.begin(), from.end(),
                      [](const Direction& d, const Direction& e) { return d.count > e.count; });
-    for (const Direction& d : from)
-        if (is_independent(chosen, d.normal)) chosen.push_back(d.normal);
+    double all = 0, of_chosen = 0;
+    for (const Direction& d : from) {
+        all += static_cast<double>(d.count);
+        if (!is_independent(chosen, d.normal)) continue;
+        chosen.push_back(d.normal);
+        of_chosen += static_cast<double>(d.count);
+    }
+    return of_chosen >= rounding_tuning.cluster_share * all;
 }
 
 } // namespace
@@ -223,7 +229,7 @@ std::vector<Point3> cluster_directions(std::span<const Triangle> corners,
     Clusters clusters(corners, points, tolerance);
     clusters.join(in_contact.pairs);
     std::vector<Point3> chosen;
-    choose(chosen, clusters.of_planes());
+    if (!choose(chosen, clusters.of_planes())) return {};
     choose(chosen, clusters.of_triangles(clusters.touched()));
     if (chosen.empty()) return chosen;
     choose(chosen, clusters.of_triangles(clusters.in_contact()));

@@ -17,7 +17,8 @@ namespace terrane::rounding::detail {
 /// three, of which none is nearly in a plane with the others. They are, each time those of most
 /// contacts first,
 /// (1) those of clusters: two triangles in contact belong to one if no corner of the one is farther
-///     than `tolerance` from the plane of the other, and its points must be as near to one plane;
+///     than `tolerance` from the plane of the other, and its points must be as near to one plane; there
+///     are none at all if these have less than cluster_share of the contacts in clusters;
 /// (2) those of triangles that corners of others in contact touch, by the same measure;
 /// (3) if there is any so far, those of other triangles in contact, and then of planes upright on
 ///     the first that contain edges in it: a lattice in the clusters is one along these, too.

@@ -75,7 +75,7 @@ private:
     [[nodiscard]] double room() const {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         double sum = 0;
-        for (const int digits : {rounding_tuning.fine_digits[0], rounding_tuning.fine_digits[1]})
+        for (const int digits : rounding_tuning.fine_digits)
             if (const auto grid = input_.grid(digits, infinity)) sum += grid->reach();
         return std::min(sum, limit_ / 4);
     }

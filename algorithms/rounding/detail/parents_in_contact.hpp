@@ -35,10 +35,10 @@ ParentsInContact parents_in_contact(std::span<const CandidatePair> contacts,
 /// Does the same for the contacts that remain after rounding.
 ParentsInContact parents_in_contact(const RoundedMesh& rounded);
 
-/// Tells whether an input triangle is in a sample of one in eight. Whether contacts are crowded, and
+/// Tells whether an input triangle is in a sample of one in 32. Whether contacts are crowded, and
 /// which input triangles are in contact then, shows in the contacts of the sample.
 constexpr bool is_sampled(std::uint32_t parent) {
-    return parent * 0x9e3779b9U >> 29 == 0;
+    return parent * 0x9e3779b9U >> 27 == 0;
 }
 /// Returns the contacts of triangles whose first parent is sampled.
 std::vector<CandidatePair> contacts_of_sampled(std::span<const CandidatePair> contacts,
@@ -46,7 +46,7 @@ std::vector<CandidatePair> contacts_of_sampled(std::span<const CandidatePair> co
 /// Tells whether this number of contacts of sampled triangles makes them crowded in a mesh of this
 /// size. CrowdedContacts judges more than most_sampled.
 bool are_sampled_crowded(std::size_t contacts, std::size_t triangles);
-constexpr std::size_t most_sampled = ParentsInContact::most_contacts / 8;
+constexpr std::size_t most_sampled = ParentsInContact::most_contacts / 32;
 
 /// Returns a sample of the triangles, ascending. If a first parent has fewer than `parts` parts, the
 /// sample contains them all. Otherwise it contains `parts` to 2 * `parts` - 1 of them, evenly chosen.

@@ -185,8 +185,10 @@ bool Prover::has_few_common() const {
 }
 
 /// Whether the parts of the faces are few enough for a test of each pair. Many faces with many
-/// parts, each in doubt with each, would cost more than the size of the mesh warrants.
+/// parts, each in doubt with each, would cost more than the size of the mesh warrants. So would faces
+/// with few parts that are in doubt with more others than they have parts.
 bool Prover::is_affordable(std::span<const CandidatePair> doubtful) const {
+    if (doubtful.size() > faces_.parts.size()) return false;
     std::uint64_t sum = 0;
     for (const CandidatePair& p : doubtful)
         if (const std::uint64_t n = faces_.part_count(p.second); n >= many_parts) sum += n;

@@ -279,14 +279,21 @@ bool RoundingState::tidy(const Run& run) {
 /// dirty, because the corners between which they lie may be. Returns whether it divided any.
 bool RoundingState::divide_sides(const CollapsedTriangles& lines) {
     std::size_t inside = 0; // each divides a triangle in two
-    for (const Triangle& t : triangles) inside += lines.count_within(t);
+    std::vector<bool> is_divided(triangles.size());
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        if (const std::size_t count = lines.count_within(triangles[t]); count > 0) {
+            inside += count;
+            is_divided[t] = true;
+        }
     is_torn |= inside > (rounding_tuning.multiplied - 1) * all_triangles();
     if (inside == 0 || is_torn) return false;
     std::vector<Triangle> fresh;
+    fresh.reserve(triangles.size() + inside);
     IndexLists<std::uint32_t> faces_of;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        const auto within = lines.within(triangles[t]);
         const std::size_t first = fresh.size();
+        PointsInSides within;
+        if (is_divided[t]) within = lines.within(triangles[t]);
         divide_at(triangles[t], within, fresh);
         for (std::size_t k = first; k < fresh.size(); ++k) faces_of.push_back(std::array{t});
         for (const auto& side : within)
@@ -360,6 +367,7 @@ void RoundingState::replace_triangles(std::vector<Triangle> fresh,
                                       const IndexLists<std::uint32_t>& faces_of) {
     IndexLists<std::uint32_t> parents;
     parents.offsets.reserve(fresh.size() + 1);
+    parents.values.reserve(parents_of.values.size());
     std::vector<std::uint32_t> list, fresh_origins;
     for (std::size_t t = 0; t < fresh.size(); ++t) {
         if (!origins.empty()) fresh_origins.push_back(origins[faces_of[t][0]]);

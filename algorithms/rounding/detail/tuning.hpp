@@ -32,19 +32,14 @@ namespace terrane::rounding::detail {
 ///     their parts are so far from each other that rounding to doubles does not make them cross.
 struct RoundingTuning : Constants {
     /// Grids for the output, in this order.
-    std::array<int, 3> fine_digits =
-        add<int>({"fine_digits_1", "fine_digits_2", "fine_digits_3"}, {4, 8, 12});
+    std::array<int, 2> fine_digits = add<int>({"fine_digits_1", "fine_digits_2"}, {4, 8});
     /// Grids for the input, in this order, and for parts.
     std::array<int, 6> coarse_digits =
         add<int>({"coarse_digits_1", "coarse_digits_2", "coarse_digits_3", "coarse_digits_4",
                   "coarse_digits_5", "coarse_digits_6"},
                  {9, 16, 20, 24, 28, 32});
     /// Grids for a place that is repaired by itself, in this order, as far as the limit of moves allows.
-    std::array<int, 12> place_digits =
-        add<int>({"place_digits_1", "place_digits_2", "place_digits_3", "place_digits_4",
-                  "place_digits_5", "place_digits_6", "place_digits_7", "place_digits_8",
-                  "place_digits_9", "place_digits_10", "place_digits_11", "place_digits_12"},
-                 {4, 6, 8, 9, 10, 12, 14, 16, 18, 20, 24, 28});
+    std::array<int, 2> place_digits = add<int>({"place_digits_1", "place_digits_2"}, {4, 6});
     /// Rounds on each of them.
     unsigned place_rounds = add("place_rounds", 4);
     /// How often all places that are left are repaired again, and how often what a place needs around it grows.
@@ -60,6 +55,9 @@ struct RoundingTuning : Constants {
     double decimal_share = add("decimal_share", 0.125);
     /// Triangles are nearly coplanar within this many spacings of the doubles from one plane.
     double cluster_spacings = add("cluster_spacings", 16);
+    /// A frame has the planes of at least this share of the contacts in clusters: most of those in
+    /// other planes would stay.
+    double cluster_share = add("cluster_share", 0.75);
     /// So few contacts are separated by moves to doubles nearby first.
     std::size_t few = add("few", 64);
     /// How many doubles away along each axis.
@@ -68,9 +66,9 @@ struct RoundingTuning : Constants {
     std::size_t many = add("many", 1024);
     /// Contacts are crowded if there are fewer triangles per contact.
     std::size_t crowded = add("crowded", 8);
-    /// Contacts of a sample of one in eight input triangles are crowded if there are at least
+    /// Contacts of a sample of one in 32 input triangles are crowded if there are at least
     /// RoundingReport::least_sampled, and fewer triangles per contact than this.
-    std::size_t sampled_crowded = add("sampled_crowded", 128);
+    std::size_t sampled_crowded = add("sampled_crowded", 512);
     /// So many parts of a triangle, or up to twice, tell with which others it is in contact where
     /// contacts are too many to list.
     std::size_t sampled = add("sampled", 16);

@@ -133,3 +133,26 @@ TEST_CASE("contact clusters: the plane of two sheets that cross all over is foun
     CHECK(std::fabs(dot(normals[0], d.u)) == Approx(1).epsilon(1e-9));
     CHECK(directions(parents_in_contact(rounded(a))).empty());
 }
+
+TEST_CASE("contact clusters: there are none if contacts are in many planes") {
+    const auto directions = [](int planes,
+                               int at_first) { // pairs of equal triangles in planes through a line
+        std::vector<Point3> points{{0, 0, 0}, {0, 0, 1}};
+        std::vector<Triangle> corners;
+        ParentsInContact in_contact;
+        for (int k = 0; k < planes; ++k) {
+            points.push_back({std::cos(k * 0.3), std::sin(k * 0.3), 0.5});
+            for (int n = 0; n < (k == 0 ? at_first : 1); ++n) {
+                const auto t = static_cast<std::uint32_t>(corners.size());
+                corners.insert(corners.end(), 2, {0, 1, static_cast<std::uint32_t>(k) + 2});
+                in_contact.pairs.emplace_back(t, t + 1);
+            }
+        }
+        return cluster_directions(corners, points, in_contact, 1e-14);
+    };
+    CHECK(directions(2, 1).size() == 3);
+    CHECK(directions(3, 1).empty()); // planes through a line have two independent normals
+    CHECK(directions(3, 2).size() == 3);
+    CHECK(directions(6, 10).empty());
+    CHECK(directions(6, 11).size() == 3);
+}
