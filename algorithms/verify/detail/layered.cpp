@@ -46,13 +46,14 @@ private:
             above.high[2] = infinity;
             for (const std::uint32_t t : tree.touching(above))
                 if (s != t && s_.seen[s] && s_.seen[t] &&
-                    layered_.surfaces_of[s].front() < layered_.surfaces_of[t].back())
+                    layered_.surfaces_of[s].front() <= layered_.surfaces_of[t].back())
                     check_pair(s, t);
             if (found_.size() >= most_contacts_listed) return;
         }
     }
 
-    /// Checks that t, which is lower in the order, is nowhere above s.
+    /// Checks that t, which is of the same layer or lower in the order, is nowhere above s. Rounding can fold a
+    /// layer in strips.
     void check_pair(std::uint32_t s, std::uint32_t t) {
         if (are_beside(s_.seen[s]->corners, s_.seen[t]->corners)) return;
         const auto polygon = common_part(s_.seen[s]->corners, s_.seen[t]->corners);
@@ -60,11 +61,12 @@ private:
                 return height_over(s_.seen[t]->corners, p) > height_over(s_.seen[s]->corners, p);
             }))
             return;
-        if (is_at_border(polygon, s)) return;
+        const std::uint32_t upper = layered_.surfaces_of[s].front(),
+                            lower = layered_.surfaces_of[t].back();
+        if (is_at_border(polygon, s) || (upper == lower && is_thin(polygon))) return;
         report(Rule::R62_layer_order, {s, t},
-               "triangle " + text(t) + " of " + s_.name(layered_.surfaces_of[t].back()) +
-                   " is above triangle " + text(s) + " of " +
-                   s_.name(layered_.surfaces_of[s].front()));
+               "triangle " + text(t) + " of " + s_.name(lower) + " is above triangle " + text(s) +
+                   " of " + s_.name(upper));
     }
 
     /// Tells whether a part of the projection of a triangle of the mesh is within 2 d of a border.
@@ -179,6 +181,15 @@ private:
                            ", is where its surface does not exist");
     }
 
+    /// Tells whether the middle of a polygon is within 2 d of its sides.
+    [[nodiscard]] bool is_thin(const PlacePolygon& polygon) const {
+        const Place mean = mean_of(polygon);
+        for (std::size_t k = 0; k < polygon.size(); ++k)
+            if (is_within(mean, {polygon[k], polygon[(k + 1) % polygon.size()]}, s_.width))
+                return true;
+        return false;
+    }
+
     /// Checks that a layer ends at borders of surfaces only.
     void check_edges(std::uint32_t i) {
         const EdgeSides edges = s_.sides_of_layer(i);
@@ -213,10 +224,7 @@ private:
                     return contains(other.triangles[o].corners, mean);
                 }))
                 continue;
-            bool thin = false;
-            for (std::size_t k = 0; k < cell.size() && !thin; ++k)
-                thin = is_within(mean, {cell[k], cell[(k + 1) % cell.size()]}, s_.width);
-            if (!thin) return false;
+            if (!is_thin(cell)) return false;
         }
         return true;
     }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <regex>
 
 namespace {
 
@@ -15,6 +16,23 @@ using namespace forged;
 const Subject& right_layers() {
     static const Subject subject = layered_subject(three_horizons(), order_of_three());
     return subject;
+}
+
+/// Adds all triangles once more, on vertices that are higher by less than the deviation.
+void double_layers(Json& m) {
+    const std::size_t vertices = m["vertices"].size(), triangles = m["triangles"].size();
+    for (std::size_t v = 0; v < vertices; ++v) {
+        m["vertices"].push_back(Json(m["vertices"][v]));
+        move(m, vertices + v, 2, 2e-12);
+    }
+    for (std::size_t t = 0; t < triangles; ++t) {
+        Json corners = m["triangles"][t];
+        for (Json& corner : corners) corner = corner.get<std::size_t>() + vertices;
+        m["triangles"].push_back(corners);
+        for (const char* list : {"layers", "regions", "parents"})
+            m[list].push_back(Json(m[list][t]));
+    }
+    m["deviation"] = "5e-12";
 }
 
 } // namespace
@@ -50,6 +68,10 @@ TEST_CASE("layered certificates: the verifier accepts stacks of real and difficu
         INFO(name);
         CHECK(judged(layered_subject({{name, text_in(data + name)}}, order)) == "");
     }
+    // An upright triangle faces no side, in a layer that faces down, too.
+    const std::string upright = std::regex_replace(text_in(data + "stack90_upright.obj"),
+                                                   std::regex("f (\\S+) (\\S+)"), "f $2 $1");
+    CHECK(judged(layered_subject({{"down.obj", upright}}, order_of({1, 3, 1, 0}))) == "");
     const std::string docs = test_support::source_dir() + "/docs/data/";
     const std::vector<File> dome{{"salt.obj", obj_in(docs + "salt.ts")},
                                  {"shale.obj", obj_in(docs + "shale.ts")}};
@@ -150,6 +172,17 @@ TEST_CASE("layered certificates: forged layers", "[layers]") {
                 },
                 "R61"),
         });
+}
+
+TEST_CASE("layered certificates: a layer is there once", "[layers]") {
+    const auto flat = [](double z) { return [z](double, double) { return z; }; };
+    for (const double thickness : {0.0, 0.5}) {
+        const Subject two = layered_subject({{"top.obj", horizon_text("top", 0, flat(3))},
+                                             {"base.obj", horizon_text("base", 0, flat(1))}},
+                                            order_of({1, 2}), {"obj"}, thickness);
+        CHECK(judged(two) == "");
+        check_forgeries(two, {layered("all layers twice, a little apart", double_layers, "R62")});
+    }
 }
 
 TEST_CASE("layered certificates: forged orders and numbers", "[layers]") {
