@@ -88,7 +88,7 @@ enum class Rule : std::uint8_t {
     // Layers: see detail/layered.hpp.
     R60_layer_lists = 59, ///< as R1, in layers, or a number is not finite
     R61_layer_mesh,       ///< the mesh of the layers is not conforming
-    R62_layer_order,      ///< a layer is above itself, or one that is higher in the order
+    R62_layer_order,      ///< a layer is above one that is higher in the order, or itself
     R63_layer_heights,    ///< a triangle is neither on its surface nor on a harder one that must
                           ///< replace it there
     R64_layer_places,     ///< a layer does not exist where its surface does, or the reverse

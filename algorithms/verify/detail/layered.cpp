@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -52,8 +53,8 @@ private:
         }
     }
 
-    /// Checks that t, which is of the same layer or lower in the order, is nowhere above s. Rounding can fold a
-    /// layer in strips.
+    /// Checks that t, which is of the same layer or lower in the order, is nowhere above s. Rounding
+    /// can fold a layer in strips, and one whose surface is above itself is, too.
     void check_pair(std::uint32_t s, std::uint32_t t) {
         if (are_beside(s_.seen[s]->corners, s_.seen[t]->corners)) return;
         const auto polygon = common_part(s_.seen[s]->corners, s_.seen[t]->corners);
@@ -63,10 +64,26 @@ private:
             return;
         const std::uint32_t upper = layered_.surfaces_of[s].front(),
                             lower = layered_.surfaces_of[t].back();
-        if (is_at_border(polygon, s) || (upper == lower && is_thin(polygon))) return;
+        if (is_at_border(polygon, s) ||
+            (upper == lower && (is_thin(polygon) || is_above_itself(upper))))
+            return;
         report(Rule::R62_layer_order, {s, t},
                "triangle " + text(t) + " of " + s_.name(lower) + " is above triangle " + text(s) +
                    " of " + s_.name(upper));
+    }
+
+    /// Tells whether a vertical line meets the surface of a layer twice.
+    [[nodiscard]] bool is_above_itself(std::uint32_t layer) {
+        const auto [known, is_new] = above_itself_.try_emplace(layer, false);
+        const Sheet& surface = s_.surfaces[layer];
+        for (std::uint32_t i = 0; i < surface.triangles.size() && is_new && !known->second; ++i)
+            known->second =
+                std::ranges::any_of(surface.tree.touching_others(i), [&](std::uint32_t j) {
+                    const UpwardCorners &a = surface.triangles[i].corners,
+                                        &b = surface.triangles[j].corners;
+                    return j < i && !are_beside(a, b) && !is_thin(common_part(a, b));
+                });
+        return known->second;
     }
 
     /// Tells whether a part of the projection of a triangle of the mesh is within 2 d of a border.
@@ -232,6 +249,7 @@ private:
     const LayerSheets& s_;
     const LayeredClaim& layered_;
     Violations& found_;
+    std::map<std::uint32_t, bool> above_itself_; ///< by layer, once it was asked for
 };
 
 bool has_order(const LayeredClaim& layered, std::size_t surfaces) {

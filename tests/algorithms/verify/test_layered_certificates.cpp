@@ -183,6 +183,9 @@ TEST_CASE("layered certificates: a layer is there once", "[layers]") {
         CHECK(judged(two) == "");
         check_forgeries(two, {layered("all layers twice, a little apart", double_layers, "R62")});
     }
+    const std::string body =
+        "v 0 0 0\nv 8 0 0\nv 0 8 0\nv 1 1 8\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+    CHECK(judged(layered_subject({{"body.obj", body}}, order_of({1}))) == "");
 }
 
 TEST_CASE("layered certificates: forged orders and numbers", "[layers]") {
