@@ -92,6 +92,18 @@ TEST_CASE("images: surfaces that meet along more than the deviation still meet")
               }
               replace(r, vertices, {{0, 1, 2}, {3, 4, 5}}, {0, 1}, {0, 1});
           }) == "R37");
+    // Surfaces that are in one plane up to what is accepted may part.
+    const Surface flat{
+        "flat", Role::unknown, {{10, 10, -1e-11}, {40, 10, 1e-11}, {25, 40, 0}}, {{0, 1, 2}}};
+    CHECK(judged_with({square_sheet, flat}, [&](Json& r) {
+              std::vector<Point3> vertices(square_sheet.vertices.begin(),
+                                           square_sheet.vertices.begin() + 3);
+              for (Point3 p : flat.vertices) {
+                  p.z += 1.1e-11;
+                  vertices.push_back(p);
+              }
+              replace(r, vertices, {{0, 1, 2}, {3, 4, 5}}, {0, 1}, {0, 1});
+          }) == "");
 }
 
 TEST_CASE("places: a body that is smaller than the deviation keeps its sides") {

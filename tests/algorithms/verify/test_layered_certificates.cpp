@@ -47,6 +47,9 @@ TEST_CASE("layered certificates: accepted with each format", "[layers]") {
     REQUIRE(verdict.measured);
     CHECK(verdict.measured->deviation < 1e-13);
     CHECK(judged(subject, {.max_deviation = 1e-18}) == "R60");
+    const double stated = number_in(subject.certificate["layered"]["deviation"]);
+    CHECK(judged(subject, {.max_deviation = stated}) == "");
+    CHECK(judged(subject, {.max_deviation = std::nextafter(stated, 0.0)}) == "R60");
     // All that is told apart is there: what is replaced from above and below, and steps.
     const Json& mesh = subject.certificate["layered"];
     triangle_of(mesh, {0, 1});
