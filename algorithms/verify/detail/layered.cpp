@@ -105,8 +105,7 @@ private:
                 const auto near = s_.near_triangles(i, s_.boxes[t]);
                 if (const auto own = s_.near_one(i, corners, near)) {
                     on_some = true;
-                    same_side = same_side || !s_.seen[t] ||
-                                s_.surfaces[i].triangles[*own].flipped == s_.seen[t]->flipped;
+                    same_side = same_side || faces_as(t, i, *own);
                 } else if (const auto moved = faces_moved(i, t)) {
                     on_some = true;
                     same_side = same_side || *moved;
@@ -127,6 +126,12 @@ private:
         }
     }
 
+    /// Tells whether a triangle of the mesh faces the side of one of a surface. What is upright faces
+    /// none, and need not.
+    [[nodiscard]] bool faces_as(std::uint32_t t, std::uint32_t layer, std::uint32_t other) const {
+        return s_.seen[t] && s_.seen[t]->flipped == s_.surfaces[layer].triangles[other].flipped;
+    }
+
     /// Finds the surfaces of harder layers on which a triangle is once they are moved along z by a
     /// multiple of the minimum thickness, at most one for each layer. Tells whether it faces the
     /// side of one of them; none: there is no such surface, or no thickness.
@@ -140,8 +145,7 @@ private:
             for (const std::uint32_t o : s_.surfaces[j].tree.touching(around))
                 for (int steps = -most; steps <= most; ++steps)
                     if (is_on_moved(t, j, o, steps))
-                        same_side = same_side.value_or(false) || !s_.seen[t] ||
-                                    s_.surfaces[j].triangles[o].flipped == s_.seen[t]->flipped;
+                        same_side = same_side.value_or(false) || faces_as(t, j, o);
         }
         return same_side;
     }
