@@ -68,12 +68,12 @@ enum class Rule : std::uint8_t {
     R41_positive,              ///< a tetrahedron is flat or inverted
     R42_faces,                 ///< a face has two tetrahedra on a side, or none where one must be
     R43_box,                   ///< the tetrahedra do not fill their box
-    R44_nodes,                 ///< two nodes are one point, a node is in no tetrahedron, or none at a vertex
-    R45_cover,                 ///< the faces on a triangle do not cover it
-    R46_blocks,                ///< a tetrahedron is in another block
-    R47_block_volumes,         ///< a block and its tetrahedra differ in volume by more than nodes
-                               ///< near its triangles allow
-    R48_cuts,                  ///< nodes are not split as twin faces say
+    R44_nodes,         ///< two nodes are one point, one is in no tetrahedron, or none at a vertex
+    R45_cover,         ///< the faces on a triangle do not cover it
+    R46_blocks,        ///< a tetrahedron is in another block
+    R47_block_volumes, ///< a block and its tetrahedra differ in volume by more than nodes
+                       ///< near its triangles allow
+    R48_cuts,          ///< nodes are not split as twin faces say
     // Volumes of interest: see detail/cut.hpp.
     R50_volume = 49, ///< the boundary is not that of the stated volume, or not closed
     R51_dropped,     ///< a triangle outside is not listed as dropped, or another one is
