@@ -51,7 +51,6 @@ public:
         std::vector<std::pair<std::uint32_t, Edge>> edges;
         for (std::size_t t = 0; t < triangles_.size(); ++t)
             for (const HalfEdge& side : sides_of(triangles_[t])) {
-                ++uses_[side.edge];
                 for (const std::uint32_t parent : parts.parents_of[t]) {
                     vertices.emplace_back(parent, side.apex);
                     edges.emplace_back(parent, side.edge);
@@ -67,24 +66,21 @@ public:
     [[nodiscard]] bool meet(const Numbers& inputs) const {
         return !shared(vertices_, inputs).empty();
     }
-    /// Returns the most triangles at an edge along which input triangles meet; 0 if they do not.
+    /// Returns the most triangles of the images of input triangles at an edge along which all of
+    /// these meet; 0 if they do not.
     [[nodiscard]] std::size_t most_along_an_edge(const Numbers& inputs) const {
+        const auto common = shared(edges_, inputs);
+        if (common.empty()) return 0;
+        const auto uses = uses_of(inputs);
         std::size_t most = 0;
-        for (const Edge& edge : shared(edges_, inputs)) most = std::max(most, uses_.at(edge));
+        for (const Edge& edge : common) most = std::max(most, uses.at(edge));
         return most;
     }
 
     /// Returns the edges of which one triangle belongs to the images of input triangles.
     [[nodiscard]] std::vector<Edge> border(const Numbers& inputs) const {
-        Numbers triangles;
-        for (const std::uint32_t input : inputs)
-            triangles.insert(triangles.end(), children_[input].begin(), children_[input].end());
-        make_set(triangles);
-        std::map<Edge, int> uses;
-        for (const std::uint32_t t : triangles)
-            for (const HalfEdge& side : sides_of(triangles_[t])) ++uses[side.edge];
         std::vector<Edge> once;
-        for (const auto& [edge, count] : uses)
+        for (const auto& [edge, count] : uses_of(inputs))
             if (count == 1) once.push_back(edge);
         return once;
     }
@@ -106,6 +102,18 @@ public:
     }
 
 private:
+    /// Returns how many triangles of the images of input triangles are at each edge.
+    [[nodiscard]] std::map<Edge, std::size_t> uses_of(const Numbers& inputs) const {
+        Numbers triangles;
+        for (const std::uint32_t input : inputs)
+            triangles.insert(triangles.end(), children_[input].begin(), children_[input].end());
+        make_set(triangles);
+        std::map<Edge, std::size_t> uses;
+        for (const std::uint32_t t : triangles)
+            for (const HalfEdge& side : sides_of(triangles_[t])) ++uses[side.edge];
+        return uses;
+    }
+
     /// Returns the values that are in the lists of all inputs. Cost: of the shortest list.
     template <class T>
     static std::vector<T> shared(const IndexLists<T>& lists, const Numbers& inputs) {
@@ -146,7 +154,6 @@ private:
     IndexLists<std::uint32_t> children_;
     IndexLists<std::uint32_t> vertices_;
     IndexLists<Edge> edges_;
-    std::map<Edge, std::size_t> uses_; ///< number of triangles at an edge
 };
 
 /// Sets of input triangles that meet in vertices, and along edges. What has vanished is left out.
