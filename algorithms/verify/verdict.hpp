@@ -68,12 +68,12 @@ enum class Rule : std::uint8_t {
     R41_positive,              ///< a tetrahedron is flat or inverted
     R42_faces,                 ///< a face has two tetrahedra on a side, or none where one must be
     R43_box,                   ///< the tetrahedra do not fill their box
-    R44_nodes,                 ///< two nodes are one point, or no node is at a vertex of the mesh
-    R45_cover,                 ///< the faces on a triangle do not cover it
-    R46_blocks,                ///< a tetrahedron is in another block
-    R47_block_volumes,         ///< a block and its tetrahedra differ in volume by more than nodes
-                               ///< near its triangles allow
-    R48_cuts,                  ///< nodes are not split as twin faces say
+    R44_nodes,         ///< two nodes are one point, one is in no tetrahedron, or none at a vertex
+    R45_cover,         ///< the faces on a triangle do not cover it
+    R46_blocks,        ///< a tetrahedron is in another block
+    R47_block_volumes, ///< a block and its tetrahedra differ in volume by more than nodes
+                       ///< near its triangles allow
+    R48_cuts,          ///< nodes are not split as twin faces say
     // Volumes of interest: see detail/cut.hpp.
     R50_volume = 49, ///< the boundary is not that of the stated volume, or not closed
     R51_dropped,     ///< a triangle outside is not listed as dropped, or another one is
@@ -88,7 +88,7 @@ enum class Rule : std::uint8_t {
     // Layers: see detail/layered.hpp.
     R60_layer_lists = 59, ///< as R1, in layers, or a number is not finite
     R61_layer_mesh,       ///< the mesh of the layers is not conforming
-    R62_layer_order,      ///< a layer is above one that is higher in the order
+    R62_layer_order,      ///< a layer is above one that is higher in the order, or itself
     R63_layer_heights,    ///< a triangle is neither on its surface nor on a harder one that must
                           ///< replace it there
     R64_layer_places,     ///< a layer does not exist where its surface does, or the reverse

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Random surfaces, and commands that make a certificate of each kind about them."""
+import json
+from dataclasses import dataclass, field
+
 
 def sheet(rng, n, at, bumps):
     """A grid of n x n squares; at(u, v) is a point."""
@@ -41,18 +44,65 @@ def write_models(rng, folder):
     write(folder / "wall.obj", sheet(rng, 3, lambda u, v: (4 + b * v, 1 + 8 * u, 1.3 + 2.4 * v), 0))
     write(folder / "outer.obj", cube(0, 0, 0, 8.0 + b))
     write(folder / "inner.obj", cube(1 + b, 2, 1, 2.0))
-    points, triangles = sheet(rng, 6, horizon(0, a), 0.1)
-    left = [t for t in triangles if (min(v // 7 for v in t), min(v % 7 for v in t)) not in ((2, 2), (4, 4))]
+    points, triangles = sheet(rng, 8, horizon(0, a), 0.1)
+    gone = {(2, 2), (2, 3), (3, 2), (3, 3), (5, 5)}
+    left = [t for t in triangles if (min(v // 9 for v in t), min(v % 9 for v in t)) not in gone]
     write(folder / "holes.obj", (points, left))
+    (folder / "project.json").write_text(json.dumps(PROJECT))
 
+
+@dataclass
+class Subject:
+    """A command that makes a certificate."""
+    command: list
+    certificate: str
+    inputs: list = field(default_factory=list)  # that `verify` is given: those outside of the certificate's folder
+
+
+def outputs(*formats):
+    return [word for name in formats for word in ("-o", f"out.{name}")]
+
+
+SURFACES = outputs("obj", "off", "ply", "stl", "ts", "vtp", "msh", "inp")
+GRIDS = outputs("vtu", "msh", "inp")
+OLDER = [*outputs("stl", "msh"), "--ascii", "--msh", "2.2"]
+BOX = ["--box", "1,1,0,9,9,6"]
+BUILT = ["outer.obj", "inner.obj", "cross.obj"]
+KINDS = ("arrangement", "volumes", "tetrahedra", "improved", "filled", "layered", "cut", "sealed")
 
 COMMANDS = {
-    "arrangement": ["arrange", "top.obj", "base.obj", "fault.obj", "cross.obj", "-o", "out.obj"],
-    "volumes": ["volume", "outer.obj", "inner.obj", "cross.obj", "-o", "out"],
-    "tetrahedra": ["tetrahedralize", "outer.obj", "inner.obj", "top.obj", "-o", "out.vtu"],
-    "improved": ["improve", "top.obj", "outer.obj", "inner.obj", "-o", "out.obj"],
-    "filled": ["fill", "holes.obj", "top.obj", "-o", "out.obj"],
-    "layered": ["layer", "--hard", "top.obj", "--soft", "cross.obj", "--keep", "lower", "-o", "out.obj"],
-    "cut": ["arrange", "top.obj", "fault.obj", "-o", "out.obj", "--box", "1,1,0,9,9,6"],
-    "sealed": ["arrange", "floor.obj", "roof.obj", "wall.obj", "-o", "out.obj", "--seal", "0.6"],
+    "arrangement": ["arrange", "top.obj", "base.obj", "fault.obj", "cross.obj", *SURFACES],
+    "arrangement, older": ["arrange", "outer.obj", "inner.obj", "cross.obj", *OLDER],
+    "volumes": ["volume", *BUILT, "-o", "out"],
+    "volumes, obj": ["volume", *BUILT, "-o", "parts", "--parts", "obj"],
+    "volumes, cut": ["volume", "top.obj", "cross.obj", "-o", "cut", *BOX],
+    "tetrahedra": ["tetrahedralize", "outer.obj", "inner.obj", "top.obj", *GRIDS],
+    "tetrahedra, split": ["tetrahedralize", "outer.obj", "top.obj", "--split", "top", *GRIDS],
+    "tetrahedra, cut": ["tetrahedralize", "top.obj", "cross.obj", *outputs("msh"), "--msh", "2.2", *BOX],
+    "improved": ["improve", "top.obj", "outer.obj", "inner.obj", *SURFACES],
+    "improved, cut": ["improve", "top.obj", "cross.obj", *outputs("obj", "vtp"), *BOX],
+    "filled": ["fill", "holes.obj", "top.obj", *SURFACES],
+    "filled, fine": ["fill", "holes.obj", "--mesh-size", "0.4", *outputs("vtp")],
+    "layered": ["layer", "--hard", "top.obj", "--soft", "cross.obj", "--keep", "lower", *SURFACES],
+    "layered, thick": ["layer", "top.obj", "base.obj", "--layer", "top=2", "--layer", "base=1", "--min-thickness", "0.5",
+                       *outputs("obj")],
+    "cut": ["arrange", "top.obj", "fault.obj", *SURFACES, *BOX],
+    "cut, rotated": ["arrange", "top.obj", "fault.obj", *outputs("obj"), "--rotated-box", "5,5,4,6,6,4,20,3,1"],
+    "cut, within": ["arrange", "top.obj", "fault.obj", *outputs("obj"), "--within", "outer.obj"],
+    "sealed": ["arrange", "floor.obj", "roof.obj", "wall.obj", *SURFACES, "--seal", "0.6"],
+    "sealed, cut": ["arrange", "floor.obj", "roof.obj", "wall.obj", *outputs("obj"), "--seal", "0.6", *BOX],
 }
+# A subject is a kind, or a kind and what is special.
+SUBJECTS = {name: Subject([*command, "--certificate", "certificate.json", "--quiet"], "certificate.json")
+            for name, command in COMMANDS.items()}
+SUBJECTS |= {
+    f"{kind}, built": Subject(["build", "project.json", "-o", f"built_{kind}", "--quiet"],
+                              f"built_{kind}/certificate{end}.json", BUILT)
+    for kind, end in (("arrangement", ""), ("volumes", "_blocks"), ("tetrahedra", "_tetrahedra"))}
+
+PROJECT = {
+    "format": "terrane-project 1",
+    "surfaces": [{"file": "outer.obj", "name": "Outer", "role": "boundary"}, {"file": "inner.obj"},
+                 {"file": "cross.obj", "role": "horizon"}],
+    "column": [{"unit": "shale", "surface": "cross", "age": 3}, {"unit": "chalk"}],
+    "outputs": {"surfaces": ["obj", "vtp"], "blocks": "obj", "tetrahedra": ["vtu", "msh"], "certificate": True}}

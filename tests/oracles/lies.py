@@ -4,7 +4,7 @@ return None where they changed nothing."""
 import copy
 import math
 
-from forged_models import COMMANDS
+from forged_models import KINDS
 
 LIES = {}
 
@@ -41,6 +41,10 @@ def decimal(x):
     return repr(float(x)).removesuffix(".0")
 
 
+def exchanged(values, a, b):
+    return [b if v == a else a if v == b else v for v in values]
+
+
 def put(mesh, v, p):
     mesh["vertices"][v] = [decimal(x) for x in p]
 
@@ -60,6 +64,18 @@ def surfaces_of(c):
     if "cut" in c and c["cut"]["volume"]:
         counts += [len(b["triangles"]) for b in c["cut"]["volume"]["boundary"]]
     return [s for s, n in enumerate(counts) for _ in range(n)]
+
+
+def curves_of(c):
+    """The intersection edges of the mesh of doubles: with more than two triangles, or two that differ in the number of
+    their parents in some surface."""
+    mesh, of, first = c["rounded"], surfaces_of(c), {b: a for b, a in c["exact"]["duplicates"]}
+    own = [sorted(of[p] for p in {first.get(p, p) for p in parents}) for parents in mesh["parents"]]
+    at = {}
+    for t, corners in enumerate(mesh["triangles"]):
+        for k in range(3):
+            at.setdefault(tuple(sorted((corners[k], corners[k - 1]))), []).append(t)
+    return sorted(list(e) for e, ts in at.items() if len(ts) > 2 or len(ts) == 2 and own[ts[0]] != own[ts[1]])
 
 
 def regions_of(c):
@@ -360,12 +376,12 @@ def a_digest_with_another_digit(c, rng):
     c["digest"] = d[:-1] + ("0" if d[-1] != "0" else "1")
 
 
-@lie(*COMMANDS)
+@lie(*KINDS)
 def an_input_of_another_size(c, rng):
     rng.choice(c["inputs"])["bytes"] += 1
 
 
-@lie(*COMMANDS)
+@lie(*KINDS)
 def inputs_in_another_order(c, rng):
     if len(c["inputs"]) < 2:
         return None

@@ -256,7 +256,10 @@ def layers_in_another_order(c, rng):
 @lie("layered")
 def layers_of_other_hardness(c, rng):
     o = c["layered"]["order"]
+    if "thickness" in c["layered"]:
+        return None  # which of them gave way is not judged
     o[0]["hardness"], o[1]["hardness"] = o[1]["hardness"], o[0]["hardness"]
+    return True
 
 
 @lie("layered")
@@ -363,7 +366,7 @@ def an_added_triangle_of_another_surface(c, rng):
 @lie("sealed")
 def an_added_triangle_that_extends(c, rng):
     some = [s for s in c["sealed"] if s["sealed"]]
-    if not some:
+    if not some or c["cut"]["volume"]:
         return None
     s = rng.choice(some)
     s["extended"].append(s["sealed"].pop(0))

@@ -50,11 +50,12 @@ public:
         std::vector<std::pair<std::uint32_t, std::uint32_t>> vertices;
         std::vector<std::pair<std::uint32_t, Edge>> edges;
         for (std::size_t t = 0; t < triangles_.size(); ++t)
-            for (const std::uint32_t parent : parts.parents_of[t])
-                for (const HalfEdge& side : sides_of(triangles_[t])) {
+            for (const HalfEdge& side : sides_of(triangles_[t])) {
+                for (const std::uint32_t parent : parts.parents_of[t]) {
                     vertices.emplace_back(parent, side.apex);
                     edges.emplace_back(parent, side.edge);
                 }
+            }
         vertices_ = lists_of(std::move(vertices), children_.size());
         edges_ = lists_of(std::move(edges), children_.size());
     }
@@ -65,21 +66,21 @@ public:
     [[nodiscard]] bool meet(const Numbers& inputs) const {
         return !shared(vertices_, inputs).empty();
     }
-    [[nodiscard]] bool meet_along_an_edge(const Numbers& inputs) const {
-        return !shared(edges_, inputs).empty();
+    /// Returns the most triangles of the images of input triangles at an edge along which all of
+    /// these meet; 0 if they do not.
+    [[nodiscard]] std::size_t most_along_an_edge(const Numbers& inputs) const {
+        const auto common = shared(edges_, inputs);
+        if (common.empty()) return 0;
+        const auto uses = uses_of(inputs);
+        std::size_t most = 0;
+        for (const Edge& edge : common) most = std::max(most, uses.at(edge));
+        return most;
     }
 
     /// Returns the edges of which one triangle belongs to the images of input triangles.
     [[nodiscard]] std::vector<Edge> border(const Numbers& inputs) const {
-        Numbers triangles;
-        for (const std::uint32_t input : inputs)
-            triangles.insert(triangles.end(), children_[input].begin(), children_[input].end());
-        make_set(triangles);
-        std::map<Edge, int> uses;
-        for (const std::uint32_t t : triangles)
-            for (const HalfEdge& side : sides_of(triangles_[t])) ++uses[side.edge];
         std::vector<Edge> once;
-        for (const auto& [edge, count] : uses)
+        for (const auto& [edge, count] : uses_of(inputs))
             if (count == 1) once.push_back(edge);
         return once;
     }
@@ -101,6 +102,18 @@ public:
     }
 
 private:
+    /// Returns how many triangles of the images of input triangles are at each edge.
+    [[nodiscard]] std::map<Edge, std::size_t> uses_of(const Numbers& inputs) const {
+        Numbers triangles;
+        for (const std::uint32_t input : inputs)
+            triangles.insert(triangles.end(), children_[input].begin(), children_[input].end());
+        make_set(triangles);
+        std::map<Edge, std::size_t> uses;
+        for (const std::uint32_t t : triangles)
+            for (const HalfEdge& side : sides_of(triangles_[t])) ++uses[side.edge];
+        return uses;
+    }
+
     /// Returns the values that are in the lists of all inputs. Cost: of the shortest list.
     template <class T>
     static std::vector<T> shared(const IndexLists<T>& lists, const Numbers& inputs) {
@@ -145,24 +158,31 @@ private:
 
 /// Sets of input triangles that meet in vertices, and along edges. What has vanished is left out.
 struct Meetings {
-    std::set<Numbers> in_vertices, along_edges;
+    std::set<Numbers> in_vertices;
+    std::map<Numbers, std::size_t> along_edges; ///< with the most triangles at such an edge
 
     Meetings(const Parts& parts, const Numbers& vanished) {
         std::map<std::uint32_t, Numbers> at;
-        std::map<Edge, Numbers> along;
+        std::map<Edge, std::pair<Numbers, std::size_t>> along;
         for (std::size_t t = 0; t < parts.triangles.size(); ++t)
-            for (const HalfEdge& side : sides_of(parts.triangles[t]))
-                for (Numbers* all : {&at[side.apex], &along[side.edge]})
+            for (const HalfEdge& side : sides_of(parts.triangles[t])) {
+                auto& [inputs, count] = along[side.edge];
+                ++count;
+                for (Numbers* all : {&at[side.apex], &inputs})
                     all->insert(all->end(), parts.parents_of[t].begin(), parts.parents_of[t].end());
-        for (auto& [v, all] : at) add(in_vertices, all, vanished);
-        for (auto& [edge, all] : along) add(along_edges, all, vanished);
-    }
-
-private:
-    static void add(std::set<Numbers>& sets, Numbers& all, const Numbers& vanished) {
-        make_set(all);
-        std::erase_if(all, [&](auto p) { return std::ranges::binary_search(vanished, p); });
-        if (!all.empty()) sets.insert(std::move(all));
+            }
+        const auto names_some = [&](Numbers& all) {
+            make_set(all);
+            std::erase_if(all, [&](auto p) { return std::ranges::binary_search(vanished, p); });
+            return !all.empty();
+        };
+        for (auto& [v, all] : at)
+            if (names_some(all)) in_vertices.insert(std::move(all));
+        for (auto& [edge, value] : along)
+            if (names_some(value.first)) {
+                std::size_t& most = along_edges[std::move(value.first)];
+                most = std::max(most, value.second);
+            }
     }
 };
 
@@ -328,23 +348,35 @@ private:
 
     /// Counts the meetings of a mesh that the images in the other one do not have.
     static std::size_t missing(const Meetings& of, const Meetings& in, const Images& images) {
-        const auto count = [](const auto& sets, const auto& others, const auto& do_meet) {
-            return std::ranges::count_if(sets, [&](const Numbers& inputs) {
-                return !others.contains(inputs) && !do_meet(inputs);
-            });
-        };
+        std::size_t count = 0;
+        for (const Numbers& inputs : of.in_vertices)
+            if (!in.in_vertices.contains(inputs) && !images.meet(inputs)) ++count;
+        for (const auto& [inputs, triangles] : of.along_edges)
+            if (!in.along_edges.contains(inputs) && images.most_along_an_edge(inputs) == 0) ++count;
+        return count;
+    }
+
+    /// Counts the sets of input triangles that meet along an edge of more than two triangles, and
+    /// of more than in the exact part.
+    [[nodiscard]] std::size_t crowded(const Meetings& before, const Meetings& after) const {
         return static_cast<std::size_t>(
-            count(of.in_vertices, in.in_vertices,
-                  [&](const Numbers& inputs) { return images.meet(inputs); }) +
-            count(of.along_edges, in.along_edges,
-                  [&](const Numbers& inputs) { return images.meet_along_an_edge(inputs); }));
+            std::ranges::count_if(after.along_edges, [&](const auto& meeting) {
+                const auto& [inputs, triangles] = meeting;
+                const auto same = before.along_edges.find(inputs);
+                if (triangles <= 2 ||
+                    (same != before.along_edges.end() && triangles <= same->second))
+                    return false;
+                const std::size_t most = exact_.most_along_an_edge(inputs);
+                return most > 0 && triangles > most;
+            }));
     }
 
     [[nodiscard]] Differences differences() const {
         const Numbers& vanished = parts_.rounded.vanished;
         const Meetings before({parts_.exact.triangles, parts_.exact.parents_of}, vanished);
         const Meetings after({parts_.rounded.triangles, parts_.rounded.parents_of}, vanished);
-        return {missing(before, after, doubles_) + slit_, missing(after, before, exact_)};
+        return {missing(before, after, doubles_) + slit_,
+                missing(after, before, exact_) + crowded(before, after)};
     }
 
     const RoundedParts& parts_;

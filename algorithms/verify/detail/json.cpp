@@ -208,8 +208,7 @@ private:
 
     void escape() {
         constexpr std::string_view letters = "\"\\/bfnrt", meanings = "\"\\/\b\f\n\r\t";
-        if (const auto which = letters.find(next());
-            at_ < text_.size() && which != std::string_view::npos) {
+        if (const auto which = letters.find(next()); which != std::string_view::npos) {
             out_.strings_ += meanings[which];
             ++at_;
             return;

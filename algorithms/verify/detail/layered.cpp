@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,13 +47,14 @@ private:
             above.high[2] = infinity;
             for (const std::uint32_t t : tree.touching(above))
                 if (s != t && s_.seen[s] && s_.seen[t] &&
-                    layered_.surfaces_of[s].front() < layered_.surfaces_of[t].back())
+                    layered_.surfaces_of[s].front() <= layered_.surfaces_of[t].back())
                     check_pair(s, t);
             if (found_.size() >= most_contacts_listed) return;
         }
     }
 
-    /// Checks that t, which is lower in the order, is nowhere above s.
+    /// Checks that t, which is of the same layer or lower in the order, is nowhere above s. Rounding
+    /// can fold a layer in strips, and one whose surface is above itself is, too.
     void check_pair(std::uint32_t s, std::uint32_t t) {
         if (are_beside(s_.seen[s]->corners, s_.seen[t]->corners)) return;
         const auto polygon = common_part(s_.seen[s]->corners, s_.seen[t]->corners);
@@ -60,11 +62,28 @@ private:
                 return height_over(s_.seen[t]->corners, p) > height_over(s_.seen[s]->corners, p);
             }))
             return;
-        if (is_at_border(polygon, s)) return;
+        const std::uint32_t upper = layered_.surfaces_of[s].front(),
+                            lower = layered_.surfaces_of[t].back();
+        if (is_at_border(polygon, s) ||
+            (upper == lower && (is_thin(polygon) || is_above_itself(upper))))
+            return;
         report(Rule::R62_layer_order, {s, t},
-               "triangle " + text(t) + " of " + s_.name(layered_.surfaces_of[t].back()) +
-                   " is above triangle " + text(s) + " of " +
-                   s_.name(layered_.surfaces_of[s].front()));
+               "triangle " + text(t) + " of " + s_.name(lower) + " is above triangle " + text(s) +
+                   " of " + s_.name(upper));
+    }
+
+    /// Tells whether a vertical line meets the surface of a layer twice.
+    [[nodiscard]] bool is_above_itself(std::uint32_t layer) {
+        const auto [known, is_new] = above_itself_.try_emplace(layer, false);
+        const Sheet& surface = s_.surfaces[layer];
+        for (std::uint32_t i = 0; i < surface.triangles.size() && is_new && !known->second; ++i)
+            known->second =
+                std::ranges::any_of(surface.tree.touching_others(i), [&](std::uint32_t j) {
+                    const UpwardCorners &a = surface.triangles[i].corners,
+                                        &b = surface.triangles[j].corners;
+                    return j < i && !are_beside(a, b) && !is_thin(common_part(a, b));
+                });
+        return known->second;
     }
 
     /// Tells whether a part of the projection of a triangle of the mesh is within 2 d of a border.
@@ -86,8 +105,7 @@ private:
                 const auto near = s_.near_triangles(i, s_.boxes[t]);
                 if (const auto own = s_.near_one(i, corners, near)) {
                     on_some = true;
-                    same_side = same_side || !s_.seen[t] ||
-                                s_.surfaces[i].triangles[*own].flipped == s_.seen[t]->flipped;
+                    same_side = same_side || faces_as(t, i, *own);
                 } else if (const auto moved = faces_moved(i, t)) {
                     on_some = true;
                     same_side = same_side || *moved;
@@ -108,6 +126,12 @@ private:
         }
     }
 
+    /// Tells whether a triangle of the mesh faces the side of one of a surface. What is upright faces
+    /// none, and need not.
+    [[nodiscard]] bool faces_as(std::uint32_t t, std::uint32_t layer, std::uint32_t other) const {
+        return s_.seen[t] && s_.seen[t]->flipped == s_.surfaces[layer].triangles[other].flipped;
+    }
+
     /// Finds the surfaces of harder layers on which a triangle is once they are moved along z by a
     /// multiple of the minimum thickness, at most one for each layer. Tells whether it faces the
     /// side of one of them; none: there is no such surface, or no thickness.
@@ -121,8 +145,7 @@ private:
             for (const std::uint32_t o : s_.surfaces[j].tree.touching(around))
                 for (int steps = -most; steps <= most; ++steps)
                     if (is_on_moved(t, j, o, steps))
-                        same_side = same_side.value_or(false) || !s_.seen[t] ||
-                                    s_.surfaces[j].triangles[o].flipped == s_.seen[t]->flipped;
+                        same_side = same_side.value_or(false) || faces_as(t, j, o);
         }
         return same_side;
     }
@@ -179,6 +202,15 @@ private:
                            ", is where its surface does not exist");
     }
 
+    /// Tells whether the middle of a polygon is within 2 d of its sides.
+    [[nodiscard]] bool is_thin(const PlacePolygon& polygon) const {
+        const Place mean = mean_of(polygon);
+        for (std::size_t k = 0; k < polygon.size(); ++k)
+            if (is_within(mean, {polygon[k], polygon[(k + 1) % polygon.size()]}, s_.width))
+                return true;
+        return false;
+    }
+
     /// Checks that a layer ends at borders of surfaces only.
     void check_edges(std::uint32_t i) {
         const EdgeSides edges = s_.sides_of_layer(i);
@@ -213,10 +245,7 @@ private:
                     return contains(other.triangles[o].corners, mean);
                 }))
                 continue;
-            bool thin = false;
-            for (std::size_t k = 0; k < cell.size() && !thin; ++k)
-                thin = is_within(mean, {cell[k], cell[(k + 1) % cell.size()]}, s_.width);
-            if (!thin) return false;
+            if (!is_thin(cell)) return false;
         }
         return true;
     }
@@ -224,6 +253,7 @@ private:
     const LayerSheets& s_;
     const LayeredClaim& layered_;
     Violations& found_;
+    std::map<std::uint32_t, bool> above_itself_; ///< by layer, once it was asked for
 };
 
 bool has_order(const LayeredClaim& layered, std::size_t surfaces) {

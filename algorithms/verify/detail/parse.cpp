@@ -35,6 +35,12 @@ std::string name(const Node& node) {
     return std::string(node.string());
 }
 
+/// Systems open what is before a zero byte, another file than the verdict would name.
+std::string file_name(const Node& node) {
+    if (node.string().find('\0') != std::string_view::npos) node.fail("a zero in a file name");
+    return name(node);
+}
+
 std::string sha256(const Node& node) {
     const std::string_view text = node.string();
     if (text.size() != 64 || text.find_first_not_of("0123456789abcdef") != std::string_view::npos)
@@ -49,7 +55,7 @@ CertifiedInput input(const Node& node) {
         return CertifiedSurface{name(s["name"]), role(s["role"]), s["vertices"].count(),
                                 s["triangles"].count()};
     };
-    return {name(node["name"]), sha256(node["sha256"]), node["bytes"].count(),
+    return {file_name(node["name"]), sha256(node["sha256"]), node["bytes"].count(),
             each(node["surfaces"], surface)};
 }
 
@@ -59,8 +65,8 @@ CertifiedOutput output(const Node& node) {
         s.expect_keys({"name", "role"});
         return SurfaceInfo{name(s["name"]), role(s["role"])};
     };
-    return {name(node["name"]), name(node["format"]), sha256(node["sha256"]), node["bytes"].count(),
-            each(node["surfaces"], surface)};
+    return {file_name(node["name"]), name(node["format"]), sha256(node["sha256"]),
+            node["bytes"].count(), each(node["surfaces"], surface)};
 }
 
 void expect_string(const Node& node, std::string_view text, const std::string& otherwise) {

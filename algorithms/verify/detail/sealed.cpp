@@ -146,6 +146,9 @@ private:
             for (std::size_t i = 0; i < 3 && !is_void[p]; ++i)
                 (p < added ? before : beside)[{corner_of(p, i), corner_of(p, (i + 1) % 3)}]
                     .push_back(p);
+        // Where given triangles face different sides, those that are added beside them do, too.
+        const bool is_oriented =
+            std::ranges::none_of(before, [](const auto& side) { return side.second.size() > 1; });
         JoinedSets sets(end - first);
         Numbers joined;
         for (const auto& [side, list] : beside) {
@@ -156,7 +159,8 @@ private:
             if (other != beside.end())
                 sets.join(list.front() - first, other->second.front() - first);
             const bool is_border = (along == before.end()) != (against == before.end());
-            if (is_border ? against == before.end() : other == beside.end() && list.size() > 1)
+            if (is_border ? against == before.end()
+                          : is_oriented && other == beside.end() && list.size() > 1)
                 report_input(list.front(), " was added, but faces another side than what it joins");
             else if (is_border && against->second.size() == 1)
                 joined.insert(joined.end(), list.begin(), list.end());

@@ -54,7 +54,11 @@ void find_places(TetrahedraParts& parts, Violations& found) {
     std::map<Vector4, std::uint32_t> at;
     for (std::uint32_t v = 0; v < used.size(); ++v) {
         parts.place_of.push_back(v);
-        if (!used[v]) continue;
+        if (!used[v]) {
+            found.push_back(
+                {Rule::R44_nodes, {v}, "node " + text(v) + " belongs to no tetrahedron"});
+            continue;
+        }
         const auto [first, added] = at.emplace(parts.nodes[v], v);
         if (added) continue;
         if (!claim.twins.empty())

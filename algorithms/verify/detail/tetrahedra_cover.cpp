@@ -150,7 +150,7 @@ public:
             boxes.back().low[axis_] = boxes.back().high[axis_] = 0;
         }
         const BoxTree tree(std::move(boxes));
-        for (std::uint32_t i = 0; i < n; ++i)
+        for (std::uint32_t i = 0; i + 1 < n; ++i)
             for (const std::uint32_t j : tree.touching_others(i)) {
                 if (j <= i) continue;
                 const bool meet = j == i + 1         ? folds(i, j)

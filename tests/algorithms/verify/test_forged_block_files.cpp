@@ -163,6 +163,14 @@ TEST_CASE("forged certificates of blocks: all parts in two files") {
     const Subject right = block_subject(nested(), block_folder::together);
     REQUIRE(right.contents.size() == 4);
     REQUIRE(judged(right) == "");
+    Subject backwards = right;
+    std::reverse(backwards.contents.begin(), backwards.contents.end());
+    Json& outputs = backwards.certificate["outputs"];
+    std::reverse(outputs.begin(), outputs.end());
+    CHECK(judged(backwards) == "");
+    std::swap(outputs[0], outputs[1]); // one of the parts comes first, then the other one
+    std::swap(backwards.contents[0], backwards.contents[1]);
+    CHECK(judged(backwards) == "");
     const auto output = [&](const std::string& name) {
         for (std::size_t i = 0; i < right.contents.size(); ++i)
             if (right.certificate["outputs"][i]["name"] == "model/" + name) return i;

@@ -363,6 +363,12 @@ TEST_CASE("forged certificates of tetrahedra", "[tetrahedra]") {
                 "a corner moved by one bit", [&](Json& t) { t["vertices"][0][0] = "1e-300"; },
                 "R44"),
             change(
+                "a node that nothing needs",
+                [&](Json& t) {
+                    t["vertices"].push_back({"1e+300", "0", "0"});
+                },
+                "R44"),
+            change(
                 "twins that are none",
                 [&](Json& t) {
                     t["twins"].push_back({0, 1});

@@ -19,6 +19,18 @@ std::vector<File> named() {
                           "g top#1\nf 1 2 3\ng base\nf 4 5 6\ng wall\nf 7 8 9\n"}};
 }
 
+/// A strip of more triangles than sets of Abaqus have on a line, with a name that is nearly a label.
+std::vector<File> long_strip() {
+    std::string vertices, faces;
+    for (int i = 0; i <= 17; ++i) {
+        vertices += "v " + std::to_string(i) + " 0 0\nv " + std::to_string(i) + " 1 0\n";
+        if (i < 17)
+            faces += "f " + std::to_string(2 * i + 1) + " " + std::to_string(2 * i + 3) + " " +
+                     std::to_string(2 * i + 2) + "\n";
+    }
+    return {{"strip.obj", vertices + "g Z9-a[{@`\n" + faces}};
+}
+
 std::string judged_file(const Subject& s, std::size_t i) {
     const auto certificate = parse_certificate(s.certificate.dump(), "c");
     REQUIRE(certificate);
@@ -63,7 +75,7 @@ void check_files(const std::string& format, const std::vector<FileForgery>& forg
 } // namespace
 
 TEST_CASE("verify_output: files of all formats that it writes") {
-    for (const auto& files : {pierced(), overlapping(), named()}) {
+    for (const auto& files : {pierced(), overlapping(), named(), long_strip()}) {
         const Subject s = subject(files, all_formats);
         CHECK(judged(s) == "");
         const auto certificate = parse_certificate(s.certificate.dump(), "c");

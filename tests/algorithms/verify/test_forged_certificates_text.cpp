@@ -147,10 +147,14 @@ TEST_CASE("forged certificates: strings") {
     };
     check_texts({
         {"a line feed", name("a\nb"), "a control character in a string"},
+        {"a NUL in the name of a file", name("plane.obj\\u0000.ts"),
+         "c.json, inputs[0].name: a zero in a file name"},
         {"a NUL", name(std::string("a\0b", 3)), "a control character in a string"},
         {"no such escape", name("\\x41"), "no escape of this name"},
         {"a short escape", name("\\u41"), "four hexadecimal digits are needed"},
         {"half a surrogate pair", name("\\ud800"), "half of a surrogate pair"},
+        {"no second half", name("\\ud800\\ue000"), "half of a surrogate pair"},
+        {"two first halves", name("\\ud800\\ud800"), "half of a surrogate pair"},
         {"the other half", name("\\udc00"), "half of a surrogate pair"},
         {"Latin-1", name("caf\xE9"), "this is no UTF-8"},
         {"UTF-8 that is too long", name("\xC0\xAF"), "this is no UTF-8"},
@@ -180,4 +184,13 @@ TEST_CASE("forged certificates: escapes and blanks change nothing") {
     replaced("\"name\":\"plane.obj\"", "\"name\" : \"pl\\u0061ne\\u002eobj\"")(text);
     text = " \r\n\t" + text + "\n\n";
     CHECK(verdict(input_files(pierced()), text) == "");
+}
+
+TEST_CASE("forged certificates: each escape is the character that it stands for") {
+    std::string text = certificate_of(pierced());
+    replaced("\"name\":\"plane.obj\"",
+             R"("name":"\"\\\/\b\f\n\r\t\ud834\udd1e\ud800\udc00\udbff\udfff")")(text);
+    const auto parsed = parse_certificate(text, "c.json");
+    REQUIRE(parsed);
+    CHECK(parsed->inputs[0].name == "\"\\/\b\f\n\r\t\U0001D11E\U00010000\U0010FFFF");
 }

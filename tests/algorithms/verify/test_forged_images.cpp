@@ -92,6 +92,18 @@ TEST_CASE("images: surfaces that meet along more than the deviation still meet")
               }
               replace(r, vertices, {{0, 1, 2}, {3, 4, 5}}, {0, 1}, {0, 1});
           }) == "R37");
+    // Surfaces that are in one plane up to what is accepted may part.
+    const Surface flat{
+        "flat", Role::unknown, {{10, 10, -1e-11}, {40, 10, 1e-11}, {25, 40, 0}}, {{0, 1, 2}}};
+    CHECK(judged_with({square_sheet, flat}, [&](Json& r) {
+              std::vector<Point3> vertices(square_sheet.vertices.begin(),
+                                           square_sheet.vertices.begin() + 3);
+              for (Point3 p : flat.vertices) {
+                  p.z += 1.1e-11;
+                  vertices.push_back(p);
+              }
+              replace(r, vertices, {{0, 1, 2}, {3, 4, 5}}, {0, 1}, {0, 1});
+          }) == "");
 }
 
 TEST_CASE("places: a body that is smaller than the deviation keeps its sides") {
@@ -189,4 +201,32 @@ TEST_CASE("images: triangles that part from an end of their common side are coun
     };
     CHECK(measured(0) == Differences{});
     CHECK(measured(1e-12) == Differences{1, 0, 0});
+}
+
+TEST_CASE("images: a triangle that stands on an edge is counted") {
+    Surface square = square_sheet;
+    square.triangles = {{0, 1, 2}, {2, 1, 3}};
+    const auto measured = [&](const Json& parents, const Point3& tip) {
+        Subject s = subject({{"in.obj", obj_text({square})}}, {});
+        std::vector<Point3> vertices = square.vertices;
+        vertices.push_back(tip);
+        Json& r = s.certificate["rounded"];
+        const bool at_border = tip.y < 0;
+        replace(
+            r, vertices,
+            {{0, 1, 2}, {2, 1, 3}, {at_border ? 0U : 2U, at_border ? 4U : 1U, at_border ? 1U : 4U}},
+            {0, 1, 0}, at_border ? std::vector{0, 0, 0} : std::vector{0, 1, 2});
+        r["parents"][2] = parents;
+        if (!at_border) r["intersection_edges"].push_back({1, 2});
+        const auto certificate = parse_certificate(s.certificate.dump(), "c");
+        REQUIRE(certificate);
+        const Verdict verdict = verify_certificate(s.inputs, certificate.value());
+        CHECK(verdict.violations.empty());
+        return verdict.measured.value().differences;
+    };
+    constexpr double e = 1e-12;
+    CHECK(measured({0}, {50, 50, e}) == Differences{0, 1, 0});
+    CHECK(measured({0, 1}, {50, 50, e}) == Differences{0, 1, 0});
+    // A border that is moved by less than the deviation.
+    CHECK(measured({0}, {50, -e, 0}) == Differences{});
 }

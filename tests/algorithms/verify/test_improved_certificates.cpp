@@ -246,7 +246,7 @@ TEST_CASE("improved certificates: forged lists and limits") {
 
 TEST_CASE("improved certificates: bodies stay in each other, and parts touch nowhere else") {
     std::vector<Surface> bodies;
-    for (const auto& [low, size] : {std::pair{0.0, 12.0}, {2.0, 1.0}, {300.0, 6.0}})
+    for (const auto& [low, size] : {std::pair{0.0, 12.0}, {2.0, 1.0}, {3.4, 1.0}, {300.0, 6.0}})
         bodies.push_back({"body",
                           Role::unknown,
                           {{low, low, low},
@@ -262,6 +262,17 @@ TEST_CASE("improved certificates: bodies stay in each other, and parts touch now
                     shift_number(p[0], by);
             for (Json& limit : m["limits"]) limit = "20";
         };
+    };
+    // The boxes around it before and after have points in common.
+    const auto just_outside = [](Json& m) {
+        for (Json& p : m["vertices"]) {
+            double sum = 0;
+            for (const Json& x : p) sum += number_in(x);
+            if (std::all_of(p.begin(), p.end(), [](const Json& x) { return number_in(x) > 3.3; }) &&
+                sum < 11.5)
+                for (Json& x : p) shift_number(x, 0.9);
+        }
+        for (Json& limit : m["limits"]) limit = "20";
     };
     const auto touching = [](Json& m) {
         std::map<std::vector<double>, std::size_t> at;
@@ -281,12 +292,37 @@ TEST_CASE("improved certificates: bodies stay in each other, and parts touch now
         for (Json& limit : m["limits"]) limit = "20";
     };
     check_forgeries(right, {improved("the inner body is outside", inner_moved(9), "R39"),
+                            improved("a body has just left the one around it", just_outside, "R39"),
                             improved("the body apart is elsewhere", exchanged, "R39"),
                             improved("the inner body touches the outer one", touching, "R25")});
     Subject moved = right;
     inner_moved(0.25)(moved.certificate["improved"]);
     seal(moved);
     CHECK(judged(moved).find("R39") == std::string::npos);
+}
+
+TEST_CASE("improved certificates: bodies that touch in a point keep it") {
+    const Surface left{"left",
+                       Role::unknown,
+                       {{0, 0, 0}, {12, 0, 0}, {0, 12, 0}, {0, 0, 12}},
+                       {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}},
+        right{"right",
+              Role::unknown,
+              {{12, 0, 0}, {18, 0, 0}, {12, 6, 0}, {12, 0, 6}},
+              {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+    const Subject touching = improved_subject({{"bodies.obj", obj_text({left, right})}}, {});
+    const auto parted = [](Json& m) {
+        const Json point = Json::array({"12", "0", "0"});
+        const auto at = std::find(m["vertices"].begin(), m["vertices"].end(), point);
+        REQUIRE(at != m["vertices"].end());
+        const Json v = at - m["vertices"].begin(), apart = m["vertices"].size();
+        m["vertices"].push_back({"12.0625", "0", "0"});
+        for (std::size_t t = 0; t < m["triangles"].size(); ++t)
+            if (m["surfaces"][t] == Json::array({1}))
+                std::replace(m["triangles"][t].begin(), m["triangles"][t].end(), v, apart);
+        for (Json& limit : m["limits"]) limit = "0.125";
+    };
+    check_forgeries(touching, {improved("they do not touch", parted, "R25")});
 }
 
 TEST_CASE("improved certificates: an output file with one digit changed") {

@@ -17,6 +17,23 @@ const Subject& right_layers() {
     return subject;
 }
 
+/// Adds all triangles once more, on vertices that are higher by less than the deviation.
+void double_layers(Json& m) {
+    const std::size_t vertices = m["vertices"].size(), triangles = m["triangles"].size();
+    for (std::size_t v = 0; v < vertices; ++v) {
+        m["vertices"].push_back(Json(m["vertices"][v]));
+        move(m, vertices + v, 2, 2e-12);
+    }
+    for (std::size_t t = 0; t < triangles; ++t) {
+        Json corners = m["triangles"][t];
+        for (Json& corner : corners) corner = corner.get<std::size_t>() + vertices;
+        m["triangles"].push_back(corners);
+        for (const char* list : {"layers", "regions", "parents"})
+            m[list].push_back(Json(m[list][t]));
+    }
+    m["deviation"] = "5e-12";
+}
+
 } // namespace
 
 TEST_CASE("layered certificates: accepted with each format", "[layers]") {
@@ -29,6 +46,9 @@ TEST_CASE("layered certificates: accepted with each format", "[layers]") {
     REQUIRE(verdict.measured);
     CHECK(verdict.measured->deviation < 1e-13);
     CHECK(judged(subject, {.max_deviation = 1e-18}) == "R60");
+    const double stated = number_in(subject.certificate["layered"]["deviation"]);
+    CHECK(judged(subject, {.max_deviation = stated}) == "");
+    CHECK(judged(subject, {.max_deviation = std::nextafter(stated, 0.0)}) == "R60");
     // All that is told apart is there: what is replaced from above and below, and steps.
     const Json& mesh = subject.certificate["layered"];
     triangle_of(mesh, {0, 1});
@@ -150,6 +170,20 @@ TEST_CASE("layered certificates: forged layers", "[layers]") {
                 },
                 "R61"),
         });
+}
+
+TEST_CASE("layered certificates: a layer is there once", "[layers]") {
+    const auto flat = [](double z) { return [z](double, double) { return z; }; };
+    for (const double thickness : {0.0, 0.5}) {
+        const Subject two = layered_subject({{"top.obj", horizon_text("top", 0, flat(3))},
+                                             {"base.obj", horizon_text("base", 0, flat(1))}},
+                                            order_of({1, 2}), {"obj"}, thickness);
+        CHECK(judged(two) == "");
+        check_forgeries(two, {layered("all layers twice, a little apart", double_layers, "R62")});
+    }
+    const std::string body =
+        "v 0 0 0\nv 8 0 0\nv 0 8 0\nv 1 1 8\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+    CHECK(judged(layered_subject({{"body.obj", body}}, order_of({1}))) == "");
 }
 
 TEST_CASE("layered certificates: forged orders and numbers", "[layers]") {

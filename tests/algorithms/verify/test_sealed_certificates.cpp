@@ -99,6 +99,24 @@ TEST_CASE("sealed certificates: bridges are attached to their surface, and face 
     CHECK(has_rule(rules({{a, b, c}, {d, b, c}}), "R54"));
 }
 
+TEST_CASE("sealed certificates: what goes on from triangles that face different sides faces these",
+          "[sealing]") {
+    const File wall{"wall.obj", "v 4.3 -1 -1\nv 4.3 9 -1\nv 4.3 9 1\nv 4.3 -1 1\nf 1 2 3 4\n"};
+    const std::string sheet = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 4 8 0\nv 0 8 0\nf 1 2 3 4\n";
+    const std::vector<File> folded{{"sheet.obj", sheet + "f 6 5 3 4\n"}, wall},
+        even{{"sheet.obj", sheet + "f 4 3 5 6\n"}, wall};
+    const Point3 a{4, 0, 0}, b{4, 4, 0}, c{4.3, 0, 0}, d{4.3, 4, 0}, e{4, 8, 0}, f{4.3, 8, 0};
+    const auto rules = [](const std::vector<File>& files, const std::vector<Corners>& added) {
+        return judged_widely(self_made(files, {{0, added}}, keep_all));
+    };
+    CHECK(rules(folded, {{b, a, c}, {b, c, d}, {b, e, f}, {b, f, d}}) == "");
+    CHECK(rules(even, {{b, a, c}, {b, c, d}, {e, b, f}, {f, b, d}}) == "");
+    CHECK(has_rule(rules(folded, {{b, a, c}, {b, c, d}, {e, b, f}, {f, b, d}}), "R54"));
+    CHECK(has_rule(rules(even, {{b, a, c}, {b, c, d}, {b, e, f}, {b, f, d}}), "R54"));
+    // The sides at the border are right, and what goes on from them is turned over.
+    CHECK(has_rule(rules(even, {{b, a, c}, {c, b, d}, {e, b, f}, {f, b, d}}), "R54"));
+}
+
 TEST_CASE("sealed certificates: accepted", "[sealing]") {
     CHECK(judged(right_sealed()) == "");
     CHECK(right_sealed().certificate["kind"] == "sealed");
