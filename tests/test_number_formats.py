@@ -21,7 +21,6 @@ ALLOWED = {
     ("algorithms/core/fields.cpp", "{:g}"): "defaults and bounds of options, which users copy",
     ("cli/reports/fill_report.cpp", "{:.6g},{:.6g}"): "a CSV file",
     ("io/page/web/src/text.ts", "value.toExponential("): "figure() itself",
-    ("python/terrane/_picture.py", "{_WIDTH:g}"): "sizes of a drawing",
 }
 
 
