@@ -29,7 +29,7 @@ struct KrigingConstants : Constants {
     std::size_t few_data = add("few_data", 250);
     /// Well-spread data near the hole from which likelihoods are computed; half of them with their
     /// nearest neighbour, and a quarter as many farther away. Larger: slower, n^3 for each model.
-    std::size_t most_fitted = add("most_fitted", 112);
+    std::size_t most_fitted = add("most_fitted", 96);
     /// Least range, in median distances of neighbours: a surface that is rougher than that can't be
     /// told from noise.
     double gaps_per_range = add("gaps_per_range", 3);
