@@ -278,7 +278,7 @@ private:
 };
 
 Status validate_tetrahedra(const LabelledTetrahedra& output) {
-    if (const auto valid = validate(output.vertices, {}); !valid) return valid;
+    if (auto valid = validate(output.vertices, {}); !valid) return valid;
     for (std::size_t t = 0; t < output.tetrahedra.size(); ++t)
         for (const std::uint32_t v : output.tetrahedra[t])
             if (v >= output.vertices.size())

@@ -134,8 +134,7 @@ TetrahedronFaces::TetrahedronFaces(const LabelledTetrahedra& tetrahedra, std::si
     join_nodes();
     std::vector<int> signs;
     std::ptrdiff_t sum = 0;
-    for (std::uint32_t t = 0; t < made.tetrahedra.size(); ++t) {
-        const auto [a, b, c, d] = made.tetrahedra[t];
+    for (const auto& [a, b, c, d] : made.tetrahedra) {
         const auto& p = made.vertices;
         signs.push_back(static_cast<int>(orient3d(p[a], p[b], p[c], p[d])));
         sum += signs.back();
