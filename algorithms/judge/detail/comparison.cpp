@@ -355,7 +355,7 @@ private:
         }
     }
 
-    /// Notes how far vertices moved that share no triangle with one near others.
+    /// Records the largest move among vertices that share no triangle with a crowded vertex.
     void note_free_moves() {
         std::vector<bool> is_free(matching_.image.size(), true);
         for (const Triangle& t : target_.triangles)

@@ -32,8 +32,8 @@ struct Bound {
 /// Returns what is wrong with the options: bad_option (spacings).
 Status check_options(const JudgeOptions& options);
 
-/// Returns the bound of so many spacings of doubles. Errors: unsupported (too large or too small a
-/// coordinate, or a bound that is wide beside the extent).
+/// Returns the bound: `spacings` times the spacing of doubles at the largest coordinate. Errors: unsupported
+/// (a coordinate beyond 2^250 or all below 2^-250; a bound above a 4096th of the extent).
 Result<Bound> bound_of(const Arrangement& exact, double spacings);
 
 /// All triangles of an arrangement.

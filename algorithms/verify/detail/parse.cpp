@@ -35,7 +35,7 @@ std::string name(const Node& node) {
     return std::string(node.string());
 }
 
-/// Systems open what is before a zero byte, another file than the verdict would name.
+/// Refuses a zero byte in a name: the system would open the file named by what precedes it.
 std::string file_name(const Node& node) {
     if (node.string().find('\0') != std::string_view::npos) node.fail("a zero in a file name");
     return name(node);
