@@ -169,8 +169,10 @@ terrane_code terrane_surfaces_write(const terrane_surfaces* surfaces, const char
                                     const terrane_write_options* options, terrane_error** error) {
     return call(error, [&] {
         const auto& list = needed(surfaces, "surfaces").list;
-        const auto writing = writing_of(options);
+        auto writing = writing_of(options);
         must(terrane::validate(list));
+        const auto values = terrane::values_of(list);
+        writing.values = values;
         must(terrane::write_mesh(terrane::concatenate(list), needed_file(path), writing));
     });
 }

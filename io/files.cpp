@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/files.hpp>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -29,6 +30,7 @@
 #include <terrane/io/meshes/leapfrog.hpp>
 #include <terrane/io/meshes/legacy_vtk.hpp>
 #include <terrane/io/meshes/medit.hpp>
+#include <terrane/io/meshes/msh_values.hpp>
 #include <terrane/io/meshes/opengeosys.hpp>
 #include <terrane/io/meshes/pflotran.hpp>
 #include <terrane/io/meshes/poly.hpp>
@@ -190,10 +192,19 @@ Result<std::vector<Surface>> parse(std::string_view contents, std::string_view s
     return surfaces;
 }
 
+std::string msh_values_of(const Mesh& mesh, const WriteOptions& options, bool is_22) {
+    return to_msh_values(mesh.vertices.size(), mesh.triangles, mesh.surfaces_of, options.values,
+                         {1, is_22});
+}
+std::string msh_values_of(const TetrahedralMesh& mesh, const WriteOptions& options, bool is_22) {
+    return to_msh_values(mesh.vertices.size(), mesh.faces, mesh.surfaces_of, options.values,
+                         {mesh.tetrahedra.size() + 1, is_22});
+}
+
 Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOptions& options) {
     switch (format) {
     case Format::gocad:
-        return to_gocad(mesh);
+        return to_gocad(mesh, options.values);
     case Format::obj:
         return to_obj(mesh);
     case Format::off:
@@ -202,23 +213,23 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
         if (options.ascii) return to_stl_ascii(mesh);
         return to_stl(mesh);
     case Format::ply:
-        return to_ply(mesh);
+        return to_ply(mesh, options.values);
     case Format::msh:
-        return to_msh(mesh);
+        return to_msh(mesh) + msh_values_of(mesh, options, false);
     case Format::msh22:
-        return to_msh22(mesh);
+        return to_msh22(mesh) + msh_values_of(mesh, options, true);
     case Format::inp:
         return to_abaqus(mesh);
     case Format::medit:
         return to_medit(mesh);
     case Format::vtk:
-        return to_vtk(mesh);
+        return to_vtk(mesh, options.values);
     case Format::poly:
         return to_poly(mesh, options.block_points);
     case Format::smesh:
         return to_smesh(mesh, options.block_points);
     case Format::vtp:
-        return to_vtp(mesh, options.compress, options.cells, options.block_names);
+        return to_vtp(mesh, options.compress, options.cells, options.block_names, options.values);
     case Format::vset:
         return to_vset(mesh);
     case Format::pline:
@@ -244,11 +255,12 @@ Result<SeveralFiles> files_of(const TetrahedralMesh& mesh, Format format, const 
     const VtkFiles vtk{path.stem().string(), options.compress};
     switch (format) {
     case Format::vtu:
-        return one_file(to_vtu(mesh, options.compress, options.cells, block_names, nodes));
+        return one_file(
+            to_vtu(mesh, options.compress, options.cells, block_names, nodes, options.values));
     case Format::msh:
-        return one_file(to_msh(mesh, block_names, nodes));
+        return one_file(to_msh(mesh, block_names, nodes) + msh_values_of(mesh, options, false));
     case Format::msh22:
-        return one_file(to_msh22(mesh, block_names, nodes));
+        return one_file(to_msh22(mesh, block_names, nodes) + msh_values_of(mesh, options, true));
     case Format::inp:
         return one_file(to_abaqus(mesh, block_names, nodes));
     case Format::medit:
@@ -356,6 +368,19 @@ bool holds_tetrahedra(Format format) {
 bool holds_second_order(Format format) {
     return format == Format::vtu || format == Format::msh || format == Format::msh22 ||
            format == Format::inp || format == Format::exodus || format == Format::ogs;
+}
+
+std::vector<std::string> values_left_out(Format format, std::span<const SurfaceValues> values) {
+    const bool has_both = format == Format::ply || format == Format::vtp || format == Format::vtu ||
+                          format == Format::vtk;
+    const bool is_msh = format == Format::msh || format == Format::msh22;
+    std::vector<std::string> names;
+    for (const SurfaceValues& of_surface : values)
+        for (const ValueArray& array : of_surface)
+            if (!has_both && !(format == Format::gocad && !array.on_triangles) &&
+                !(is_msh && fits_msh(array)) && std::ranges::find(names, array.name) == names.end())
+                names.push_back(array.name);
+    return names;
 }
 
 bool has_several_files(Format format) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/mesh/carry.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
@@ -72,6 +73,10 @@ bool may_be_beside(Format format, const std::filesystem::path& first,
 /// Whether the vertices or lines of surfaces, but not their triangles, can be written in the format.
 bool holds_outlines(Format format);
 
+/// Returns the names of the values that a file in this format would not have: on vertices or on triangles the
+/// format has none, or not of this shape.
+std::vector<std::string> values_left_out(Format format, std::span<const SurfaceValues> values);
+
 /// Returns the format for the extension of a file name, in any case; none if it is unknown.
 std::optional<Format> format_of(const std::filesystem::path& path);
 
@@ -124,6 +129,8 @@ struct WriteOptions {
     /// Tetrahedra, but not .mesh: the name of each block; VTP: names of blocks, for the field
     /// block_name; empty: none
     std::span<const std::string> block_names{};
+    /// Values per surface, as from carry_values(), in formats that have them: see values_left_out()
+    std::span<const SurfaceValues> values{};
     /// Tetrahedra only: 2 puts a node in the middle of each edge (edge_nodes.hpp)
     unsigned order = 1;
 };

@@ -53,7 +53,7 @@ public:
     FolderWriter(const ModelReports& reports, const std::string& part_format,
                  const std::filesystem::path& folder) :
         model_(reports.model),
-        form_(form_of(reports.model, part_format)), folder_(folder),
+        values_(reports.values), form_(form_of(reports.model, part_format)), folder_(folder),
         labels_(unique_labels(reports.model.mesh->surfaces)), extras_(extras_of(reports)) {}
 
     Status operator()(const Run& run) {
@@ -165,6 +165,7 @@ private:
         WriteOptions options;
         options.cells = cells;
         options.block_names = block_names;
+        options.values = values_;
         return write_mesh(model_.mesh, folder_ / "result.vtp", options);
     }
 
@@ -192,6 +193,7 @@ private:
     }
 
     const Model& model_;
+    const std::span<const SurfaceValues> values_;
     const PartsForm form_;
     const std::filesystem::path& folder_;
     std::vector<std::string> labels_; ///< per surface

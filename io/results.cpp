@@ -39,6 +39,7 @@ private:
         const Model& model = results_.model;
         WriteOptions options;
         options.ascii = true; // binary STL would round the checked coordinates
+        options.values = results_.values;
         std::vector<BlockPoint> points;
         for (const std::string& format : results_.project.outputs.surfaces) {
             options.format = format_named(format);
@@ -60,6 +61,7 @@ private:
         WriteOptions options;
         options.block_names = results_.filled->block_names;
         options.order = results_.project.tetrahedra.order;
+        options.values = results_.values_of_faces;
         for (const std::string& format : results_.project.outputs.tetrahedra) {
             options.format = format_named(format);
             const auto files = write_tetrahedra_files(
@@ -80,8 +82,8 @@ private:
             return Error{ErrorCode::cannot_open, "cannot be made: " + failed.message(),
                          folder.string()};
         written_.emplace_back("model/");
-        return write_model_files({results_.model, results_.sealed, results_.leaks}, format, folder,
-                                 run_);
+        return write_model_files({results_.model, results_.sealed, results_.leaks, results_.values},
+                                 format, folder, run_);
     }
 
     Status write_gocad() {

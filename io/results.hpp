@@ -6,11 +6,13 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/mesh/carry.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/pipeline/project.hpp>
@@ -28,6 +30,8 @@ struct ModelReports {
     const Model& model;                      ///< the model to write
     const std::optional<SealReport>& sealed; ///< the report of sealing; none: not sealed
     const std::optional<LeakAdvice>& leaks;  ///< leaks that were judged; none: they were not
+    std::span<const SurfaceValues>
+        values{}; ///< on the model's mesh, for result.vtp; parts have none
 };
 
 /// Returns what model.json says of a model beyond its structure, but for the names of files.
@@ -72,6 +76,9 @@ struct Results {
     const std::optional<SealReport>& sealed; ///< none: nothing was sealed
     const std::optional<LeakAdvice>& leaks;  ///< none: leaks were not judged
     std::string unit{};                      ///< of the coordinates; empty: unknown
+    std::span<const SurfaceValues>
+        values{}; ///< on the model's mesh; none where there are certificates
+    std::span<const SurfaceValues> values_of_faces{}; ///< likewise of the tetrahedra
 };
 
 /// A certificate among the results.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <terrane/algorithms/mesh/values.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane {
@@ -45,14 +46,16 @@ struct FlawedFaces {
 /// A triangulated surface as it is read. It may be open, cross itself, and have duplicate or
 /// degenerate triangles; only its coordinates must be finite.
 struct Surface {
-    std::string name;                  ///< from the file; need not be unique
-    Role role = Role::unknown;         ///< its geological role
-    std::vector<Point3> vertices;      ///< order and unit of the file; finite
-    std::vector<Triangle> triangles;   ///< order of the file; indices < vertices.size()
-    CoordinateFrame frame{};           ///< what the file states about the coordinates
-    FlawedFaces flawed_faces{};        ///< those of the file
-    std::vector<std::string> values{}; ///< of the file on points and triangles, by their names; the
-                                       ///< surface does not have them
+    std::string name;                ///< from the file; need not be unique
+    Role role = Role::unknown;       ///< its geological role
+    std::vector<Point3> vertices;    ///< order and unit of the file; finite
+    std::vector<Triangle> triangles; ///< order of the file; indices < vertices.size()
+    CoordinateFrame frame{};         ///< what the file states about the coordinates
+    FlawedFaces flawed_faces{};      ///< those of the file
+    std::vector<ValueArray>
+        arrays{}; ///< values on vertices and triangles, as in the file; a stage that
+                  ///< changes the surface leaves them behind (carry.hpp)
+    std::vector<std::string> values{}; ///< names of further values in the file, which were not read
 };
 
 } // namespace terrane

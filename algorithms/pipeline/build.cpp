@@ -65,6 +65,7 @@ public:
         input_(std::move(input)), known_(known), run_(run), observer_(observer), store_(store) {}
 
     Result<Built> operator()() {
+        built_.given = with_values(input_.surfaces);
         for (const Status& sound :
              {check_column(project_.column), check_column(project_.column, infos_with_boundary())})
             if (!sound) return at_key(project_, sound.error().place, sound.error());

@@ -24,6 +24,7 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/layers/layers.hpp>
+#include <terrane/algorithms/mesh/carry.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
@@ -84,6 +85,9 @@ struct LoosenedVertices {
 
 /// The model of a project, and the result of each stage.
 struct Built {
+    std::vector<Surface>
+        given{}; ///< the surfaces of the input that have values, at their places; others
+                 ///< are empty. None: no surface has any
     Preprocessed preprocessed{};       ///< filled holes and ordered layers; empty: none asked for
     std::vector<std::string> labels{}; ///< per surface of the mesh: its name, made unique
     Arranged arranged{};               ///< the arrangement and its rounded mesh
@@ -116,6 +120,16 @@ struct StageStore {
     /// Keeps the bytes under a key.
     std::function<void(BuildStage, const std::string& key, const std::string& bytes)> keep{};
 };
+
+/// Takes the values of surfaces, and returns the surfaces that had some, as Built::given.
+std::vector<Surface> with_values(std::vector<Surface>& surfaces);
+
+/// Returns the values on a mesh of the arranged or improved surfaces, or a part of it, per surface (carry.hpp).
+std::vector<SurfaceValues> values_on(const Built& built, const Mesh& mesh);
+/// Returns the values on the faces of tetrahedra that were built.
+std::vector<SurfaceValues> values_on(const Built& built, const TetrahedralMesh& tetrahedra);
+/// Returns the values on the mesh of layers; or else on concatenate() of the surfaces with holes.
+std::vector<SurfaceValues> values_on_preprocessed(const Built& built);
 
 /// Returns the name of a stage for people: "mend", "arrange", "improve", "blocks", "tetrahedra".
 std::string_view name_of(BuildStage stage);

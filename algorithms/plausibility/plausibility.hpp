@@ -30,7 +30,7 @@ enum class Doubt : std::uint8_t {
     no_top,              ///< no surface can close the model at its top
     no_base,             ///< no surface can close the model at its base
     float32,             ///< coordinates were stored with 24 bits, too few for their size
-    values_left_out,     ///< files have values on points or triangles, which no output has
+    values_left_out,     ///< files have values on points or triangles that are not read
     flawed_faces,        ///< faces with more than three corners cross themselves or are not flat
     duplicate_surface,   ///< two surfaces have the same triangles
     no_block,            ///< blocks were wanted, but surfaces enclose none

@@ -49,7 +49,7 @@ ExitStatus arrange_files(const ArrangeCommand& command, Session& session) {
     if (session.stopped()) refuse(ErrorCode::interrupted, "", "");
 
     if (clean || command.keep_unverified) {
-        write_outputs(rounded.mesh, clean, files, outputs, session);
+        write_outputs(rounded.mesh, clean, run, outputs, session);
     } else {
         const bool proves = !proof.certificate.empty() || !proof.exact.empty();
         print(stderr, complaint(std::string(proves ? "the mesh is not" : "nothing") +

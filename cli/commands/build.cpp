@@ -214,12 +214,36 @@ private:
                 built().filled ? &*built().filled : nullptr,
                 built().arranged.sealed,
                 run_.leaks(),
-                run_.inputs().unit};
+                run_.inputs().unit,
+                values_,
+                values_of_faces_};
     }
 
     void write_outputs(const fs::path& to) {
+        if (!project_.outputs.certificate) {
+            values_ = run_.values_on(built().model->mesh);
+            if (built().filled) values_of_faces_ = run_.values_on(built().filled->tetrahedra);
+        }
+        warn_of_values();
         const auto written = must(write_results(results(), to, session_.run()));
         written_.insert(written_.end(), written.begin(), written.end());
+    }
+
+    /// Names the values that formats of the outputs have no place for.
+    void warn_of_values() const {
+        if (project_.outputs.certificate && !built().given.empty())
+            warn(
+                "values on points and triangles are left out of files that a certificate is about");
+        const auto warn_of = [](const std::vector<std::string>& formats,
+                                std::span<const SurfaceValues> values) {
+            for (const std::string& format : formats)
+                if (const auto names = values_left_out(*format_named(format), values);
+                    !names.empty())
+                    warn(fmt::format("the format {} has no place for these values: {}", format,
+                                     fmt::join(names, ", ")));
+        };
+        warn_of(project_.outputs.surfaces, values_);
+        warn_of(project_.outputs.tetrahedra, values_of_faces_);
     }
 
     void write_interpolated(const fs::path& to) {
@@ -247,8 +271,9 @@ private:
     Session& session_;
     ProjectInputs read_; ///< its surfaces move into the build
     std::size_t stages_begun_ = 0;
-    std::optional<KeptStages> kept_;   ///< none: stages are not kept
-    std::vector<std::string> written_; ///< names in the folder
+    std::optional<KeptStages> kept_;                      ///< none: stages are not kept
+    std::vector<std::string> written_;                    ///< names in the folder
+    std::vector<SurfaceValues> values_, values_of_faces_; ///< of the mesh, and of tetrahedra
 };
 
 ExitStatus build(const BuildCommand& command) {

@@ -20,7 +20,8 @@ struct ConvertCommand {
 };
 
 constexpr auto convert_footer =
-    R"(Nothing is arranged, merged or repaired: the same triangles with the same coordinates, bit by bit.
+    R"(Nothing is arranged, merged or repaired: the same triangles with the same coordinates, bit by bit, and the
+same values on points and triangles; a warning names those that the format has no place for.
 Binary STL holds float32 only, which is said. Reads .ts .ml .obj .off .stl .ply .vtp .vtu .vtk .msh .dxf .grdecl
 .sticks, writes .vtp .vtk .obj .ts .ply .off .stl .msh .inp .mesh .poly .smesh, and the vertices of
 surfaces as .vs, their borders as .pl. The pieces that a .pvtp file names become the mesh that they were made of.
@@ -66,7 +67,8 @@ ExitStatus convert_file(const ConvertCommand& command, Session& session) {
     examine(inputs.surfaces, {}, inputs, session, statistics);
     const Mesh mesh = concatenate(inputs.surfaces);
     const Output& output = outputs.front();
-    write_output(mesh, output, {.ascii = files.ascii}, session);
+    const auto values = values_of(inputs.surfaces);
+    write_output(mesh, output, {.ascii = files.ascii, .values = values}, session);
     if (!left_out_of(output).empty())
         tell_when_written(stdout, wrote(output)); // else it says nothing
     if (output.format == Format::stl && !files.ascii && loses_digits(mesh))

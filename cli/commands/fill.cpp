@@ -88,8 +88,9 @@ void write_all(const FillCommand& command, const std::vector<Output>& outputs, M
     }
     const Mesh mesh = concatenate(surfaces);
     const std::vector<CellArray> cells{{"interpolated", interpolated}, {"deviation", deviation}};
+    const auto values = run.values_on(mesh);
     for (const Output& output : outputs) {
-        WriteOptions options{.ascii = files.ascii};
+        WriteOptions options{.ascii = files.ascii, .values = values};
         if (output.format == Format::vtp) options.cells = cells;
         write_output(mesh, output, options, session);
         tell_when_written(run.told(), wrote(output));

@@ -77,7 +77,7 @@ ExitStatus improve_files(ImproveCommand& command, Session& session) {
         must(write_file(command.histogram, histogram_of(improved.report)));
         say_written(run.told(), command.histogram);
     }
-    write_outputs(improved.mesh, true, files, outputs, session);
+    write_outputs(improved.mesh, true, run, outputs, session);
     run.certify(certified_outputs(outputs, improved.mesh, files.ascii));
     return run.end(true);
 }

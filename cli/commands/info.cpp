@@ -18,8 +18,8 @@ struct InfoCommand {
 
 constexpr auto info_footer =
     R"(For each file: its format, as its contents show it; for each surface its role, triangles, distinct
-vertices, connected parts, border and flaws, exactly; the extent, and what the file states about coordinates. Values on
-points and triangles are named; they are not read. Warnings are those of all commands.
+vertices, connected parts, border and flaws, exactly; the extent, and what the file states about coordinates; the names
+and units of values on points and triangles. Warnings are those of all commands.
 
 Examples:
   terrane info horizons.ts faults.ts

@@ -91,7 +91,7 @@ ExitStatus layer_files(const LayerCommand& command, Session& session) {
     run.make();
     if (!run.refused().empty()) return run.end(false);
     const Mesh& mesh = run.built().preprocessed.layered->rounded.mesh;
-    write_outputs(mesh, false, files, outputs, session);
+    write_outputs(mesh, false, run, outputs, session);
     run.certify(certified_outputs(outputs, mesh, files.ascii));
     return run.end(true);
 }

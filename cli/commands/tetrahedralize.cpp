@@ -87,9 +87,12 @@ std::string said_of(const Output& output, std::size_t files) {
                        std::filesystem::path(output.path).stem().string());
 }
 
-void write_all(const FilledBlocks& filled, const std::vector<Output>& outputs,
-               const FileOptions& files, Session& session) {
+void write_all(const ModelRun& run, const std::vector<Output>& outputs, Session& session) {
+    const FilledBlocks& filled = *run.built().filled;
+    const FileOptions& files = run.files();
     WriteOptions options;
+    const auto values = run.values_on(filled.tetrahedra);
+    options.values = values;
     options.block_names = filled.block_names;
     options.order = files.order;
     for (const Output& output : outputs) {
@@ -123,7 +126,7 @@ ExitStatus tetrahedralize_files(TetrahedralizeCommand& command, Session& session
     auto run = ModelRun::begin(command.model, session);
     run.make();
     if (!run.refused().empty()) return run.end(false);
-    write_all(*run.built().filled, outputs, files, session);
+    write_all(run, outputs, session);
     std::vector<ResultFile> written;
     for (const Output& output : outputs)
         written.push_back({output.path, certified_format(output.format)});

@@ -176,7 +176,8 @@ ExitStatus find_blocks(const VolumeCommand& command, Session& session) {
     run.make();
     if (!run.refused().empty()) return run.end(false);
     const Model& model = *run.built().model;
-    write_folder(command, {model, run.built().arranged.sealed, run.leaks()}, session);
+    const auto values = run.values_on(model.mesh);
+    write_folder(command, {model, run.built().arranged.sealed, run.leaks(), values}, session);
     say_written(run.told(), command.folder);
     write_tables(command, run, session);
     if (grid)

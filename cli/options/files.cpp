@@ -66,6 +66,14 @@ void check_tetrahedra(const FileOptions& options, const std::string& path, Forma
         refuse(ErrorCode::unsupported, "this format has no tetrahedra of second order", path);
 }
 
+/// Names the values that the format of an output has no place for.
+void warn_of_values(const Output& output, const WriteOptions& options) {
+    const auto names = values_left_out(output.format, options.values);
+    if (names.empty()) return;
+    warn(fmt::format("{}: the format has no place for {}: {}", output.path,
+                     names.size() == 1 ? "this value" : "these values", fmt::join(names, ", ")));
+}
+
 /// Writes by write(mesh, path, options), and shows that at a terminal.
 template <class AnyMesh, class Write>
 auto write_with(const AnyMesh& mesh, const Output& output, WriteOptions options, Session& session,
@@ -273,11 +281,13 @@ std::string name_of_inputs(const FileOptions& options) {
 }
 
 void write_output(const Mesh& mesh, const Output& output, WriteOptions options, Session& session) {
+    warn_of_values(output, options);
     write_with(mesh, output, options, session, write_mesh);
 }
 
 std::vector<fs::path> write_output(const TetrahedralMesh& mesh, const Output& output,
                                    WriteOptions options, Session& session) {
+    warn_of_values(output, options);
     return write_with(mesh, output, options, session, write_tetrahedra_files);
 }
 

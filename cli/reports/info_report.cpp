@@ -124,6 +124,26 @@ std::string extent_text(std::span<const Surface> surfaces, const Inputs& inputs)
                        quantities.place(extent.high));
 }
 
+/// Names the arrays of a surface, with their units.
+std::vector<std::string> names_of_arrays(const Surface& surface) {
+    std::vector<std::string> names;
+    for (const ValueArray& a : surface.arrays)
+        names.push_back(a.name + (a.unit.empty() ? "" : " in " + a.unit) +
+                        (a.on_triangles ? " (triangles)" : ""));
+    return names;
+}
+
+Json arrays_json(const Surface& surface) {
+    Json arrays = Json::array();
+    for (const ValueArray& a : surface.arrays)
+        arrays.push_back({{"name", a.name},
+                          {"on", a.on_triangles ? "triangles" : "vertices"},
+                          {"type", std::string(name_of(a.type))},
+                          {"components", a.components},
+                          {"unit", a.unit}});
+    return arrays;
+}
+
 Json json_of(const CheckReport& r, const Surface& surface) {
     const Extent extent(std::span(&surface, 1));
     const bool any = !surface.vertices.empty();
@@ -143,7 +163,8 @@ Json json_of(const CheckReport& r, const Surface& surface) {
             {"vertical_unit", surface.frame.vertical_unit},
             {"vertical_axis", std::string(direction_of(surface.frame.vertical_axis))},
             {"system", surface.frame.system},
-            {"values", surface.values}};
+            {"values", arrays_json(surface)},
+            {"values_not_read", surface.values}};
 }
 
 } // namespace
@@ -161,6 +182,8 @@ std::string text_of(const std::vector<FileInfo>& files, const CheckReport& toget
         const auto frames =
             said_of(surfaces, [](const Surface& s) { return std::array{stated(s.frame)}; });
         if (!frames.empty()) text += "  states: " + frames + "\n";
+        const auto arrays = said_of(surfaces, names_of_arrays);
+        if (!arrays.empty()) text += "  values: " + arrays + "\n";
         const auto values = said_of(surfaces, [](const Surface& s) { return s.values; });
         if (!values.empty()) text += "  values, which are not read: " + values + "\n";
         for (const CheckReport& r : file.surfaces) alone += r.contacts.size();

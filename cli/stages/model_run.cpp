@@ -224,6 +224,23 @@ void ModelRun::refuse(const std::string& why) {
     if (!why.empty()) refused_ = why + complaint("nothing written");
 }
 
+bool ModelRun::leaves_values_out() const {
+    if (certificate_.empty() || built_.given.empty()) return false;
+    warn("values on points and triangles are left out of files that a certificate is about");
+    return true;
+}
+
+std::vector<SurfaceValues> ModelRun::values_on(const Mesh& mesh) const {
+    if (leaves_values_out()) return {};
+    if (project_.last == BuildStage::preprocess) return values_on_preprocessed(built_);
+    return terrane::values_on(built_, mesh);
+}
+
+std::vector<SurfaceValues> ModelRun::values_on(const TetrahedralMesh& tetrahedra) const {
+    if (leaves_values_out()) return {};
+    return terrane::values_on(built_, tetrahedra);
+}
+
 void ModelRun::certify(std::vector<ResultFile> outputs) {
     if (certificate_.empty()) return;
     for (std::size_t s = 0; s < built_.arranged.surfaces.size() && s < read_.size(); ++s)

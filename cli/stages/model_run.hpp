@@ -84,6 +84,11 @@ public:
     ExitStatus end(bool good);
 
     [[nodiscard]] const Built& built() const { return built_; }
+    [[nodiscard]] const FileOptions& files() const { return files_; }
+    /// Returns the values on a mesh that is the result. Files that a certificate is about have none, of
+    /// which it warns.
+    [[nodiscard]] std::vector<SurfaceValues> values_on(const Mesh& mesh) const;
+    [[nodiscard]] std::vector<SurfaceValues> values_on(const TetrahedralMesh& tetrahedra) const;
     [[nodiscard]] const Inputs& inputs() const { return inputs_; }
     [[nodiscard]] const std::vector<Surface>& surfaces() const { return input_.surfaces; }
     [[nodiscard]] const std::vector<Surface>& boundary() const { return input_.boundary; }
@@ -101,6 +106,7 @@ private:
     void judge(const Arranged& arranged, const Model& model);
     [[nodiscard]] std::string told_of(const Model& model);
     void refuse(const std::string& why);
+    [[nodiscard]] bool leaves_values_out() const;
 
     Project project_;
     page::Page page_;

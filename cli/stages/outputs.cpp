@@ -47,16 +47,18 @@ bool stl_is_conforming(const Mesh& mesh, const FileOptions& files,
     return true;
 }
 
-void write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
+void write_outputs(const Mesh& mesh, bool clean, const ModelRun& run,
                    const std::vector<Output>& outputs, Session& session) {
     WriteOptions options;
-    options.ascii = files.ascii;
+    options.ascii = run.files().ascii;
+    const auto values = run.values_on(mesh);
+    options.values = values;
     std::vector<BlockPoint> inside;
     if (clean) inside = points_in_blocks(mesh, outputs, session); // otherwise there are no blocks
     options.block_points = inside;
     for (const Output& output : outputs) {
         write_output(mesh, output, options, session);
-        tell_when_written(summary_stream(files), wrote(output));
+        tell_when_written(run.told(), wrote(output));
     }
 }
 

@@ -8,6 +8,7 @@
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/session/session.hpp>
+#include <terrane/cli/stages/model_run.hpp>
 
 namespace terrane::cli {
 
@@ -20,9 +21,9 @@ inline constexpr const char* not_conforming_in_stl =
 bool stl_is_conforming(const Mesh& mesh, const FileOptions& files,
                        const std::vector<Output>& outputs, Session& session);
 
-/// Writes the mesh to `outputs`, in their order. `clean`: the mesh is conforming; without that,
-/// files in TetGen's formats get no points inside blocks.
-void write_outputs(const Mesh& mesh, bool clean, const FileOptions& files,
+/// Writes the mesh of a run, with the values of its surfaces, to `outputs`, in their order. `clean`: the mesh is
+/// conforming; without that, files in TetGen's formats get no points inside blocks.
+void write_outputs(const Mesh& mesh, bool clean, const ModelRun& run,
                    const std::vector<Output>& outputs, Session& session);
 
 } // namespace terrane::cli

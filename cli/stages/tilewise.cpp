@@ -196,6 +196,9 @@ ExitStatus arrange_tilewise(const FileOptions& files, const TilewiseOptions& opt
         one.inputs = {files.inputs[file]};
         try { // the library takes errors as values
             auto inputs = read_inputs(one, session);
+            if (have_values(inputs.surfaces))
+                warn(one.inputs[0] +
+                     ": with --memory the output has no values on points and triangles");
             session.begin("arrange in tiles", Phase::computing);
             return std::move(inputs.surfaces);
         } catch (const Failure& failure) {

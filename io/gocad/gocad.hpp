@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/mesh/carry.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>
 
@@ -23,6 +25,8 @@ namespace terrane {
 ///   `mixed_units` says that the caller converts them.
 /// - A surface has all vertices of its object, in file order; an ATOM is the vertex that it refers
 ///   to. Ids may have gaps, and may be used before they are defined.
+/// - PROPERTIES on vertices become arrays, with ESIZES, UNITS and NO_DATA_VALUES. Numbers that are missing are
+///   no values.
 /// - The role comes from GEOLOGICAL_TYPE, or from the feature type in a model's list of TFACE.
 /// - A surface without a name is called `name`. A header without its } ends at the next keyword.
 /// Errors: bad_syntax (also for an object without END and a truncated file), bad_number, bad_index,
@@ -82,8 +86,8 @@ std::vector<StatedBlock> stated_blocks_of(const GocadModel& model);
 
 /// Writes one TSurf per surface, with z up (ZPOSITIVE Elevation) and the vertices that the surface
 /// uses, in the order of the mesh. A triangle of several surfaces is written in each of them. Names
-/// are quoted where this is needed to read them back. Numbers read back as the same doubles.
-/// Defined in detail/write.cpp.
-std::string to_gocad(const Mesh& mesh);
+/// are quoted where this is needed to read them back. Numbers read back as the same doubles. `values`: per surface,
+/// as from carry_values(); those on vertices are written as PROPERTIES. Defined in detail/write.cpp.
+std::string to_gocad(const Mesh& mesh, std::span<const SurfaceValues> values = {});
 
 } // namespace terrane

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <string>
 #include <unordered_map>
@@ -14,6 +15,7 @@
 #include <terrane/io/surfaces/parts.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
+#include <terrane/io/text/values.hpp>
 
 namespace terrane {
 
@@ -32,11 +34,12 @@ constexpr std::int64_t most_groups = 64;
 class MshReader {
 public:
     MshReader(std::string_view contents, std::string_view source, std::string_view name) :
-        in_(contents, source), name_(name) {}
+        in_(contents, source), name_(name),
+        has_element_data_(contents.find("$ElementData") != std::string_view::npos) {}
 
     Result<std::vector<Surface>> read() {
         if (auto trouble = read_sections()) return *trouble;
-        auto surfaces = surfaces_of_parts(vertices_, parts(), values_);
+        auto surfaces = surfaces_of_parts(vertices_, parts(), values_, arrays_);
         if (surfaces.empty())
             return in_.file_error(ErrorCode::nothing_to_do, "there is no triangle");
         return surfaces;
@@ -138,18 +141,60 @@ private:
             if (auto trouble = version_ == 2 ? read_elements22() : read_elements()) return trouble;
         } else if (section.starts_with("$")) {
             const auto end = "$End" + section.substr(1);
-            for (std::size_t line = 0; word_ != end; ++line) {
-                const auto text = trimmed(in_.line());
-                if (line == 2 && section.ends_with("Data") && text.size() > 2) // after their number
-                    note_values(text.substr(1, text.size() - 2), values_);
+            std::vector<std::string_view> lines;
+            for (; word_ != end; lines.push_back(trimmed(in_.line())))
                 if (auto trouble = need_line(section)) return trouble;
-            }
+            if (section.ends_with("Data") && lines.size() > 2 && lines[1].size() > 2)
+                add_values(section, lines[1].substr(1, lines[1].size() - 2), lines);
             return std::nullopt;
         } else {
             return in_.error(ErrorCode::bad_syntax,
                              fmt::format("{} begins no section", shown(section)));
         }
         return end_of(section);
+    }
+
+    /// Makes values of the lines of a section of data; those that can't be read are only named.
+    void add_values(std::string_view section, std::string_view name,
+                    std::span<const std::string_view> lines) {
+        constexpr std::size_t most_arrays = 64;
+        ValueArray array{.name = std::string(name), .on_triangles = section == "$ElementData"};
+        const bool is_read = (array.on_triangles || section == "$NodeData") && !for_tetrahedra_ &&
+                             arrays_.size() < most_arrays && read_values(lines, array);
+        const std::size_t count = array.on_triangles ? face_count_ : vertices_.size();
+        if (!is_read || !add_array(std::move(array), count, arrays_)) note_values(name, values_);
+    }
+
+    /// Reads "1, name, the number of reals, reals, the number of integers, integers, data".
+    bool read_values(std::span<const std::string_view> lines, ValueArray& array) {
+        std::size_t at = 0;
+        std::vector<std::int64_t> integers;
+        for (std::size_t tags = 0; tags < 3; ++tags) {
+            std::int64_t count = 0;
+            if (at == lines.size() || !parse_integer(lines[at++], count) || count < 0 ||
+                static_cast<std::size_t>(count) > lines.size() - at)
+                return false;
+            for (std::int64_t i = 0; i < count; ++i, ++at)
+                if (tags == 2 && !parse_integer(lines[at], integers.emplace_back())) return false;
+        }
+        if (integers.size() < 2 || integers[1] < 1 || integers[1] > 9) return false;
+        array.components = static_cast<std::uint32_t>(integers[1]);
+        const std::size_t count = array.on_triangles ? face_count_ : vertices_.size();
+        if (lines.size() - at <= count / 16) return false; // memory is linear in the file
+        auto& numbers = array.numbers.emplace<0>(count * array.components, std::nan(""));
+        const auto& places = array.on_triangles ? face_of_element_ : node_of_;
+        for (; at + 1 < lines.size(); ++at) { // the last line is the end of the section
+            Tokens tokens(lines[at]);
+            std::int64_t tag = 0;
+            if (!parse_integer(tokens.next(), tag)) return false;
+            const auto place = places.find(tag);
+            if (place == places.end()) continue; // a volume, or a line
+            for (std::size_t c = 0; c < array.components; ++c)
+                if (parse_double(tokens.next(), numbers[place->second * array.components + c]) ==
+                    NumberState::not_a_number)
+                    return false;
+        }
+        return true;
     }
 
     MaybeError read_names() {
@@ -299,6 +344,7 @@ private:
         for (std::size_t i = 0; i < elements; ++i) {
             std::int64_t type = 0, tags = 0, physical = 0, entity = 0, unused = 0;
             if (auto trouble = need_line("$Elements")) return trouble;
+            element_ = word_;
             if (auto trouble = integer(tokens_.next(), type)) return trouble;
             if (auto trouble = check_type(type)) return trouble;
             if (!is_wanted(type)) continue;
@@ -314,7 +360,8 @@ private:
                     return trouble;
                 continue;
             }
-            append_face(corners, parts_[physical != 0 ? Key{false, physical} : Key{true, entity}]);
+            append_face(corners, parts_[physical != 0 ? Key{false, physical} : Key{true, entity}],
+                        next_face());
         }
         return std::nullopt;
     }
@@ -347,14 +394,24 @@ private:
         std::vector<std::uint32_t> corners;
         for (std::size_t i = 0; i < elements; ++i) {
             if (auto trouble = need_line("$Elements")) return trouble;
+            element_ = word_;
             if (!is_wanted(type)) continue;
             if (auto trouble = read_corners(type, corners)) return trouble;
             if (for_tetrahedra_)
                 if (auto trouble = add_tetrahedron(corners, grouped ? groups->second[0] : entity))
                     return trouble;
-            for (FilePart* part : to) append_face(corners, *part);
+            const std::uint32_t face = for_tetrahedra_ ? 0 : next_face();
+            for (FilePart* part : to) append_face(corners, *part, face);
         }
         return std::nullopt;
+    }
+
+    /// Numbers a face, whose element is the current one.
+    std::uint32_t next_face() {
+        std::int64_t tag = 0;
+        if (has_element_data_ && parse_integer(element_, tag))
+            face_of_element_.emplace(tag, face_count_);
+        return face_count_++;
     }
 
     /// Names the surfaces, in their order.
@@ -375,6 +432,7 @@ private:
 
     LineParser in_;
     std::string_view name_;
+    bool has_element_data_;
     bool for_tetrahedra_ = false;   ///< instead of surfaces
     LabelledTetrahedra tetrahedra_; ///< without vertices
     Tokens tokens_{""};
@@ -384,7 +442,11 @@ private:
     std::map<std::int64_t, std::vector<std::int64_t>> physical_of_; ///< per entity
     std::unordered_map<std::int64_t, std::uint32_t> node_of_;       ///< by tag
     std::vector<Point3> vertices_;
-    std::vector<std::string> values_; ///< see Surface
+    std::string_view element_;                                        ///< tag of the current one
+    std::uint32_t face_count_ = 0;                                    ///< so far
+    std::unordered_map<std::int64_t, std::uint32_t> face_of_element_; ///< with element data
+    std::vector<ValueArray> arrays_;                                  ///< over all nodes and faces
+    std::vector<std::string> values_;                                 ///< see Surface
     std::map<Key, FilePart> parts_;
 };
 

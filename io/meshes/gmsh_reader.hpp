@@ -17,6 +17,7 @@ namespace terrane {
 /// - Elements of no physical surface follow, one surface per entity: `name` if it is the only
 /// surface of
 ///   the file, else "NAME entity TAG".
+/// - $NodeData and $ElementData become values; one that has fewer than a 16th of the numbers is only named.
 /// - Points, lines and volumes are passed over. A surface has only the vertices that it uses.
 /// Errors: bad_syntax, bad_number, bad_index with "source:line"; unsupported (a binary file,
 /// another version, triangles and quadrilaterals of higher order); nothing_to_do if there is no

@@ -16,6 +16,7 @@
 #include <terrane/io/surfaces/parts.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
+#include <terrane/io/text/values.hpp>
 
 namespace terrane {
 
@@ -39,7 +40,7 @@ public:
         if (auto trouble = read_geometry(section)) return *trouble;
         if (auto trouble = read_names(section)) return *trouble;
         if (auto trouble = make_triangles()) return *trouble;
-        auto surfaces = surfaces_of_parts(vertices_, std::move(parts_), values_);
+        auto surfaces = surfaces_of_parts(vertices_, std::move(parts_), values_, arrays_);
         if (surfaces.empty()) return no_triangle_among(other_cells_, in_.source());
         return surfaces;
     }
@@ -111,7 +112,9 @@ private:
         if (section == "triangle_strips") return read_cells(strips_.emplace_back());
         if (section == "vertices" || section == "lines") {
             LegacyCells unused;
-            return read_cells(unused);
+            const auto trouble = read_cells(unused);
+            other_polydata_ += unused.ends.size();
+            return trouble;
         }
         return in_.error(ErrorCode::bad_syntax,
                          fmt::format("{} is no section of POLYDATA", shown(section)));
@@ -218,13 +221,85 @@ private:
             if (auto trouble = in_.read_count(tuples)) return trouble;
             if (components != 0 && tuples > in_.size() / components)
                 return in_.error(ErrorCode::bad_syntax, "the array is longer than the file");
+            if (&arrays != &fields_) {
+                if (auto trouble = read_values(name, components, tuples, arrays)) return trouble;
+                continue;
+            }
             std::vector<double> values;
             if (auto trouble = read_array(components * tuples, values)) return trouble;
-            if (&arrays != &fields_) note_values(name, values_);
-            if (name.starts_with("surface") || std::ranges::count(label_arrays, name) != 0)
+            if (name.starts_with("surface") || name.starts_with("value_"))
                 arrays[name] = std::move(values);
         }
         return std::nullopt;
+    }
+
+    /// Reads the type and the numbers of an array on points or cells.
+    MaybeError read_values(const std::string& name, std::size_t components, std::size_t tuples,
+                           Arrays& arrays) {
+        if (!in_.takes("string")) {
+            LegacyType type{};
+            if (auto trouble = in_.read_type(type)) return trouble;
+            return read_values(name, components, tuples, type, arrays);
+        }
+        std::vector<std::string> texts;
+        if (auto trouble = in_.read_texts(components * tuples, texts)) return trouble;
+        ValueArray array = empty_array(name, components, arrays);
+        array.type = NumberType::int32;
+        auto& codes = array.numbers.emplace<1>();
+        std::map<std::string, std::int64_t> code_of;
+        for (const std::string& text : texts) {
+            const auto [known, is_new] =
+                code_of.try_emplace(text, static_cast<std::int64_t>(array.texts.size()));
+            if (is_new) array.texts.push_back(text);
+            codes.push_back(known->second);
+        }
+        keep(std::move(array));
+        return std::nullopt;
+    }
+
+    MaybeError read_values(const std::string& name, std::size_t components, std::size_t tuples,
+                           const LegacyType& type, Arrays& arrays) {
+        constexpr std::array<std::string_view, 10> types{
+            "Float64", "Float32", "Int8",   "UInt8", "Int16",
+            "UInt16",  "Int32",   "UInt32", "Int64", "UInt64"}; // in the order of NumberType
+        ValueArray array = empty_array(name, components, arrays);
+        array.type =
+            static_cast<NumberType>(std::ranges::find(types, type.xml_name) - types.begin());
+        const std::size_t count = components * tuples;
+        auto trouble = array.type <= NumberType::float32
+                           ? in_.read_numbers(count, type, array.numbers.emplace<0>())
+                           : in_.read_numbers(count, type, array.numbers.emplace<1>());
+        if (trouble) return trouble;
+        if (name.starts_with("surface") || std::ranges::count(label_arrays, name) != 0)
+            std::visit(
+                [&](const auto& numbers) { arrays[name].assign(numbers.begin(), numbers.end()); },
+                array.numbers);
+        keep(std::move(array));
+        return std::nullopt;
+    }
+
+    [[nodiscard]] ValueArray empty_array(const std::string& name, std::size_t components,
+                                         const Arrays& arrays) const {
+        ValueArray array{.name = decoded_word(name), .on_triangles = &arrays == &cell_arrays_};
+        array.components = static_cast<std::uint32_t>(components);
+        return array;
+    }
+
+    /// Keeps an array as values of the surfaces; one that can't be is only named.
+    void keep(ValueArray array) {
+        constexpr std::size_t most_arrays = 64; // a point may be in many surfaces
+        const std::string name = array.name;
+        const std::size_t count = array.on_triangles ? cell_count() : vertices_.size();
+        if (is_reserved(name) || for_tetrahedra_) return;
+        if (arrays_.size() == most_arrays || !add_array(std::move(array), count, arrays_))
+            note_values(name, values_);
+    }
+
+    [[nodiscard]] std::size_t cell_count() const {
+        std::size_t count = other_polydata_;
+        for (const auto* sections : {&polygons_, &strips_})
+            for (const LegacyCells& cells : *sections) count += cells.ends.size();
+        return count;
     }
 
     MaybeError read_array(std::size_t count, std::vector<double>& values) {
@@ -256,10 +331,14 @@ private:
                 if (auto trouble = read_field(*arrays)) return trouble;
             } else if (section == "scalars") {
                 if (auto trouble = read_scalars(count, *arrays)) return trouble;
+            } else if (section == "vectors" || section == "normals") {
+                if (auto trouble = read_tuples(3, count, *arrays)) return trouble;
+            } else if (section == "tensors") {
+                if (auto trouble = read_tuples(9, count, *arrays)) return trouble;
             } else if (section == "metadata") {
                 in_.skip_paragraph();
             } else {
-                note_values(in_.token(), values_); // of vectors, normals and the like
+                note_values(in_.token(), values_); // of texture coordinates, colours and the like
                 return std::nullopt;
             }
             section = lower(in_.token());
@@ -267,10 +346,17 @@ private:
         return std::nullopt;
     }
 
+    /// Reads "VECTORS name type" and the like, and the values.
+    MaybeError read_tuples(std::size_t components, std::size_t count, Arrays& arrays) {
+        const std::string name(in_.token());
+        if (count > in_.size() / components)
+            return in_.error(ErrorCode::bad_syntax, "the array is longer than the file");
+        return read_values(name, components, count, arrays);
+    }
+
     /// Reads "SCALARS name type [components]", "LOOKUP_TABLE name" and the values.
     MaybeError read_scalars(std::size_t count, Arrays& arrays) {
         const std::string name(in_.token());
-        note_values(name, values_);
         LegacyType type{};
         if (auto trouble = in_.read_type(type)) return trouble;
         std::size_t components = 1;
@@ -282,7 +368,7 @@ private:
         in_.token(); // the name of the table
         if (components != 0 && count > in_.size() / components)
             return in_.error(ErrorCode::bad_syntax, "the array is longer than the file");
-        return in_.read_numbers(components * count, type, arrays[name]);
+        return read_values(name, components, count, type, arrays);
     }
 
     /// Returns the texts in an array of character codes, each ended by a 0.
@@ -312,12 +398,17 @@ private:
         }
         if (parts_.empty()) {
             parts_.push_back({std::string(name_)});
-            (void)read_attributes(section); // for the names of values; the geometry is complete
+            (void)read_attributes(section); // the geometry is complete
             return std::nullopt;
         }
         has_lists_ = fields_.contains("surfaces") || fields_.contains("surfaces_offset");
-        if (has_lists_) return std::nullopt; // the array of cells has nothing to add
+        if (has_lists_) { // the array of cells has nothing to add
+            (void)read_attributes(section);
+            describe_arrays();
+            return std::nullopt;
+        }
         if (auto trouble = read_attributes(section)) return trouble;
+        describe_arrays();
         const auto found = cell_arrays_.find("surface");
         if (found == cell_arrays_.end()) return std::nullopt;
         surface_of_ = std::move(found->second);
@@ -329,7 +420,24 @@ private:
         return std::nullopt;
     }
 
+    /// Takes units and numbers without value, as to_vtk() writes them.
+    void describe_arrays() {
+        const auto names = texts("value_name"), units = texts("value_unit");
+        const auto& no_data = fields_["value_no_data"];
+        if (names.size() != arrays_.size() || units.size() != names.size() ||
+            no_data.size() != names.size())
+            return;
+        // Fields of cells come first in the file, those of points first in the lists.
+        std::ranges::stable_sort(arrays_, {}, &ValueArray::on_triangles);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (arrays_[i].name != names[i]) return;
+            arrays_[i].unit = units[i];
+            if (!std::isnan(no_data[i])) arrays_[i].no_data = no_data[i];
+        }
+    }
+
     MaybeError make_triangles() {
+        cells_ = other_polydata_;
         for (const LegacyCells& cells : polygons_)
             if (auto trouble = add(cells, CellKind::polygon)) return trouble;
         for (const LegacyCells& cells : strips_)
@@ -350,6 +458,8 @@ private:
         std::vector<std::uint32_t> corners;
         std::int64_t start = 0;
         std::size_t polygon = 0;
+        const std::size_t first = cells_; // of the section, among all cells
+        cells_ += cells.ends.size();
         for (std::size_t c = 0; c < cells.ends.size(); ++c) {
             if (auto trouble = read_corners(cells, c, start, corners)) return trouble;
             start = cells.ends[c];
@@ -358,8 +468,8 @@ private:
                                     fmt::format("CELL_TYPES has no type for cell {}", c));
             if (for_tetrahedra_) {
                 if (auto trouble = add_tetrahedron(c, cells.at, corners)) return trouble;
-            } else if (auto trouble =
-                           add_cell(is_grid_ ? kinds_[c] : kind, cells.at, polygon, corners)) {
+            } else if (auto trouble = add_cell(is_grid_ ? kinds_[c] : kind, cells.at, polygon,
+                                               static_cast<std::uint32_t>(first + c), corners)) {
                 return trouble;
             }
         }
@@ -380,18 +490,19 @@ private:
         return std::nullopt;
     }
 
-    /// Adds a cell to its surfaces; `polygon` is its number, if it is a polygon, and is counted on.
-    MaybeError add_cell(CellKind kind, std::size_t at, std::size_t& polygon,
+    /// Adds a cell to its surfaces; `polygon` is its number, if it is a polygon, and is counted on; `cell`: its
+    /// number among all cells.
+    MaybeError add_cell(CellKind kind, std::size_t at, std::size_t& polygon, std::uint32_t cell,
                         const std::vector<std::uint32_t>& corners) {
         FilePart& first = parts_[0];
-        if (kind == CellKind::strip) append_strip(corners, first.triangles);
+        if (kind == CellKind::strip) append_strip(corners, first, cell);
         if (kind == CellKind::pixel && corners.size() == 4)
-            append_face(std::array{corners[0], corners[1], corners[3], corners[2]}, first);
+            append_face(std::array{corners[0], corners[1], corners[3], corners[2]}, first, cell);
         if (kind != CellKind::polygon) return std::nullopt;
         const std::size_t k = polygon++;
-        if (has_lists_) return add_to_lists(at, k, corners);
+        if (has_lists_) return add_to_lists(at, k, cell, corners);
         if (!has_numbers_) {
-            append_face(corners, first);
+            append_face(corners, first, cell);
             return std::nullopt;
         }
         if (k >= surface_of_.size())
@@ -402,7 +513,7 @@ private:
             return in_.error_at(
                 at, ErrorCode::bad_index,
                 fmt::format("polygon {} is of surface {}, but there are {}", k, s, parts_.size()));
-        append_face(corners, parts_[static_cast<std::size_t>(s)]);
+        append_face(corners, parts_[static_cast<std::size_t>(s)], cell);
         return std::nullopt;
     }
 
@@ -431,7 +542,7 @@ private:
     }
 
     /// Gives a polygon to the surfaces in its list.
-    MaybeError add_to_lists(std::size_t at, std::size_t k,
+    MaybeError add_to_lists(std::size_t at, std::size_t k, std::uint32_t cell,
                             const std::vector<std::uint32_t>& corners) {
         const auto& offsets = fields_["surfaces_offset"];
         const auto& lists = fields_["surfaces"];
@@ -443,7 +554,7 @@ private:
                 at, ErrorCode::unsupported,
                 fmt::format("polygon {} is of several surfaces, but no triangle", k));
         for (std::size_t i = begin; i < end; ++i)
-            append_face(corners, parts_[static_cast<std::size_t>(lists[i])]);
+            append_face(corners, parts_[static_cast<std::size_t>(lists[i])], cell);
         return std::nullopt;
     }
 
@@ -453,7 +564,10 @@ private:
     LabelledTetrahedra tetrahedra_; ///< without vertices
     std::vector<double> labels_;    ///< per cell; or none
     bool is_grid_ = false;
+    std::vector<ValueArray> arrays_;  ///< over all points and cells
     std::vector<std::string> values_; ///< see Surface
+    std::size_t other_polydata_ = 0;  ///< points and lines of POLYDATA, whose values come first
+    std::size_t cells_ = 0;           ///< whose triangles are made
     std::vector<Point3> vertices_;
     std::vector<LegacyCells> polygons_, strips_; ///< of a grid: all cells, and none
     std::vector<CellKind> kinds_;                ///< of the cells of a grid

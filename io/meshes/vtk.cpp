@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/meshes/vtk.hpp>
 
+#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/io/meshes/detail/groups.hpp>
 #include <terrane/io/meshes/detail/vtk_writer.hpp>
+#include <terrane/io/text/values.hpp>
 
 namespace terrane {
 
@@ -81,20 +84,43 @@ void write_tetrahedron_data(VtkWriter& out, const TetrahedralMesh& mesh) {
               }));
 }
 
+void write_point_data(VtkWriter& out, std::span<const ValueArray> arrays) {
+    if (std::ranges::all_of(arrays, &ValueArray::on_triangles)) return;
+    out.text("<PointData>");
+    out.values(arrays, false);
+    out.text("</PointData>");
+}
+
+/// Returns the values of a grid of tetrahedra and faces; only vertices and faces on surfaces have any.
+std::vector<ValueArray> grid_values(const TetrahedralMesh& mesh, std::size_t vertices,
+                                    std::span<const SurfaceValues> values) {
+    auto arrays = joined_values(vertices, mesh.faces, mesh.surfaces_of, values);
+    std::vector<std::uint32_t> faces(mesh.tetrahedra.size(), no_index);
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) faces.push_back(f);
+    for (ValueArray& array : arrays)
+        if (array.on_triangles) array = picked(array, faces);
+    return arrays;
+}
+
 } // namespace
 
 Result<std::string> to_vtp(const Mesh& mesh, bool compress, std::span<const CellArray> cells,
-                           std::span<const std::string> block_names) {
+                           std::span<const std::string> block_names,
+                           std::span<const SurfaceValues> values) {
     if (auto trouble = check_lengths(cells, mesh.triangles.size())) return *trouble;
+    const auto arrays =
+        joined_values(mesh.vertices.size(), mesh.triangles, mesh.surfaces_of, values);
     VtkWriter out(compress);
     out.begin_file("PolyData");
-    out.field(mesh.surfaces, mesh.surfaces_of, "block_name", block_names);
+    out.field(mesh.surfaces, mesh.surfaces_of, "block_name", block_names, arrays);
     out.text(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
                          "NumberOfStrips=\"0\" NumberOfPolys=\"{}\">",
                          mesh.vertices.size(), mesh.triangles.size()));
+    write_point_data(out, arrays);
     out.text("<CellData Scalars=\"surface\">");
     write_triangle_data(out, mesh);
     out.further(cells);
+    out.values(arrays, true);
     out.text("</CellData>");
     out.points(mesh.vertices);
     std::vector<std::int64_t> corners, offsets;
@@ -109,17 +135,21 @@ Result<std::string> to_vtp(const Mesh& mesh, bool compress, std::span<const Cell
 
 Result<std::string> to_vtu(const TetrahedralMesh& mesh, bool compress,
                            std::span<const CellArray> cells,
-                           std::span<const std::string> block_names, const EdgeNodes* nodes) {
+                           std::span<const std::string> block_names, const EdgeNodes* nodes,
+                           std::span<const SurfaceValues> values) {
     const auto count = mesh.tetrahedra.size() + mesh.faces.size();
     if (auto trouble = check_lengths(cells, count)) return *trouble;
     VtkWriter out(compress);
     out.begin_file("UnstructuredGrid");
-    out.field(mesh.surfaces, mesh.surfaces_of, "block_name", block_names);
     const auto& vertices = nodes ? nodes->vertices : mesh.vertices;
+    const auto arrays = grid_values(mesh, vertices.size(), values);
+    out.field(mesh.surfaces, mesh.surfaces_of, "block_name", block_names, arrays);
     out.begin_piece(vertices.size(), count);
+    write_point_data(out, arrays);
     out.text("<CellData Scalars=\"block\">");
     write_tetrahedron_data(out, mesh);
     out.further(cells);
+    out.values(arrays, true);
     out.text("</CellData>");
     out.points(vertices);
     std::vector<std::int64_t> corners, offsets;

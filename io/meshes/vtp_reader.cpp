@@ -2,7 +2,10 @@
 #include <terrane/io/meshes/vtp_reader.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <new>
 #include <optional>
 #include <string>
@@ -16,6 +19,7 @@
 #include <terrane/io/surfaces/parts.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
+#include <terrane/io/text/values.hpp>
 
 namespace terrane {
 
@@ -53,7 +57,7 @@ public:
 
     Result<std::vector<Surface>> read() {
         if (auto trouble = read_pieces()) return *trouble;
-        auto surfaces = surfaces_of_parts(vertices_, std::move(parts_), values_);
+        auto surfaces = surfaces_of_parts(vertices_, std::move(parts_), values_, arrays_);
         if (surfaces.empty()) return no_triangle_among(other_cells_, source_);
         return surfaces;
     }
@@ -79,8 +83,15 @@ private:
                          fmt::format("there is no element {}", type_));
         if (auto trouble = read_names(data)) return trouble;
         if (parts_.empty()) parts_.push_back({std::string(name_)});
-        for (const pugi::xml_node piece : data.children("Piece"))
+        for (const pugi::xml_node piece : data.children("Piece")) {
             if (auto trouble = read_piece(data, piece)) return trouble;
+            if (for_tetrahedra_) continue;
+            read_arrays(piece.child("PointData"), false, vertices_.size() - points_before_);
+            read_arrays(piece.child("CellData"), true, cells_ - cells_before_);
+            points_before_ = vertices_.size();
+            cells_before_ = cells_;
+        }
+        if (!arrays_.empty()) describe_arrays(data.child("FieldData"));
         return std::nullopt;
     }
 
@@ -221,6 +232,98 @@ private:
         return {};
     }
 
+    /// Reads the numbers of an array of values. Texts become codes. Returns whether it could.
+    bool read_numbers(const pugi::xml_node& node, ValueArray& array) {
+        constexpr std::array<std::string_view, 10> types{
+            "Float64", "Float32", "Int8",   "UInt8", "Int16",
+            "UInt16",  "Int32",   "UInt32", "Int64", "UInt64"}; // in the order of NumberType
+        const std::string_view type = node.attribute("type").value();
+        if (type == "String") {
+            std::vector<std::string> texts;
+            if (strings_of(node, texts)) return false;
+            array.type = NumberType::int32;
+            auto& codes = array.numbers.emplace<1>();
+            std::map<std::string, std::int64_t> code_of;
+            for (const std::string& text : texts) {
+                const auto [known, is_new] =
+                    code_of.try_emplace(text, static_cast<std::int64_t>(array.texts.size()));
+                if (is_new) array.texts.push_back(text);
+                codes.push_back(known->second);
+            }
+            return true;
+        }
+        const auto found = std::ranges::find(types, type);
+        if (found == types.end()) return false;
+        array.type = static_cast<NumberType>(found - types.begin());
+        if (array.type <= NumberType::float32) return !values_of(node, array.numbers.emplace<0>());
+        return !values_of(node, array.numbers.emplace<1>());
+    }
+
+    /// Reads the values of a piece on points, or on cells; arrays that are not in all pieces, or do not have
+    /// `count` values, are only named.
+    void read_arrays(const pugi::xml_node& data, bool on_cells, std::size_t count) {
+        constexpr std::size_t most_arrays = 64; // a point may be in many surfaces
+        if (count == 0) return;
+        std::vector<ValueArray> here;
+        for (const pugi::xml_node node : data.children()) {
+            ValueArray array{.name = node.attribute("Name").value(), .on_triangles = on_cells};
+            array.components = node.attribute("NumberOfComponents").as_uint(1);
+            const std::string name = array.name;
+            if (is_reserved(name)) continue;
+            if (here.size() == most_arrays || !read_numbers(node, array) ||
+                !add_array(std::move(array), count, here))
+                note_values(name, values_);
+        }
+        if (!std::exchange(has_arrays_[on_cells ? 1 : 0], true)) {
+            std::ranges::move(here, std::back_inserter(arrays_));
+            return;
+        }
+        const auto follows = [](const ValueArray& a, const ValueArray& b) {
+            return a.name == b.name && a.type == b.type && a.components == b.components &&
+                   a.texts == b.texts;
+        };
+        std::erase_if(arrays_, [&](ValueArray& array) {
+            if (array.on_triangles != on_cells) return false;
+            const auto more =
+                std::ranges::find_if(here, [&](const ValueArray& h) { return follows(h, array); });
+            if (more == here.end()) {
+                note_values(array.name, values_);
+                return true;
+            }
+            std::visit(
+                [&](auto& numbers) {
+                    const auto& further = std::get<std::decay_t<decltype(numbers)>>(more->numbers);
+                    numbers.insert(numbers.end(), further.begin(), further.end());
+                },
+                array.numbers);
+            return false;
+        });
+        for (const ValueArray& h : here)
+            if (std::ranges::none_of(arrays_, [&](const ValueArray& a) {
+                    return a.name == h.name && a.on_triangles == on_cells;
+                }))
+                note_values(h.name, values_);
+    }
+
+    /// Reads units and numbers without value, as Terrane writes them.
+    void describe_arrays(const pugi::xml_node& field) {
+        std::vector<std::string> names, units;
+        std::vector<double> no_data;
+        const auto names_node = array_named(field, "value_name"),
+                   units_node = array_named(field, "value_unit"),
+                   no_data_node = array_named(field, "value_no_data");
+        if (!names_node || !units_node || !no_data_node || strings_of(names_node, names) ||
+            strings_of(units_node, units) || values_of(no_data_node, no_data) ||
+            names.size() != arrays_.size() || units.size() != names.size() ||
+            no_data.size() != names.size())
+            return;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (arrays_[i].name != names[i]) return;
+            arrays_[i].unit = units[i];
+            if (!std::isnan(no_data[i])) arrays_[i].no_data = no_data[i];
+        }
+    }
+
     /// Reads the names and roles of surfaces, if the file has them.
     MaybeError read_names(const pugi::xml_node& data) {
         const pugi::xml_node field = data.child("FieldData");
@@ -293,6 +396,7 @@ private:
             start = end;
             if (auto trouble = use(k, corners)) return trouble;
         }
+        cells_ += offsets.size();
         return std::nullopt;
     }
 
@@ -325,14 +429,16 @@ private:
     }
 
     /// Adds a polygon to its surfaces.
+    /// `cell`: its number among the cells of all pieces.
     MaybeError add_polygon(const pugi::xml_node& piece, const Ownership& of, std::size_t k,
-                           const Corners& corners) {
+                           std::size_t cell, const Corners& corners) {
         const auto add_to = [&](std::int64_t s) -> MaybeError {
             if (s < 0 || s >= static_cast<std::int64_t>(parts_.size()))
                 return error(piece, ErrorCode::bad_index,
                              fmt::format("polygon {} is of surface {}, but there are {}", k, s,
                                          parts_.size()));
-            append_face(corners, parts_[static_cast<std::size_t>(s)]);
+            append_face(corners, parts_[static_cast<std::size_t>(s)],
+                        static_cast<std::uint32_t>(cell));
             return std::nullopt;
         };
         if (of.empty()) return add_to(0);
@@ -353,18 +459,22 @@ private:
         std::size_t points = 0;
         Ownership of;
         if (auto trouble = read_points(piece, points)) return trouble;
-        for (const auto* data_of : {"PointData", "CellData"})
-            for (const pugi::xml_node array : piece.child(data_of).children())
-                note_values(array.attribute("Name").value(), values_);
         if (type_ == "UnstructuredGrid") return read_grid_cells(data, piece, points);
         if (auto trouble = read_ownership(data, piece, of)) return trouble;
-        const auto polygon = [&](std::size_t k, const Corners& corners) {
-            return add_polygon(piece, of, k, corners);
-        };
-        const auto strip = [&](std::size_t, const Corners& corners) -> MaybeError {
-            append_strip(corners, parts_[0].triangles);
+        const auto passed_over = [](std::size_t, const Corners&) -> MaybeError {
             return std::nullopt;
         };
+        const auto polygon = [&](std::size_t k, const Corners& corners) {
+            return add_polygon(piece, of, k, cells_ + k, corners);
+        };
+        const auto strip = [&](std::size_t k, const Corners& corners) -> MaybeError {
+            append_strip(corners, parts_[0], static_cast<std::uint32_t>(cells_ + k));
+            return std::nullopt;
+        };
+        for (const auto* other : {"Verts", "Lines"}) // their values come first
+            if (piece.child("CellData").first_child())
+                if (auto trouble = for_each_cell(piece.child(other), points, passed_over))
+                    return trouble;
         if (auto trouble = for_each_cell(piece.child("Polys"), points, polygon)) return trouble;
         return for_each_cell(piece.child("Strips"), points, strip);
     }
@@ -402,10 +512,13 @@ private:
             if (k >= kinds.size())
                 return error(cells, ErrorCode::bad_index,
                              fmt::format("the array types has no value for cell {}", k));
-            if (kinds[k] == CellKind::polygon) return add_polygon(piece, of, polygons++, corners);
-            if (kinds[k] == CellKind::strip) append_strip(corners, parts_[0].triangles);
+            const auto cell = static_cast<std::uint32_t>(cells_ + k);
+            if (kinds[k] == CellKind::polygon)
+                return add_polygon(piece, of, polygons++, cell, corners);
+            if (kinds[k] == CellKind::strip) append_strip(corners, parts_[0], cell);
             if (kinds[k] == CellKind::pixel && corners.size() == 4)
-                append_face(Corners{corners[0], corners[1], corners[3], corners[2]}, parts_[0]);
+                append_face(Corners{corners[0], corners[1], corners[3], corners[2]}, parts_[0],
+                            cell);
             return std::nullopt;
         };
         return for_each_cell(cells, points, use);
@@ -442,7 +555,11 @@ private:
     std::size_t used_ = 0; ///< bytes of the file that arrays have read
     std::vector<Point3> vertices_;
     std::vector<FilePart> parts_;
+    std::vector<ValueArray> arrays_;  ///< over all points and cells of the pieces so far
     std::vector<std::string> values_; ///< see Surface
+    std::size_t cells_ = 0;           ///< number of cells in the pieces so far
+    std::size_t points_before_ = 0, cells_before_ = 0; ///< without those of the current piece
+    std::array<bool, 2> has_arrays_{};                 ///< whether a piece had points, and cells
     bool has_names_ = false;
 };
 

@@ -24,44 +24,44 @@ struct FilePart {
     std::string name{};
     Role role = Role::unknown;
     std::vector<Triangle> triangles{};
-    std::vector<Fan> fans{}; ///< ascending
+    std::vector<Fan> fans{};            ///< ascending
+    std::vector<std::uint32_t> faces{}; ///< per triangle: number of its face in the file
 };
 
-/// Appends a face; fewer than three corners make none.
-inline void append_face(std::span<const std::uint32_t> corners, FilePart& part) {
+/// Appends a face; fewer than three corners make none. `number`: of the face in the file.
+inline void append_face(std::span<const std::uint32_t> corners, FilePart& part,
+                        std::uint32_t number = 0) {
     if (corners.size() > 3) part.fans.push_back({part.triangles.size(), corners.size() - 2});
-    for (std::size_t i = 2; i < corners.size(); ++i)
+    for (std::size_t i = 2; i < corners.size(); ++i) {
         part.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+        part.faces.push_back(number);
+    }
 }
 
 /// Appends the triangles of a strip, all turned the same way.
-inline void append_strip(std::span<const std::uint32_t> corners, std::vector<Triangle>& triangles) {
-    for (std::size_t i = 2; i < corners.size(); ++i)
-        triangles.push_back(i % 2 == 0 ? Triangle{corners[i - 2], corners[i - 1], corners[i]}
-                                       : Triangle{corners[i - 1], corners[i - 2], corners[i]});
+inline void append_strip(std::span<const std::uint32_t> corners, FilePart& part,
+                         std::uint32_t number) {
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+        part.triangles.push_back(i % 2 == 0 ? Triangle{corners[i - 2], corners[i - 1], corners[i]}
+                                            : Triangle{corners[i - 1], corners[i - 2], corners[i]});
+        part.faces.push_back(number);
+    }
 }
 
 /// Divides the faces of a part into triangles, and returns the flawed ones.
 FlawedFaces divide_faces(std::span<const Point3> vertices, FilePart& part);
 
-/// Makes a surface of each part that has triangles, with the vertices that they use. `values`: see
-/// Surface.
-inline std::vector<Surface> surfaces_of_parts(std::span<const Point3> vertices,
-                                              std::vector<FilePart> parts,
-                                              const std::vector<std::string>& values = {}) {
-    std::vector<Surface> surfaces;
-    Submesh subset(vertices);
-    for (FilePart& part : parts) {
-        if (part.triangles.empty()) continue;
-        Surface& surface = surfaces.emplace_back();
-        surface.flawed_faces = divide_faces(vertices, part);
-        surface.name = std::move(part.name);
-        surface.role = part.role;
-        surface.values = values;
-        surface.triangles = std::move(part.triangles);
-        surface.vertices = subset.cut(surface.triangles);
-    }
-    return surfaces;
-}
+/// Returns the arrays of a part: of `arrays`, over all vertices and faces of the file, the values on the vertices that
+/// its triangles use (on all if
+/// `has_all`), and on its triangles.
+std::vector<ValueArray> arrays_of_part(const FilePart& part, std::span<const ValueArray> arrays,
+                                       bool has_all = false);
+
+/// Makes a surface of each part that has triangles, with the vertices that they use. `arrays`: over all vertices and
+/// faces of the file; `values`: see Surface.
+std::vector<Surface> surfaces_of_parts(std::span<const Point3> vertices,
+                                       std::vector<FilePart> parts,
+                                       const std::vector<std::string>& values = {},
+                                       std::span<const ValueArray> arrays = {});
 
 } // namespace terrane::detail

@@ -14,6 +14,7 @@
 #include <terrane/io/text/bytes.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
+#include <terrane/io/text/values.hpp>
 
 namespace terrane {
 
@@ -68,12 +69,24 @@ double load_as_double(Type type, const char* bytes, std::endian order) {
 }
 
 /// The meaning of a property.
-enum class Use { none, x, y, z, corners, surfaces };
+enum class Use { none, x, y, z, corners, surfaces, value };
 
 struct Property {
     Type type = Type::float32;
     std::optional<Type> count_type; ///< lists only
     Use use = Use::none;
+    std::size_t array = 0; ///< of a value: its array
+};
+
+constexpr std::array<NumberType, 8> number_types{
+    NumberType::int8,  NumberType::uint8,  NumberType::int16,   NumberType::uint16,
+    NumberType::int32, NumberType::uint32, NumberType::float32, NumberType::float64}; // per Type
+
+/// An array that a comment of to_ply() describes: its numbers are the next properties of the element.
+struct Described {
+    bool on_faces = false;
+    ValueArray array{};
+    std::uint32_t left = 0; ///< how many properties are to follow
 };
 
 struct Element {
@@ -87,7 +100,9 @@ struct Header {
     std::endian order = std::endian::little;
     std::vector<Element> elements;
     std::vector<SurfaceInfo> surfaces; ///< from the comments of to_ply
-    std::vector<std::string> values;   ///< names of other properties of vertices and faces
+    std::vector<ValueArray>
+        arrays; ///< other properties of vertices and faces, without their numbers
+    std::vector<std::string> values; ///< names of lists among these, which are not read
 
     [[nodiscard]] const Element* find(std::string_view name) const {
         const auto named = [&](const Element& element) { return element.name == name; };
@@ -95,6 +110,16 @@ struct Header {
         return found == elements.end() ? nullptr : &*found;
     }
 };
+
+/// Returns a text with each `from` replaced.
+std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
+    std::string out;
+    for (auto at = text.find(from); at != std::string_view::npos; at = text.find(from)) {
+        out.append(text.substr(0, at)).append(to);
+        text.remove_prefix(at + from.size());
+    }
+    return out.append(text);
+}
 
 class HeaderReader {
 public:
@@ -164,10 +189,31 @@ private:
         const auto name = tokens.next();
         property.use = use_of(name, property.count_type.has_value());
         Element& element = header_.elements.back();
-        element.properties.push_back(property);
         if (property.use == Use::none && (element.name == "vertex" || element.name == "face"))
-            note_values(name, header_.values);
+            begin_value(name, element, property);
+        element.properties.push_back(property);
         return std::nullopt;
+    }
+
+    /// Makes a property the next number of an array, which it may begin.
+    void begin_value(std::string_view name, const Element& element, Property& property) {
+        constexpr std::size_t most_arrays = 64; // a vertex may be in many surfaces
+        const bool on_faces = element.name == "face";
+        std::vector<ValueArray>& arrays = header_.arrays;
+        if (property.count_type || (is_reserved(name) && described_.left == 0) ||
+            (arrays.size() == most_arrays && described_.left == 0))
+            return note_values(name, header_.values);
+        if (described_.left == 0 || described_.on_faces != on_faces) {
+            described_ = {on_faces, {.name = std::string(name), .on_triangles = on_faces}, 1};
+        }
+        if (described_.left == described_.array.components) {
+            described_.array.type = number_types[static_cast<std::size_t>(property.type)];
+            if (described_.array.type > NumberType::float32) described_.array.numbers.emplace<1>();
+            arrays.push_back(described_.array);
+        }
+        --described_.left;
+        property.use = Use::value;
+        property.array = arrays.size() - 1;
     }
 
     [[nodiscard]] Use use_of(std::string_view name, bool list) const {
@@ -185,11 +231,34 @@ private:
     }
 
     void read_comment(Tokens tokens) {
-        if (tokens.next() != "terrane" || tokens.next() != "surface") return;
+        if (tokens.next() != "terrane") return;
+        const auto what = tokens.next();
+        if (what == "values") return describe(tokens);
+        if (what != "surface") return;
         const auto role = std::ranges::find(role_names, tokens.next());
         if (role == role_names.end()) return;
         header_.surfaces.push_back(
             {std::string(tokens.rest()), static_cast<Role>(role - role_names.begin())});
+    }
+
+    /// Reads "vertex 3 -99999 m name", the way in which to_ply() describes an array.
+    void describe(Tokens tokens) {
+        constexpr std::int64_t most_components = 64;
+        described_ = {};
+        const auto element = tokens.next();
+        std::int64_t components = 0;
+        if (!parse_integer(tokens.next(), components) || components < 1 ||
+            components > most_components || (element != "vertex" && element != "face"))
+            return;
+        described_.on_faces = element == "face";
+        described_.left = described_.array.components = static_cast<std::uint32_t>(components);
+        described_.array.on_triangles = described_.on_faces;
+        double no_data = 0;
+        if (parse_double(tokens.next(), no_data) == NumberState::ok)
+            described_.array.no_data = no_data;
+        const auto unit = tokens.next();
+        if (unit != "-") described_.array.unit = replaced(unit, "%20", " ");
+        described_.array.name = tokens.rest();
     }
 
     [[nodiscard]] MaybeError check() const {
@@ -215,6 +284,7 @@ private:
     LineParser& in_;
     Header& header_;
     std::set<std::string> names_; ///< of the elements so far
+    Described described_;         ///< the array of the next properties
 };
 
 /// Reads the values after the header one by one.
@@ -236,6 +306,24 @@ public:
         if (std::isfinite(value)) return std::nullopt;
         at_ -= size_of(type);
         return error(ErrorCode::bad_number, "the value is not a finite number");
+    }
+
+    /// Appends a value to an array; it may be no finite number.
+    MaybeError append(Type type, ValueArray& array) {
+        if (auto trouble = skip(type)) return trouble;
+        double value = 0;
+        if (!header_.ascii)
+            value = load_as_double(type, contents_.data() + at_ - size_of(type), header_.order);
+        else if (parse_double(token_, value) == NumberState::not_a_number)
+            return in_.read_number(token_, value);
+        if (auto* const numbers = std::get_if<std::vector<double>>(&array.numbers))
+            numbers->push_back(value);
+        else if (std::fabs(value) <= UINT32_MAX)
+            std::get<1>(array.numbers).push_back(static_cast<std::int64_t>(value));
+        else
+            return error(ErrorCode::bad_number,
+                         fmt::format("{} is not an integer of its type", value));
+        return std::nullopt;
     }
 
     MaybeError read_integer(Type type, std::int64_t& value) {
@@ -330,6 +418,8 @@ private:
             return values.read(property.type, vertices_.back().y);
         case Use::z:
             return values.read(property.type, vertices_.back().z);
+        case Use::value:
+            return values.append(property.type, header_.arrays[property.array]);
         default:
             return values.skip(property.type);
         }
@@ -367,16 +457,24 @@ private:
         if (corners_.size() < 3)
             return values.error(ErrorCode::bad_syntax, "a face needs 3 corners");
         if (owners_.empty()) owners_.push_back(0);
-        for (const auto owner : owners_) append_face(corners_, parts_[owner]);
+        for (const auto owner : owners_) append_face(corners_, parts_[owner], faces_);
+        ++faces_;
         return std::nullopt;
     }
 
     std::vector<Surface> surfaces(std::string_view name) {
         std::vector<Surface> result(parts_.size());
+        std::vector<ValueArray> arrays;
+        for (ValueArray& array : header_.arrays) {
+            const std::size_t count = array.on_triangles ? faces_ : vertices_.size();
+            const std::string found = array.name;
+            if (!add_array(std::move(array), count, arrays)) note_values(found, header_.values);
+        }
         Submesh subset(vertices_);
         for (std::size_t s = 0; s < parts_.size(); ++s) {
             Surface& surface = result[s];
             surface.flawed_faces = divide_faces(vertices_, parts_[s]);
+            surface.arrays = arrays_of_part(parts_[s], arrays, header_.surfaces.empty());
             surface.triangles = std::move(parts_[s].triangles);
             surface.values = header_.values;
             if (header_.surfaces.empty()) {
@@ -396,10 +494,54 @@ private:
     Header header_;
     std::int64_t vertex_count_ = 0;
     std::vector<Point3> vertices_;
+    std::uint32_t faces_ = 0;            ///< how many there are so far
     std::vector<FilePart> parts_;        ///< per surface, at least one
     std::vector<std::uint32_t> corners_; ///< of the current face
     std::vector<std::uint32_t> owners_;  ///< surfaces of the current face
 };
+
+/// Returns the type that PLY has for numbers of this type; integers of 64 bits become doubles.
+std::string_view ply_type(NumberType type) {
+    constexpr std::array<std::string_view, 10> names{"double", "float", "char", "uchar",  "short",
+                                                     "ushort", "int",   "uint", "double", "double"};
+    return names[static_cast<std::size_t>(type)];
+}
+
+/// Appends the properties of the arrays on vertices or faces, described by comments.
+void append_properties(std::string& out, std::span<const ValueArray> arrays, bool on_faces) {
+    for (const ValueArray& array : arrays) {
+        if (array.on_triangles != on_faces) continue;
+        const std::string name = one_line(array.name), word = replaced(name, " ", "_"),
+                          unit = replaced(one_line(array.unit), " ", "%20");
+        out += fmt::format("comment terrane values {} {} ", on_faces ? "face" : "vertex",
+                           array.components);
+        if (array.no_data)
+            append_number(out, *array.no_data);
+        else
+            out += '-';
+        out += fmt::format(" {} {}\n", unit.empty() ? "-" : unit, name);
+        for (std::uint32_t c = 0; c < array.components; ++c)
+            out += fmt::format("property {} {}{}\n", ply_type(array.type), word,
+                               array.components == 1 ? "" : fmt::format("_{}", c + 1));
+    }
+}
+
+/// Appends the values of a vertex or face.
+void append_values(std::string& out, std::span<const ValueArray> arrays, bool on_faces,
+                   std::size_t element) {
+    for (const ValueArray& array : arrays) {
+        if (array.on_triangles != on_faces) continue;
+        const bool is_wide = array.type >= NumberType::int64;
+        with_type(is_wide ? NumberType::float64 : array.type, [&]<class T>(T) {
+            std::visit(
+                [&](const auto& numbers) {
+                    for (std::size_t c = 0; c < array.components; ++c)
+                        store(out, static_cast<T>(numbers[element * array.components + c]));
+                },
+                array.numbers);
+        });
+    }
+}
 
 } // namespace
 
@@ -408,7 +550,9 @@ Result<std::vector<Surface>> read_ply(std::string_view contents, std::string_vie
     return PlyReader(contents, source).read(name);
 }
 
-std::string to_ply(const Mesh& mesh) {
+std::string to_ply(const Mesh& mesh, std::span<const SurfaceValues> values) {
+    const auto arrays =
+        joined_values(mesh.vertices.size(), mesh.triangles, mesh.surfaces_of, values);
     std::string out = "ply\nformat binary_little_endian 1.0\n";
     for (const auto& surface : mesh.surfaces) {
         const std::string name = one_line(surface.name); // a blank at an end would not be read
@@ -416,13 +560,20 @@ std::string to_ply(const Mesh& mesh) {
                            role_names[static_cast<std::size_t>(surface.role)], trimmed(name));
     }
     out += fmt::format("element vertex {}\nproperty double x\nproperty double y\n"
-                       "property double z\nelement face {}\n"
-                       "property list uchar int vertex_indices\nproperty int surface\n"
-                       "property list uint int surfaces\nend_header\n",
-                       mesh.vertices.size(), mesh.triangles.size());
+                       "property double z\n",
+                       mesh.vertices.size());
+    append_properties(out, arrays, false);
+    out += fmt::format("element face {}\nproperty list uchar int vertex_indices\n"
+                       "property int surface\nproperty list uint int surfaces\n",
+                       mesh.triangles.size());
+    append_properties(out, arrays, true);
+    out += "end_header\n";
     out.reserve(out.size() + mesh.vertices.size() * 24 + mesh.triangles.size() * 25);
-    for (const auto& vertex : mesh.vertices)
-        for (const double c : {vertex.x, vertex.y, vertex.z}) store(out, c);
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        const Point3& p = mesh.vertices[v];
+        for (const double c : {p.x, p.y, p.z}) store(out, c);
+        append_values(out, arrays, false, v);
+    }
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const auto surfaces = mesh.surfaces_of[i];
         store(out, std::uint8_t(3));
@@ -430,6 +581,7 @@ std::string to_ply(const Mesh& mesh) {
         store(out, surfaces[0]);
         store(out, static_cast<std::uint32_t>(surfaces.size()));
         for (const auto surface : surfaces) store(out, surface);
+        append_values(out, arrays, true, i);
     }
     return out;
 }

@@ -3,18 +3,21 @@
 // Stanford PLY: ASCII, binary little endian, binary big endian.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/mesh/carry.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 
 namespace terrane {
 
 /// Reads one Surface called `name` with all vertices of the file. All scalar and list types are
-/// understood; further elements and properties are skipped. Faces are divided as append_face()
-/// does (algorithms/triangulation/face.hpp). Numbers in ASCII are read as doubles, whatever type the header declares. From a file
+/// understood; further elements are skipped. Scalar properties of vertices and faces become arrays, but for normals.
+/// Faces are divided as append_face() does (algorithms/triangulation/face.hpp). Coordinates in ASCII are read as
+/// doubles, whatever type the header declares. From a file
 /// written by to_ply the original surfaces are read, each with the vertices that it uses.
 /// Errors: bad_syntax, bad_number, bad_index with "source:line" or "source, byte n"; nothing_to_do
 /// if there is no face; unsupported for triangle strips.
@@ -23,7 +26,9 @@ Result<std::vector<Surface>> read_ply(std::string_view contents, std::string_vie
 
 /// Writes binary PLY, little endian, with coordinates of type double and every triangle once. A
 /// face has the properties `surface` (its first surface) and `surfaces` (the list of all of them);
-/// comments "terrane surface ROLE NAME" in the header name the surfaces in order.
-std::string to_ply(const Mesh& mesh);
+/// comments "terrane surface ROLE NAME" in the header name the surfaces in order. `values` per surface, as from
+/// carry_values(), are further properties, one per component, after a comment "terrane values vertex COMPONENTS
+/// NO_DATA UNIT NAME" (or face); "-" stands for nothing. Integers of 64 bits become doubles, which PLY has.
+std::string to_ply(const Mesh& mesh, std::span<const SurfaceValues> values = {});
 
 } // namespace terrane

@@ -6,6 +6,7 @@
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/io/text/text.hpp>
 #include <terrane/io/text/utf8.hpp>
+#include <terrane/io/text/values.hpp>
 
 namespace terrane::detail {
 
@@ -79,32 +80,11 @@ std::vector<std::string> label_names(const std::vector<SurfaceInfo>& surfaces) {
 }
 
 void note_values(std::string_view name, std::vector<std::string>& names) {
-    constexpr std::array<std::string_view, 21> known{"x",
-                                                     "y",
-                                                     "z",
-                                                     "nx",
-                                                     "ny",
-                                                     "nz",
-                                                     "normals",
-                                                     "surface",
-                                                     "surfaces",
-                                                     "surface_count",
-                                                     "region",
-                                                     "parent",
-                                                     "block",
-                                                     "twin",
-                                                     "cut_side",
-                                                     "volume_front",
-                                                     "volume_back",
-                                                     "interface",
-                                                     "patch",
-                                                     "triangle",
-                                                     "vtkValidPointMask"};
     constexpr std::size_t most = 64;
     const std::string noted = one_line(trimmed(name));
     if (noted.empty() || names.size() == most) return;
     const auto is_it = [&](std::string_view other) { return same_ignoring_case(noted, other); };
-    if (std::ranges::any_of(known, is_it) || std::ranges::any_of(names, is_it)) return;
+    if (is_reserved(noted) || std::ranges::any_of(names, is_it)) return;
     names.push_back(noted);
 }
 

@@ -223,10 +223,11 @@ TEST_CASE("cli: check locates what it finds", "[cli]") {
 TEST_CASE("cli: info says what files contain", "[cli]") {
     const Folder folder;
     const auto ts = folder.input(
-        "top.ts", "GOCAD TSurf 1\nHEADER {\nname:top\n}\nGEOLOGICAL_TYPE top\nPROPERTIES Poro\n"
-                  "GOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME UTM31\nAXIS_UNIT m m m\nZPOSITIVE Depth\n"
-                  "END_ORIGINAL_COORDINATE_SYSTEM\nTFACE\nPVRTX 1 0 0 5 .2\nPVRTX 2 4 0 5 .2\n"
-                  "PVRTX 3 0 4 6 .2\nTRGL 1 2 3\nEND\n");
+        "top.ts",
+        "GOCAD TSurf 1\nHEADER {\nname:top\n}\nGEOLOGICAL_TYPE top\nPROPERTIES Poro\nUNITS %\n"
+        "GOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME UTM31\nAXIS_UNIT m m m\nZPOSITIVE Depth\n"
+        "END_ORIGINAL_COORDINATE_SYSTEM\nTFACE\nPVRTX 1 0 0 5 .2\nPVRTX 2 4 0 5 .2\n"
+        "PVRTX 3 0 4 6 .2\nTRGL 1 2 3\nEND\n");
     const auto grid = folder.input("g.dat", "ncols 2\nnrows 2\nxllcorner -4.5\nyllcorner -4.5\n"
                                             "cellsize 9\n-5.5 -5.5\n-5.5 -5.5\n");
     const auto text = folder.run("info " + ts + " " + grid);
@@ -237,11 +238,15 @@ TEST_CASE("cli: info says what files contain", "[cli]") {
     CHECK(contains(text.out, "  from (0, 0, -6) to (4, 4, -5)\n"));
     CHECK(contains(text.out, "  states: x and y in m; z in m; z is a depth, which was turned over; "
                              "coordinate system UTM31\n"));
-    CHECK(contains(text.out, "  values, which are not read: Poro\n"));
+    CHECK(contains(text.out, "  values: Poro in %\n"));
     CHECK(contains(text.out, "g.dat: ESRI ASCII grid, 1 surface\n"));
     CHECK(
         contains(text.out, "2 pairs of triangles of different surfaces cross, touch or overlap\n"));
-    CHECK(contains(text.err, "top has values on points or triangles: Poro"));
+    const auto coloured =
+        folder.input("c.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n");
+    const auto colours = folder.run("info " + coloured);
+    CHECK(contains(colours.out, "  values, which are not read: colours\n"));
+    CHECK(contains(colours.err, "c has values that are not read: colours"));
 
     const auto r = folder.run("info --json " + ts + " " + grid);
     CHECK(r.status == 0);
@@ -250,11 +255,15 @@ TEST_CASE("cli: info says what files contain", "[cli]") {
     CHECK(top["vertical_axis"] == "depths");
     CHECK(top["free_border_edges"] == 3);
     CHECK(top["high"] == Json::parse("[4.0, 4.0, -5.0]"));
-    CHECK(top["values"] == Json::parse(R"(["Poro"])"));
+    CHECK(
+        top["values"] ==
+        Json::parse(
+            R"([{"name": "Poro", "on": "vertices", "type": "float64", "components": 1, "unit": "%"}])"));
+    CHECK(top["values_not_read"].empty());
     CHECK(json["files"][1]["surfaces"][0]["triangles"] == 2);
     CHECK(json["contacts_of_surfaces"] == 2);
-    CHECK(json["warnings"][0]["about"] == "values_left_out");
-    CHECK(folder.run("info --strict " + ts).status == 2);
+    CHECK(json["warnings"].empty());
+    CHECK(folder.run("info --strict " + coloured).status == 2);
     CHECK(folder.run("info none.ts").status == 2);
     CHECK(folder.run("info " + folder.input("solid.obj", cube)).status == 0);
 }

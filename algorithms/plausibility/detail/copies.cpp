@@ -119,10 +119,10 @@ void check_values(Examination& e) {
     const auto first = std::span(values).first(told);
     e.warn(
         Doubt::values_left_out, about,
-        fmt::format("{} {} values on points or triangles: {}{}", e.names(about),
+        fmt::format("{} {} values that are not read: {}{}", e.names(about),
                     about.size() == 1 ? "has" : "have", fmt::join(first, ", "),
                     values.size() > told ? fmt::format(" and {} more", values.size() - told) : ""),
-        "They are not read, and no output has them",
+        "No output has them",
         "Keep the input: the array parent of .vtp tells from which of its triangles each "
         "triangle is");
 }

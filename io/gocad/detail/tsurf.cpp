@@ -2,12 +2,14 @@
 #include <terrane/io/gocad/gocad_objects.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/units.hpp>
+#include <terrane/io/text/values.hpp>
 
 namespace terrane::detail {
 
@@ -55,6 +57,91 @@ bool says_nothing(std::string_view name) {
     return text.starts_with("from_");
 }
 
+/// Splits a line into words, which may be quoted and then have blanks.
+std::vector<std::string> words_of(std::string_view line) {
+    std::vector<std::string> words;
+    for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
+        const bool quoted = line.front() == '"';
+        if (quoted) line.remove_prefix(1);
+        const auto end = std::min(line.find_first_of(quoted ? "\"" : " \t"), line.size());
+        words.push_back(std::string(trimmed(line.substr(0, end))));
+        line.remove_prefix(std::min(end + 1, line.size()));
+    }
+    return words;
+}
+
+/// The values of vertices: what the header says of them, and the numbers behind the coordinates.
+class VertexProperties {
+public:
+    /// Takes a line of the header. Once there is a vertex such lines have no effect.
+    void read_header(std::string_view keyword, std::string_view line) {
+        if (vertices_ > 0) return;
+        if (keyword == "PROPERTIES") names_ = words_of(line);
+        if (keyword == "ESIZES") sizes_ = words_of(line);
+        if (keyword == "UNITS") units_ = words_of(line);
+        if (keyword == "NO_DATA_VALUES") no_data_ = words_of(line);
+    }
+
+    /// Takes the numbers behind the coordinates of a vertex. Missing ones are no values.
+    void read_vertex(const LineParser& in, Tokens tokens) {
+        if (names_.empty()) return;
+        if (vertices_++ == 0) begin();
+        for (std::size_t k = 0; k < width_; ++k) {
+            double& value = numbers_.emplace_back(std::nan(""));
+            const auto token = tokens.next();
+            double number = 0;
+            if (token.empty() || in.read_number(token, number)) continue;
+            value = number;
+            is_any_ = true;
+        }
+    }
+
+    /// Gives a surface the arrays, and the names of those that are too many.
+    void end(Surface& surface) const {
+        for (std::size_t i = described_.size(); is_any_ && i < names_.size(); ++i)
+            note_values(names_[i], surface.values);
+        std::size_t first = 0;
+        for (const ValueArray& described : is_any_ ? described_ : std::vector<ValueArray>()) {
+            ValueArray array = described;
+            std::vector<double> numbers;
+            numbers.reserve(vertices_ * array.components);
+            for (std::size_t v = 0; v < vertices_; ++v)
+                for (std::size_t c = 0; c < array.components; ++c)
+                    numbers.push_back(numbers_[v * width_ + first + c]);
+            first += array.components;
+            array.numbers = std::move(numbers);
+            add_array(std::move(array), vertices_, surface.arrays);
+        }
+    }
+
+private:
+    void begin() {
+        constexpr std::size_t most_numbers = 64; // per vertex, so that memory is linear in the file
+        for (std::size_t i = 0; i < names_.size(); ++i) {
+            std::int64_t size = 1;
+            if (i < sizes_.size() && (!parse_integer(sizes_[i], size) || size < 1)) size = 1;
+            if (static_cast<std::size_t>(size) > most_numbers - width_) return;
+            ValueArray& array = described_.emplace_back();
+            array.name = names_[i];
+            array.components = static_cast<std::uint32_t>(size);
+            if (i < units_.size())
+                for (const char* none : {"none", "unitless", "unknown", "**none**"})
+                    if (same_ignoring_case(units_[i], none)) units_[i].clear();
+            if (i < units_.size()) array.unit = units_[i];
+            double number = 0;
+            if (i < no_data_.size() && parse_double(no_data_[i], number) == NumberState::ok)
+                array.no_data = number;
+            width_ += array.components;
+        }
+    }
+
+    std::vector<std::string> names_, sizes_, units_, no_data_; ///< words of the header
+    std::vector<ValueArray> described_;                        ///< without numbers
+    std::size_t width_ = 0, vertices_ = 0;
+    std::vector<double> numbers_; ///< per vertex: width_ numbers
+    bool is_any_ = false;
+};
+
 class TsurfReader {
 public:
     TsurfReader(LineParser& in, TsurfObject& object) : in_(in), object_(object) {}
@@ -88,7 +175,6 @@ private:
     [[nodiscard]] Error no_vertex(std::size_t line, std::int64_t id) const;
     void read_names();
     void read_units(Tokens tokens);
-    void read_properties(std::string_view names);
     void read_system(std::string_view keyword, std::string_view value);
     void turn_z_up();
 
@@ -96,6 +182,7 @@ private:
     TsurfObject& object_;
     bool again_ = false; ///< the current line is not processed yet
     IdMap ids_;
+    VertexProperties properties_;
     std::map<std::int64_t, Atom> atoms_;
     std::vector<Ahead> ahead_;
 };
@@ -108,6 +195,7 @@ MaybeError TsurfReader::read() {
         if (keyword == "END") {
             if (auto trouble = resolve_all()) return trouble;
             turn_z_up();
+            properties_.end(object_.surface);
             return std::nullopt;
         }
         if (keyword == "GOCAD") break;
@@ -143,7 +231,7 @@ MaybeError TsurfReader::read_attribute(std::string_view keyword, const Tokens& t
     if (keyword == "GEOLOGICAL_TYPE") object_.surface.role = role_of_feature(tokens.rest());
     if (keyword == "ZPOSITIVE") return read_zpositive(tokens.rest());
     if (keyword == "AXIS_UNIT") read_units(tokens);
-    if (keyword == "PROPERTIES") read_properties(tokens.rest());
+    properties_.read_header(keyword, tokens.rest());
     read_system(keyword, tokens.rest());
     return std::nullopt;
 }
@@ -158,17 +246,6 @@ void TsurfReader::read_units(Tokens tokens) {
     CoordinateFrame& frame = object_.surface.frame;
     if (!units.empty()) frame.horizontal_unit = unit_named(units[0]);
     if (units.size() > 2) frame.vertical_unit = unit_named(units[2]);
-}
-
-/// Notes the names of values, which may be quoted and then have blanks.
-void TsurfReader::read_properties(std::string_view names) {
-    while (!names.empty()) {
-        const bool quoted = names.front() == '"';
-        if (quoted) names.remove_prefix(1);
-        const auto end = std::min(names.find_first_of(quoted ? "\"" : " \t"), names.size());
-        note_values(names.substr(0, end), object_.surface.values);
-        names = trimmed(names.substr(std::min(end + 1, names.size())));
-    }
 }
 
 /// Takes NAME, PROJECTION and DATUM within the coordinate system, unless they say nothing.
@@ -211,7 +288,9 @@ MaybeError TsurfReader::read_vertex(std::string_view keyword, Tokens tokens) {
     if (auto trouble = read_id(tokens.next(), keyword, id)) return trouble;
     auto& vertices = object_.surface.vertices;
     if (auto trouble = add_id(id, static_cast<std::uint32_t>(vertices.size()))) return trouble;
-    return in_.read_point(tokens, keyword, vertices.emplace_back());
+    if (auto trouble = in_.read_point(tokens, keyword, vertices.emplace_back())) return trouble;
+    properties_.read_vertex(in_, tokens);
+    return std::nullopt;
 }
 
 MaybeError TsurfReader::read_atom(std::string_view keyword, Tokens tokens) {

@@ -13,7 +13,7 @@ namespace terrane::detail {
 
 namespace {
 
-constexpr std::array<LegacyType, 13> legacy_types{{
+constexpr std::array<LegacyType, 14> legacy_types{{
     {"float", "Float32", 4},
     {"double", "Float64", 8},
     {"char", "Int8", 1},
@@ -26,6 +26,7 @@ constexpr std::array<LegacyType, 13> legacy_types{{
     {"unsigned_long", "UInt64", 8},
     {"vtkIdType", "Int32", 4},
     {"vtktypeint64", "Int64", 8},
+    {"vtktypeuint64", "UInt64", 8},
     {"vtktypeint32", "Int32", 4},
 }};
 
@@ -33,8 +34,9 @@ bool is_space(char c) {
     return is_blank(c) || c == '\n';
 }
 
-/// Replaces %20 and the like by the characters of these codes.
-std::string decoded(std::string_view text) {
+} // namespace
+
+std::string decoded_word(std::string_view text) {
     const auto digit = [](char c) {
         return c >= '0' && c <= '9'   ? c - '0'
                : c >= 'a' && c <= 'f' ? c - 'a' + 10
@@ -54,8 +56,6 @@ std::string decoded(std::string_view text) {
     }
     return plain;
 }
-
-} // namespace
 
 Error LegacyVtkScanner::error_at(std::size_t at, ErrorCode code, std::string what) const {
     if (binary_) return {code, std::move(what), fmt::format("{}, byte {}", source_, at)};
@@ -184,7 +184,7 @@ MaybeError LegacyVtkScanner::read_texts(std::size_t count, std::vector<std::stri
     line();
     for (std::size_t i = 0; i < count; ++i) {
         if (!binary_) {
-            texts.push_back(decoded(line()));
+            texts.push_back(decoded_word(line()));
             continue;
         }
         std::size_t length = 0;

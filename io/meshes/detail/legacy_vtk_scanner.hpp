@@ -23,6 +23,9 @@ struct LegacyType {
 /// The type of the corners of cells up to version 4.
 inline constexpr LegacyType legacy_int{"int", "Int32", 4};
 
+/// Returns a text in which %20 and the like stand for characters.
+std::string decoded_word(std::string_view text);
+
 /// Goes through the contents of a file. It returns views into them.
 class LegacyVtkScanner {
 public:

@@ -148,11 +148,7 @@ template <class From, class To>
 void convert_all(std::string_view bytes, std::endian order, std::vector<To>& values) {
     values.reserve(bytes.size() / sizeof(From));
     for (std::size_t at = 0; at + sizeof(From) <= bytes.size(); at += sizeof(From)) {
-        const auto value = load<From>(bytes.data() + at, order);
-        if constexpr (std::is_same_v<From, std::uint64_t> && std::is_integral_v<To>)
-            values.push_back(value > std::uint64_t(INT64_MAX) ? To(-1) : static_cast<To>(value));
-        else
-            values.push_back(static_cast<To>(value));
+        values.push_back(static_cast<To>(load<From>(bytes.data() + at, order)));
     }
 }
 

@@ -30,7 +30,8 @@ std::optional<std::string> decode_vtk(std::string_view text, bool base64, std::s
                                       std::size_t& used);
 
 /// Converts the bytes of numbers of VTK's type ("Float64", "Int32", ...) to doubles or integers.
-/// Returns a sentence about the flaw, if there is one; an unsigned number beyond int64 becomes -1.
+/// Returns a sentence about the flaw, if there is one; an unsigned number beyond int64 becomes negative, with the
+/// same bits.
 std::optional<std::string> convert_vtk(std::string_view bytes, std::string_view type,
                                        std::endian order, std::vector<double>& values);
 std::optional<std::string> convert_vtk(std::string_view bytes, std::string_view type,

@@ -2,6 +2,7 @@
 #include <terrane/io/meshes/detail/vtk_writer.hpp>
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <new>
 #include <variant>
@@ -10,6 +11,7 @@
 #include <zlib.h>
 
 #include <terrane/io/text/names.hpp>
+#include <terrane/io/text/values.hpp>
 #include <terrane/io/text/xml.hpp>
 
 namespace terrane::detail {
@@ -74,7 +76,10 @@ void append_plain(std::string& out, std::string_view bytes) {
 
 template <class To, class From>
 std::vector<To> as(const std::vector<From>& values) {
-    return std::vector<To>(values.begin(), values.end());
+    std::vector<To> converted;
+    converted.reserve(values.size());
+    for (const From value : values) converted.push_back(static_cast<To>(value));
+    return converted;
 }
 
 } // namespace
@@ -126,16 +131,17 @@ void VtkWriter::strings(std::string_view name, const std::vector<std::string_vie
     if (has_strings_)
         out_ += fmt::format("<Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" "
                             "format=\"ascii\">\n{}</Array>\n",
-                            name, values.size(), lines);
+                            xml_escaped(name), values.size(), lines);
     else
         out_ += fmt::format("<DataArray type=\"UInt8\" Name=\"{}\" NumberOfTuples=\"{}\" "
                             "format=\"ascii\">\n{}</DataArray>\n",
-                            name, count, lines);
+                            xml_escaped(name), count, lines);
 }
 
 void VtkWriter::field(const std::vector<SurfaceInfo>& surfaces,
                       const IndexLists<std::uint32_t>& surfaces_of, std::string_view name_of_names,
-                      std::span<const std::string> further_names) {
+                      std::span<const std::string> further_names,
+                      std::span<const ValueArray> values) {
     text("<FieldData>");
     in_field_ = true;
     std::vector<std::string_view> names, roles;
@@ -151,6 +157,20 @@ void VtkWriter::field(const std::vector<SurfaceInfo>& surfaces,
     }
     if (!further_names.empty())
         strings(name_of_names, {further_names.begin(), further_names.end()});
+    std::vector<std::string_view> value_names, units;
+    std::vector<double> no_data;
+    for (const bool on_triangles : {false, true}) // as they will be written
+        for (const ValueArray& array : values)
+            if (array.on_triangles == on_triangles) {
+                value_names.emplace_back(array.name);
+                units.emplace_back(array.unit);
+                no_data.push_back(array.no_data.value_or(std::nan("")));
+            }
+    if (!value_names.empty()) {
+        strings("value_name", value_names);
+        strings("value_unit", units);
+        array("value_no_data", no_data);
+    }
     in_field_ = false;
     text("</FieldData>");
 }
@@ -181,6 +201,26 @@ void VtkWriter::cells(const std::vector<std::int64_t>& nodes,
 void VtkWriter::further(std::span<const CellArray> cells) {
     for (const auto& cell : cells)
         std::visit([&](const auto& values) { array(cell.name, values); }, cell.values);
+}
+
+void VtkWriter::values(std::span<const ValueArray> arrays, bool on_triangles) {
+    for (const ValueArray& a : arrays) {
+        if (a.on_triangles != on_triangles) continue;
+        if (!a.texts.empty() && has_strings_ && a.components == 1) {
+            std::vector<std::string_view> texts;
+            for (const std::int64_t code : std::get<1>(a.numbers))
+                texts.emplace_back(a.texts.at(static_cast<std::size_t>(code)));
+            strings(a.name, texts);
+            continue;
+        }
+        with_type(a.type, [&]<class T>(T) {
+            std::visit(
+                [&](const auto& numbers) {
+                    array(a.name, as<T>(numbers), static_cast<int>(a.components));
+                },
+                a.numbers);
+        });
+    }
 }
 
 std::string VtkWriter::end_file(std::string_view type) {

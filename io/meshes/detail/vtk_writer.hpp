@@ -11,6 +11,7 @@
 
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/mesh/values.hpp>
 #include <terrane/io/meshes/cell_array.hpp>
 
 namespace terrane::detail {
@@ -41,9 +42,10 @@ public:
     /// grids they are arrays of codes, as meshio reads no grid with arrays of strings.
     void strings(std::string_view name, const std::vector<std::string_view>& values);
 
+    /// `values`: the arrays of values(), whose units and numbers without value it lists.
     void field(const std::vector<SurfaceInfo>& surfaces,
                const IndexLists<std::uint32_t>& surfaces_of, std::string_view name_of_names,
-               std::span<const std::string> further_names);
+               std::span<const std::string> further_names, std::span<const ValueArray> values = {});
 
     void begin_piece(std::size_t points, std::size_t cells);
     void points(const std::vector<Point3>& vertices);
@@ -51,10 +53,17 @@ public:
     void cells(const std::vector<std::int64_t>& nodes, const std::vector<std::int64_t>& offsets,
                const std::vector<std::uint8_t>& types);
     void further(std::span<const CellArray> cells);
+    /// Writes the values on vertices, or on triangles.
+    void values(std::span<const ValueArray> arrays, bool on_triangles);
     std::string end_file(std::string_view type);
 
 private:
     static std::string_view type_name(double) { return "Float64"; }
+    static std::string_view type_name(float) { return "Float32"; }
+    static std::string_view type_name(std::int8_t) { return "Int8"; }
+    static std::string_view type_name(std::int16_t) { return "Int16"; }
+    static std::string_view type_name(std::uint16_t) { return "UInt16"; }
+    static std::string_view type_name(std::uint32_t) { return "UInt32"; }
     static std::string_view type_name(std::int32_t) { return "Int32"; }
     static std::string_view type_name(std::int64_t) { return "Int64"; }
     static std::string_view type_name(std::uint64_t) { return "UInt64"; }
