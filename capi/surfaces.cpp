@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include <terrane/algorithms/mesh/carry.hpp>
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/files.hpp>
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -192,15 +191,6 @@ Result<std::vector<Surface>> parse(std::string_view contents, std::string_view s
     return surfaces;
 }
 
-std::string msh_values_of(const Mesh& mesh, const WriteOptions& options, bool is_22) {
-    return to_msh_values(mesh.vertices.size(), mesh.triangles, mesh.surfaces_of, options.values,
-                         {1, is_22});
-}
-std::string msh_values_of(const TetrahedralMesh& mesh, const WriteOptions& options, bool is_22) {
-    return to_msh_values(mesh.vertices.size(), mesh.faces, mesh.surfaces_of, options.values,
-                         {mesh.tetrahedra.size() + 1, is_22});
-}
-
 Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOptions& options) {
     switch (format) {
     case Format::gocad:
@@ -215,9 +205,9 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
     case Format::ply:
         return to_ply(mesh, options.values);
     case Format::msh:
-        return to_msh(mesh) + msh_values_of(mesh, options, false);
+        return to_msh(mesh) + to_msh_values(mesh, options.values, false);
     case Format::msh22:
-        return to_msh22(mesh) + msh_values_of(mesh, options, true);
+        return to_msh22(mesh) + to_msh_values(mesh, options.values, true);
     case Format::inp:
         return to_abaqus(mesh);
     case Format::medit:
@@ -258,9 +248,11 @@ Result<SeveralFiles> files_of(const TetrahedralMesh& mesh, Format format, const 
         return one_file(
             to_vtu(mesh, options.compress, options.cells, block_names, nodes, options.values));
     case Format::msh:
-        return one_file(to_msh(mesh, block_names, nodes) + msh_values_of(mesh, options, false));
+        return one_file(to_msh(mesh, block_names, nodes) +
+                        to_msh_values(mesh, options.values, false));
     case Format::msh22:
-        return one_file(to_msh22(mesh, block_names, nodes) + msh_values_of(mesh, options, true));
+        return one_file(to_msh22(mesh, block_names, nodes) +
+                        to_msh_values(mesh, options.values, true));
     case Format::inp:
         return one_file(to_abaqus(mesh, block_names, nodes));
     case Format::medit:
@@ -368,19 +360,6 @@ bool holds_tetrahedra(Format format) {
 bool holds_second_order(Format format) {
     return format == Format::vtu || format == Format::msh || format == Format::msh22 ||
            format == Format::inp || format == Format::exodus || format == Format::ogs;
-}
-
-std::vector<std::string> values_left_out(Format format, std::span<const SurfaceValues> values) {
-    const bool has_both = format == Format::ply || format == Format::vtp || format == Format::vtu ||
-                          format == Format::vtk;
-    const bool is_msh = format == Format::msh || format == Format::msh22;
-    std::vector<std::string> names;
-    for (const SurfaceValues& of_surface : values)
-        for (const ValueArray& array : of_surface)
-            if (!has_both && !(format == Format::gocad && !array.on_triangles) &&
-                !(is_msh && fits_msh(array)) && std::ranges::find(names, array.name) == names.end())
-                names.push_back(array.name);
-    return names;
 }
 
 bool has_several_files(Format format) {

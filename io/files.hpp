@@ -12,7 +12,6 @@
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
-#include <terrane/algorithms/mesh/carry.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
@@ -129,7 +128,7 @@ struct WriteOptions {
     /// Tetrahedra, but not .mesh: the name of each block; VTP: names of blocks, for the field
     /// block_name; empty: none
     std::span<const std::string> block_names{};
-    /// Values per surface, as from carry_values(), in formats that have them: see values_left_out()
+    /// Values per surface, as from values_on(), in formats that have them: see values_left_out()
     std::span<const SurfaceValues> values{};
     /// Tetrahedra only: 2 puts a node in the middle of each edge (edge_nodes.hpp)
     unsigned order = 1;

@@ -11,6 +11,7 @@
 #include <terrane/algorithms/mesh/point_table.hpp>
 #include <terrane/algorithms/mesh/triangle_table.hpp>
 #include <terrane/algorithms/mesh/triangle_tree.hpp>
+#include <terrane/algorithms/mesh/values.hpp>
 
 namespace terrane {
 namespace {

@@ -20,12 +20,8 @@
 
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/algorithms/mesh/values.hpp>
 
 namespace terrane {
-
-/// The arrays of one surface of a mesh.
-using SurfaceValues = std::vector<ValueArray>;
 
 /// Where the values of a mesh come from.
 struct ValueSources {

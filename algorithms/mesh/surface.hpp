@@ -4,10 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
-#include <terrane/algorithms/mesh/values.hpp>
 #include <terrane/kernel/point.hpp>
 
 namespace terrane {
@@ -43,6 +45,46 @@ struct FlawedFaces {
     Point3 first{};           ///< first corner of the first one; unit of the file
 };
 
+/// The types of numbers that files distinguish.
+enum class NumberType : std::uint8_t {
+    float64,
+    float32,
+    int8,
+    uint8,
+    int16,
+    uint16,
+    int32,
+    uint32,
+    int64,
+    uint64
+};
+
+/// Returns the name of a type: "float64", "int8", ...
+std::string_view name_of(NumberType type);
+
+/// A named array with a value on each vertex, or on each triangle, of a surface or mesh.
+struct ValueArray {
+    std::string name;                      ///< as in the file
+    bool on_triangles = false;             ///< otherwise on vertices
+    std::uint32_t components = 1;          ///< numbers per value, > 0: 3 for a vector
+    NumberType type = NumberType::float64; ///< the type in the file
+    /// All components of the first value, then of the next. Floating-point types are doubles, others
+    /// integers of 64 bits: of uint64 these have the same bits.
+    std::variant<std::vector<double>, std::vector<std::int64_t>> numbers{};
+    std::string unit{};               ///< as in the file; empty: not stated
+    std::optional<double> no_data{};  ///< the number that stands for no value, as NaN always does
+    std::vector<std::string> texts{}; ///< if there are any, the numbers are indices of these
+
+    /// Returns how many values there are.
+    [[nodiscard]] std::size_t size() const;
+    [[nodiscard]] bool is_integer() const { return numbers.index() == 1; }
+
+    friend bool operator==(const ValueArray&, const ValueArray&) = default;
+};
+
+/// The arrays of one surface of a mesh: on the vertices that its triangles use, ascending, and on its triangles.
+using SurfaceValues = std::vector<ValueArray>;
+
 /// A triangulated surface as it is read. It may be open, cross itself, and have duplicate or
 /// degenerate triangles; only its coordinates must be finite.
 struct Surface {
@@ -54,7 +96,7 @@ struct Surface {
     FlawedFaces flawed_faces{};      ///< those of the file
     std::vector<ValueArray>
         arrays{}; ///< values on vertices and triangles, as in the file; a stage that
-                  ///< changes the surface leaves them behind (carry.hpp)
+                  ///< changes the surface leaves them behind
     std::vector<std::string> values{}; ///< names of further values in the file, which were not read
 };
 

@@ -24,7 +24,6 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/layers/layers.hpp>
-#include <terrane/algorithms/mesh/carry.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
@@ -124,7 +123,8 @@ struct StageStore {
 /// Takes the values of surfaces, and returns the surfaces that had some, as Built::given.
 std::vector<Surface> with_values(std::vector<Surface>& surfaces);
 
-/// Returns the values on a mesh of the arranged or improved surfaces, or a part of it, per surface (carry.hpp).
+/// Returns the values on a mesh of the arranged or improved surfaces, or a part of it, per surface. A vertex at the
+/// place of a given one has its value; others are linear in the input triangle that contains it, or in the nearest.
 std::vector<SurfaceValues> values_on(const Built& built, const Mesh& mesh);
 /// Returns the values on the faces of tetrahedra that were built.
 std::vector<SurfaceValues> values_on(const Built& built, const TetrahedralMesh& tetrahedra);

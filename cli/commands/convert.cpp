@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include <terrane/algorithms/mesh/carry.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/choices.hpp>

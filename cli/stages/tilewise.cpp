@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/mesh/carry.hpp>
 #include <terrane/algorithms/tiles/local_supersteps.hpp>
 #include <terrane/algorithms/tiles/pieces.hpp>
 #include <terrane/algorithms/tiles/tiled_arrangement.hpp>

@@ -11,7 +11,6 @@
 
 #include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/result.hpp>
-#include <terrane/algorithms/mesh/carry.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>
 

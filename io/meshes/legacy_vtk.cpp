@@ -4,19 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <terrane/io/meshes/detail/legacy_vtk_arrays.hpp>
 #include <terrane/io/meshes/detail/legacy_vtk_scanner.hpp>
 #include <terrane/io/meshes/detail/vtk_cells.hpp>
 #include <terrane/io/surfaces/parts.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
-#include <terrane/io/text/values.hpp>
 
 namespace terrane {
 
@@ -40,7 +39,8 @@ public:
         if (auto trouble = read_geometry(section)) return *trouble;
         if (auto trouble = read_names(section)) return *trouble;
         if (auto trouble = make_triangles()) return *trouble;
-        auto surfaces = surfaces_of_parts(vertices_, std::move(parts_), values_, arrays_);
+        auto surfaces =
+            surfaces_of_parts(vertices_, std::move(parts_), arrays_.left_out(), arrays_.values());
         if (surfaces.empty()) return no_triangle_among(other_cells_, in_.source());
         return surfaces;
     }
@@ -51,7 +51,7 @@ public:
         if (auto trouble = read_geometry(section)) return *trouble;
         (void)read_attributes(section); // up to what is not known; the geometry is complete
         for (const auto name : label_arrays)
-            if (labels_.empty()) labels_ = cell_arrays_[std::string(name)];
+            if (labels_.empty()) labels_ = arrays_.of_cells(name);
         if (auto trouble = make_triangles()) return *trouble;
         if (tetrahedra_.tetrahedra.empty())
             return Error{ErrorCode::nothing_to_do, "there is no tetrahedron",
@@ -101,7 +101,7 @@ private:
             in_.skip_paragraph();
             return std::nullopt;
         }
-        if (section == "field") return read_field(fields_);
+        if (section == "field") return arrays_.read_field();
         if (is_grid_) {
             if (section == "cells") return read_cells(polygons_.emplace_back());
             if (section == "cell_types") return read_types();
@@ -204,97 +204,6 @@ private:
         return std::nullopt;
     }
 
-    using Arrays = std::map<std::string, std::vector<double>>;
-
-    /// Reads the arrays of a field, and keeps those about surfaces. Texts are kept as the codes of
-    /// their characters, each ended by a 0.
-    MaybeError read_field(Arrays& arrays) {
-        in_.token(); // its name
-        std::size_t count = 0;
-        if (auto trouble = in_.read_count(count)) return trouble;
-        for (std::size_t a = 0; a < count; ++a) {
-            while (in_.takes("metadata")) in_.skip_paragraph();
-            const std::string name(in_.token());
-            if (name.empty()) return in_.no_number({});
-            std::size_t components = 0, tuples = 0;
-            if (auto trouble = in_.read_count(components)) return trouble;
-            if (auto trouble = in_.read_count(tuples)) return trouble;
-            if (components != 0 && tuples > in_.size() / components)
-                return in_.error(ErrorCode::bad_syntax, "the array is longer than the file");
-            if (&arrays != &fields_) {
-                if (auto trouble = read_values(name, components, tuples, arrays)) return trouble;
-                continue;
-            }
-            std::vector<double> values;
-            if (auto trouble = read_array(components * tuples, values)) return trouble;
-            if (name.starts_with("surface") || name.starts_with("value_"))
-                arrays[name] = std::move(values);
-        }
-        return std::nullopt;
-    }
-
-    /// Reads the type and the numbers of an array on points or cells.
-    MaybeError read_values(const std::string& name, std::size_t components, std::size_t tuples,
-                           Arrays& arrays) {
-        if (!in_.takes("string")) {
-            LegacyType type{};
-            if (auto trouble = in_.read_type(type)) return trouble;
-            return read_values(name, components, tuples, type, arrays);
-        }
-        std::vector<std::string> texts;
-        if (auto trouble = in_.read_texts(components * tuples, texts)) return trouble;
-        ValueArray array = empty_array(name, components, arrays);
-        array.type = NumberType::int32;
-        auto& codes = array.numbers.emplace<1>();
-        std::map<std::string, std::int64_t> code_of;
-        for (const std::string& text : texts) {
-            const auto [known, is_new] =
-                code_of.try_emplace(text, static_cast<std::int64_t>(array.texts.size()));
-            if (is_new) array.texts.push_back(text);
-            codes.push_back(known->second);
-        }
-        keep(std::move(array));
-        return std::nullopt;
-    }
-
-    MaybeError read_values(const std::string& name, std::size_t components, std::size_t tuples,
-                           const LegacyType& type, Arrays& arrays) {
-        constexpr std::array<std::string_view, 10> types{
-            "Float64", "Float32", "Int8",   "UInt8", "Int16",
-            "UInt16",  "Int32",   "UInt32", "Int64", "UInt64"}; // in the order of NumberType
-        ValueArray array = empty_array(name, components, arrays);
-        array.type =
-            static_cast<NumberType>(std::ranges::find(types, type.xml_name) - types.begin());
-        const std::size_t count = components * tuples;
-        auto trouble = array.type <= NumberType::float32
-                           ? in_.read_numbers(count, type, array.numbers.emplace<0>())
-                           : in_.read_numbers(count, type, array.numbers.emplace<1>());
-        if (trouble) return trouble;
-        if (name.starts_with("surface") || std::ranges::count(label_arrays, name) != 0)
-            std::visit(
-                [&](const auto& numbers) { arrays[name].assign(numbers.begin(), numbers.end()); },
-                array.numbers);
-        keep(std::move(array));
-        return std::nullopt;
-    }
-
-    [[nodiscard]] ValueArray empty_array(const std::string& name, std::size_t components,
-                                         const Arrays& arrays) const {
-        ValueArray array{.name = decoded_word(name), .on_triangles = &arrays == &cell_arrays_};
-        array.components = static_cast<std::uint32_t>(components);
-        return array;
-    }
-
-    /// Keeps an array as values of the surfaces; one that can't be is only named.
-    void keep(ValueArray array) {
-        constexpr std::size_t most_arrays = 64; // a point may be in many surfaces
-        const std::string name = array.name;
-        const std::size_t count = array.on_triangles ? cell_count() : vertices_.size();
-        if (is_reserved(name) || for_tetrahedra_) return;
-        if (arrays_.size() == most_arrays || !add_array(std::move(array), count, arrays_))
-            note_values(name, values_);
-    }
-
     [[nodiscard]] std::size_t cell_count() const {
         std::size_t count = other_polydata_;
         for (const auto* sections : {&polygons_, &strips_})
@@ -302,94 +211,15 @@ private:
         return count;
     }
 
-    MaybeError read_array(std::size_t count, std::vector<double>& values) {
-        if (!in_.takes("string")) {
-            LegacyType type{};
-            if (auto trouble = in_.read_type(type)) return trouble;
-            return in_.read_numbers(count, type, values);
-        }
-        std::vector<std::string> texts;
-        if (auto trouble = in_.read_texts(count, texts)) return trouble;
-        for (const std::string& text : texts) {
-            for (const char c : text) values.push_back(static_cast<unsigned char>(c));
-            values.push_back(0);
-        }
-        return std::nullopt;
-    }
-
-    /// Reads the arrays of cells and points, of which the first section is the current one, up to
-    /// what is not known.
-    MaybeError read_attributes(std::string section) {
-        std::size_t count = 0;
-        Arrays unused;
-        Arrays* arrays = &unused;
-        while (!section.empty()) {
-            if (section == "cell_data" || section == "point_data") {
-                if (auto trouble = in_.read_count(count)) return trouble;
-                arrays = section == "cell_data" ? &cell_arrays_ : &unused;
-            } else if (section == "field") {
-                if (auto trouble = read_field(*arrays)) return trouble;
-            } else if (section == "scalars") {
-                if (auto trouble = read_scalars(count, *arrays)) return trouble;
-            } else if (section == "vectors" || section == "normals") {
-                if (auto trouble = read_tuples(3, count, *arrays)) return trouble;
-            } else if (section == "tensors") {
-                if (auto trouble = read_tuples(9, count, *arrays)) return trouble;
-            } else if (section == "metadata") {
-                in_.skip_paragraph();
-            } else {
-                note_values(in_.token(), values_); // of texture coordinates, colours and the like
-                return std::nullopt;
-            }
-            section = lower(in_.token());
-        }
-        return std::nullopt;
-    }
-
-    /// Reads "VECTORS name type" and the like, and the values.
-    MaybeError read_tuples(std::size_t components, std::size_t count, Arrays& arrays) {
-        const std::string name(in_.token());
-        if (count > in_.size() / components)
-            return in_.error(ErrorCode::bad_syntax, "the array is longer than the file");
-        return read_values(name, components, count, arrays);
-    }
-
-    /// Reads "SCALARS name type [components]", "LOOKUP_TABLE name" and the values.
-    MaybeError read_scalars(std::size_t count, Arrays& arrays) {
-        const std::string name(in_.token());
-        LegacyType type{};
-        if (auto trouble = in_.read_type(type)) return trouble;
-        std::size_t components = 1;
-        if (!in_.takes("lookup_table")) {
-            if (auto trouble = in_.read_count(components)) return trouble;
-            if (!in_.takes("lookup_table"))
-                return in_.error(ErrorCode::bad_syntax, "LOOKUP_TABLE is needed here");
-        }
-        in_.token(); // the name of the table
-        if (components != 0 && count > in_.size() / components)
-            return in_.error(ErrorCode::bad_syntax, "the array is longer than the file");
-        return read_values(name, components, count, type, arrays);
-    }
-
-    /// Returns the texts in an array of character codes, each ended by a 0.
-    [[nodiscard]] std::vector<std::string> texts(const std::string& array) const {
-        std::vector<std::string> texts;
-        std::string text;
-        const auto codes = fields_.find(array);
-        if (codes == fields_.end()) return texts;
-        for (const double code : codes->second) {
-            if (code > 0 && code < 256)
-                text += static_cast<char>(static_cast<unsigned char>(code));
-            else
-                texts.push_back(std::exchange(text, {}));
-        }
-        return texts;
+    /// Reads the arrays of cells and points, of which the first section is the current one.
+    MaybeError read_attributes(const std::string& section) {
+        return arrays_.read(section, vertices_.size(), cell_count());
     }
 
     /// Reads the names of the surfaces, and of which ones the polygons are. `section`: the first one
     /// after the geometry, or empty.
     MaybeError read_names(const std::string& section) {
-        const auto names = texts("surface_name"), roles = texts("surface_role");
+        const auto names = arrays_.texts("surface_name"), roles = arrays_.texts("surface_role");
         for (std::size_t s = 0; s < names.size(); ++s) {
             FilePart& part = parts_.emplace_back();
             part.name = names[s].empty() ? std::string(name_) : names[s];
@@ -401,39 +231,20 @@ private:
             (void)read_attributes(section); // the geometry is complete
             return std::nullopt;
         }
-        has_lists_ = fields_.contains("surfaces") || fields_.contains("surfaces_offset");
+        has_lists_ = arrays_.has_field("surfaces") || arrays_.has_field("surfaces_offset");
         if (has_lists_) { // the array of cells has nothing to add
             (void)read_attributes(section);
-            describe_arrays();
             return std::nullopt;
         }
         if (auto trouble = read_attributes(section)) return trouble;
-        describe_arrays();
-        const auto found = cell_arrays_.find("surface");
-        if (found == cell_arrays_.end()) return std::nullopt;
-        surface_of_ = std::move(found->second);
+        if (!arrays_.has_of_cells("surface")) return std::nullopt;
+        surface_of_ = arrays_.of_cells("surface");
         std::size_t kept = 0; // of a grid only polygons count
         for (std::size_t c = 0; c < std::min(kinds_.size(), surface_of_.size()); ++c)
             if (kinds_[c] == CellKind::polygon) surface_of_[kept++] = surface_of_[c];
         if (is_grid_) surface_of_.resize(kept);
         has_numbers_ = true;
         return std::nullopt;
-    }
-
-    /// Takes units and numbers without value, as to_vtk() writes them.
-    void describe_arrays() {
-        const auto names = texts("value_name"), units = texts("value_unit");
-        const auto& no_data = fields_["value_no_data"];
-        if (names.size() != arrays_.size() || units.size() != names.size() ||
-            no_data.size() != names.size())
-            return;
-        // Fields of cells come first in the file, those of points first in the lists.
-        std::ranges::stable_sort(arrays_, {}, &ValueArray::on_triangles);
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            if (arrays_[i].name != names[i]) return;
-            arrays_[i].unit = units[i];
-            if (!std::isnan(no_data[i])) arrays_[i].no_data = no_data[i];
-        }
     }
 
     MaybeError make_triangles() {
@@ -529,8 +340,8 @@ private:
 
     /// Tells whether the lists of surfaces fit this number of polygons.
     [[nodiscard]] bool lists_are_sound(std::size_t polygons) {
-        const auto& offsets = fields_["surfaces_offset"];
-        const auto& lists = fields_["surfaces"];
+        const auto& offsets = arrays_.field("surfaces_offset");
+        const auto& lists = arrays_.field("surfaces");
         bool sound = offsets.size() == polygons + 1 && offsets.front() == 0 &&
                      offsets.back() == static_cast<double>(lists.size()) &&
                      std::is_sorted(offsets.begin(), offsets.end());
@@ -544,8 +355,8 @@ private:
     /// Gives a polygon to the surfaces in its list.
     MaybeError add_to_lists(std::size_t at, std::size_t k, std::uint32_t cell,
                             const std::vector<std::uint32_t>& corners) {
-        const auto& offsets = fields_["surfaces_offset"];
-        const auto& lists = fields_["surfaces"];
+        const auto& offsets = arrays_.field("surfaces_offset");
+        const auto& lists = arrays_.field("surfaces");
         const auto begin = static_cast<std::size_t>(offsets[k]),
                    end = static_cast<std::size_t>(offsets[k + 1]);
         // Larger polygons in many surfaces each would make more triangles than the file has data.
@@ -559,20 +370,18 @@ private:
     }
 
     LegacyVtkScanner in_;
+    LegacyVtkArrays arrays_{in_};
     std::string_view name_;
     bool for_tetrahedra_ = false;   ///< instead of surfaces
     LabelledTetrahedra tetrahedra_; ///< without vertices
     std::vector<double> labels_;    ///< per cell; or none
     bool is_grid_ = false;
-    std::vector<ValueArray> arrays_;  ///< over all points and cells
-    std::vector<std::string> values_; ///< see Surface
-    std::size_t other_polydata_ = 0;  ///< points and lines of POLYDATA, whose values come first
-    std::size_t cells_ = 0;           ///< whose triangles are made
+    std::size_t other_polydata_ = 0; ///< points and lines of POLYDATA, whose values come first
+    std::size_t cells_ = 0;          ///< whose triangles are made
     std::vector<Point3> vertices_;
     std::vector<LegacyCells> polygons_, strips_; ///< of a grid: all cells, and none
     std::vector<CellKind> kinds_;                ///< of the cells of a grid
     std::size_t other_cells_ = 0;                ///< of a grid: points, lines and volumes
-    Arrays fields_, cell_arrays_;                ///< those about surfaces
     std::vector<FilePart> parts_;
     std::vector<double> surface_of_;               ///< per polygon
     bool has_lists_ = false, has_numbers_ = false; ///< that tell the surfaces of polygons

@@ -13,13 +13,17 @@ namespace terrane {
 
 using namespace detail;
 
-bool fits_msh(const ValueArray& array) {
-    return array.components == 1 || array.components == 3 || array.components == 9;
-}
+namespace {
 
-std::string to_msh_values(std::size_t vertices, std::span<const Triangle> triangles,
-                          const IndexLists<std::uint32_t>& surfaces_of,
-                          std::span<const SurfaceValues> values, MshNumbering numbering) {
+/// How the elements of a file are numbered.
+struct MshNumbering {
+    std::size_t first = 1;    ///< element of the first triangle
+    bool per_surface = false; ///< a triangle is an element for each of its surfaces
+};
+
+std::string sections_of(std::size_t vertices, std::span<const Triangle> triangles,
+                        const IndexLists<std::uint32_t>& surfaces_of,
+                        std::span<const SurfaceValues> values, const MshNumbering& numbering) {
     std::string out;
     for (const ValueArray& array : joined_values(vertices, triangles, surfaces_of, values)) {
         if (!fits_msh(array)) continue;
@@ -52,6 +56,22 @@ std::string to_msh_values(std::size_t vertices, std::span<const Triangle> triang
                            count, lines, section);
     }
     return out;
+}
+
+} // namespace
+
+bool fits_msh(const ValueArray& array) {
+    return array.components == 1 || array.components == 3 || array.components == 9;
+}
+
+std::string to_msh_values(const Mesh& mesh, std::span<const SurfaceValues> values, bool is_22) {
+    return sections_of(mesh.vertices.size(), mesh.triangles, mesh.surfaces_of, values, {1, is_22});
+}
+
+std::string to_msh_values(const TetrahedralMesh& mesh, std::span<const SurfaceValues> values,
+                          bool is_22) {
+    return sections_of(mesh.vertices.size(), mesh.faces, mesh.surfaces_of, values,
+                       {mesh.tetrahedra.size() + 1, is_22});
 }
 
 } // namespace terrane

@@ -8,7 +8,6 @@
 #include <string>
 
 #include <terrane/algorithms/core/result.hpp>
-#include <terrane/algorithms/mesh/carry.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/tetrahedra/edge_nodes.hpp>
 #include <terrane/io/meshes/cell_array.hpp>

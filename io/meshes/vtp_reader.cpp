@@ -5,8 +5,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
-#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +14,7 @@
 
 #include <terrane/io/meshes/detail/vtk_cells.hpp>
 #include <terrane/io/meshes/detail/vtk_data.hpp>
+#include <terrane/io/meshes/detail/vtk_xml_file.hpp>
 #include <terrane/io/surfaces/parts.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
@@ -27,17 +26,9 @@ using namespace detail;
 
 namespace {
 
-using Integers = std::vector<std::int64_t>;
 using Corners = std::vector<std::uint32_t>;
 
 constexpr std::size_t most_vertices = UINT32_MAX;
-
-std::string without_blanks(std::string_view text) {
-    std::string kept;
-    for (const char c : text)
-        if (!is_blank(c) && c != '\n') kept += c;
-    return kept;
-}
 
 /// Which surfaces a polygon belongs to, as to_vtp() writes it.
 struct Ownership {
@@ -48,17 +39,17 @@ struct Ownership {
 };
 
 /// Reads PolyData, or the faces of an UnstructuredGrid.
-class VtkXmlReader {
+class VtkXmlReader : VtkXmlFile {
 public:
     VtkXmlReader(std::string_view contents, std::string_view source, std::string_view name,
                  std::string_view type) :
-        contents_(contents),
-        source_(source), name_(name), type_(type) {}
+        VtkXmlFile(contents, source, type),
+        name_(name) {}
 
     Result<std::vector<Surface>> read() {
         if (auto trouble = read_pieces()) return *trouble;
         auto surfaces = surfaces_of_parts(vertices_, std::move(parts_), values_, arrays_);
-        if (surfaces.empty()) return no_triangle_among(other_cells_, source_);
+        if (surfaces.empty()) return no_triangle_among(other_cells_, source());
         return surfaces;
     }
 
@@ -66,7 +57,8 @@ public:
         for_tetrahedra_ = true;
         if (auto trouble = read_pieces()) return *trouble;
         if (tetrahedra_.tetrahedra.empty())
-            return Error{ErrorCode::nothing_to_do, "there is no tetrahedron", std::string(source_)};
+            return Error{ErrorCode::nothing_to_do, "there is no tetrahedron",
+                         std::string(source())};
         if (tetrahedra_.labels.size() < tetrahedra_.tetrahedra.size())
             tetrahedra_.labels.clear(); // some piece has none
         tetrahedra_.vertices = std::move(vertices_);
@@ -75,12 +67,8 @@ public:
 
 private:
     MaybeError read_pieces() {
-        if (auto trouble = parse()) return trouble;
-        if (auto trouble = read_header()) return trouble;
-        const pugi::xml_node data = root_.child(std::string(type_).c_str());
-        if (!data)
-            return error(root_, ErrorCode::bad_syntax,
-                         fmt::format("there is no element {}", type_));
+        pugi::xml_node data;
+        if (auto trouble = open(data)) return trouble;
         if (auto trouble = read_names(data)) return trouble;
         if (parts_.empty()) parts_.push_back({std::string(name_)});
         for (const pugi::xml_node piece : data.children("Piece")) {
@@ -91,175 +79,27 @@ private:
             points_before_ = vertices_.size();
             cells_before_ = cells_;
         }
-        if (!arrays_.empty()) describe_arrays(data.child("FieldData"));
+        if (!arrays_.empty()) read_descriptions(data.child("FieldData"));
         return std::nullopt;
-    }
-
-    [[nodiscard]] std::string place(std::ptrdiff_t offset) const {
-        const auto end = std::min(contents_.size(),
-                                  static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)));
-        const auto line =
-            1 + std::count(contents_.begin(), contents_.begin() + static_cast<std::ptrdiff_t>(end),
-                           '\n');
-        return fmt::format("{}:{}", source_, line);
-    }
-    [[nodiscard]] Error error(const pugi::xml_node& at, ErrorCode code, std::string what) const {
-        return {code, std::move(what), place(at.offset_debug())};
-    }
-
-    /// Parses the file but its appended data, which need not be XML.
-    MaybeError parse() {
-        const auto appended = contents_.find("<AppendedData");
-        std::string text(contents_.substr(0, appended));
-        if (appended != std::string_view::npos) {
-            const auto tag_end = contents_.find('>', appended);
-            const auto start = contents_.find('_', tag_end);
-            if (start == std::string_view::npos)
-                return Error{ErrorCode::bad_syntax, "the appended data have no beginning",
-                             place(static_cast<std::ptrdiff_t>(appended))};
-            const auto tag = contents_.substr(appended, tag_end - appended);
-            appended_is_base64_ = tag.find("base64") != std::string_view::npos;
-            appended_ = contents_.substr(start + 1);
-            if (appended_is_base64_)
-                appended_text_ = without_blanks(appended_.substr(0, appended_.find('<')));
-            text += "</VTKFile>";
-        }
-        const auto parsed = document_.load_buffer(text.data(), text.size());
-        if (parsed.status == pugi::status_out_of_memory) throw std::bad_alloc();
-        if (!parsed)
-            return Error{ErrorCode::bad_syntax,
-                         std::string("this is not well-formed XML: ") + parsed.description(),
-                         place(parsed.offset)};
-        root_ = document_.child("VTKFile");
-        if (!root_) return Error{ErrorCode::bad_syntax, "there is no element VTKFile", place(0)};
-        return std::nullopt;
-    }
-
-    MaybeError read_header() {
-        const std::string_view type = root_.attribute("type").value();
-        if (type != type_)
-            return error(root_, ErrorCode::unsupported,
-                         fmt::format("the file has {}; only {} is read", shown(type), type_));
-        const std::string_view compressor = root_.attribute("compressor").value();
-        if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
-            return error(
-                root_, ErrorCode::unsupported,
-                fmt::format("{} is not read, only vtkZLibDataCompressor", shown(compressor)));
-        encoding_.compressed = !compressor.empty();
-        const std::string_view order = root_.attribute("byte_order").value();
-        encoding_.order = order == "BigEndian" ? std::endian::big : std::endian::little;
-        const std::string_view header = root_.attribute("header_type").value();
-        encoding_.wide_headers = header == "UInt64";
-        return std::nullopt;
-    }
-
-    /// Decodes the bytes of an array that is not text.
-    MaybeError bytes_of(const pugi::xml_node& array, std::string& bytes) {
-        const std::string_view format = array.attribute("format").value();
-        std::optional<std::string> flaw;
-        if (format == "appended") {
-            const auto offset = array.attribute("offset").as_ullong(UINT64_MAX);
-            const std::string_view text =
-                appended_is_base64_ ? std::string_view(appended_text_) : appended_;
-            flaw = offset > text.size()
-                       ? "the array begins beyond the appended data"
-                       : decode_vtk(text, appended_is_base64_, offset, encoding_, bytes, used_);
-        } else {
-            const auto text = without_blanks(array.child_value());
-            flaw = decode_vtk(text, true, 0, encoding_, bytes, used_);
-        }
-        // Arrays that share their data would make the work grow faster than the file.
-        if (!flaw && used_ > 2 * contents_.size() + 64) flaw = "the data of the arrays overlap";
-        if (flaw) return error(array, ErrorCode::bad_syntax, *flaw);
-        return std::nullopt;
-    }
-
-    MaybeError append_value(const pugi::xml_node& array, std::string_view token,
-                            Integers& values) const {
-        if (parse_integer(token, values.emplace_back())) return std::nullopt;
-        return error(array, ErrorCode::bad_number, shown(token) + " is not an integer");
-    }
-    MaybeError append_value(const pugi::xml_node& array, std::string_view token,
-                            std::vector<double>& values) const {
-        const auto state = parse_double(token, values.emplace_back());
-        if (state != NumberState::not_a_number) return std::nullopt; // the user of the array judges
-        return error(array, ErrorCode::bad_number, shown(token) + " is not a number");
-    }
-
-    template <class Number>
-    MaybeError values_of(const pugi::xml_node& array, std::vector<Number>& values) {
-        values.clear();
-        if (std::string_view(array.attribute("format").value()) == "ascii") {
-            std::string text = array.child_value();
-            std::replace(text.begin(), text.end(), '\n', ' ');
-            used_ += text.size();
-            Tokens tokens(text);
-            for (auto token = tokens.next(); !token.empty(); token = tokens.next())
-                if (auto trouble = append_value(array, token, values)) return trouble;
-            return std::nullopt;
-        }
-        std::string bytes;
-        if (auto trouble = bytes_of(array, bytes)) return trouble;
-        const std::string_view type = array.attribute("type").value();
-        if (auto flaw = convert_vtk(bytes, type, encoding_.order, values))
-            return error(array, ErrorCode::bad_syntax, *flaw);
-        return std::nullopt;
-    }
-
-    /// Reads strings, each ended by a 0.
-    MaybeError strings_of(const pugi::xml_node& array, std::vector<std::string>& strings) {
-        Integers codes;
-        if (std::string_view(array.attribute("format").value()) == "ascii") {
-            if (auto trouble = values_of(array, codes)) return trouble;
-        } else {
-            std::string bytes;
-            if (auto trouble = bytes_of(array, bytes)) return trouble;
-            codes.assign(bytes.begin(), bytes.end());
-        }
-        std::string text;
-        for (const std::int64_t code : codes) {
-            if (code != 0)
-                text += static_cast<char>(code & 255);
-            else
-                strings.push_back(std::exchange(text, {}));
-        }
-        return std::nullopt;
-    }
-
-    static pugi::xml_node array_named(const pugi::xml_node& parent, std::string_view name) {
-        for (const pugi::xml_node array : parent.children())
-            if (name == array.attribute("Name").value()) return array;
-        return {};
     }
 
     /// Reads the numbers of an array of values. Texts become codes. Returns whether it could.
     bool read_numbers(const pugi::xml_node& node, ValueArray& array) {
-        constexpr std::array<std::string_view, 10> types{
-            "Float64", "Float32", "Int8",   "UInt8", "Int16",
-            "UInt16",  "Int32",   "UInt32", "Int64", "UInt64"}; // in the order of NumberType
-        const std::string_view type = node.attribute("type").value();
-        if (type == "String") {
+        const std::string_view name = node.attribute("type").value();
+        if (name == "String") {
             std::vector<std::string> texts;
             if (strings_of(node, texts)) return false;
-            array.type = NumberType::int32;
-            auto& codes = array.numbers.emplace<1>();
-            std::map<std::string, std::int64_t> code_of;
-            for (const std::string& text : texts) {
-                const auto [known, is_new] =
-                    code_of.try_emplace(text, static_cast<std::int64_t>(array.texts.size()));
-                if (is_new) array.texts.push_back(text);
-                codes.push_back(known->second);
-            }
+            set_texts(texts, array);
             return true;
         }
-        const auto found = std::ranges::find(types, type);
-        if (found == types.end()) return false;
-        array.type = static_cast<NumberType>(found - types.begin());
+        const auto type = number_type_named(name);
+        if (!type) return false;
+        array.type = *type;
         if (array.type <= NumberType::float32) return !values_of(node, array.numbers.emplace<0>());
         return !values_of(node, array.numbers.emplace<1>());
     }
 
-    /// Reads the values of a piece on points, or on cells; arrays that are not in all pieces, or do not have
+    /// Reads the values of a piece on points, or on cells; those that are not in all pieces, or do not have
     /// `count` values, are only named.
     void read_arrays(const pugi::xml_node& data, bool on_cells, std::size_t count) {
         constexpr std::size_t most_arrays = 64; // a point may be in many surfaces
@@ -274,54 +114,21 @@ private:
                 !add_array(std::move(array), count, here))
                 note_values(name, values_);
         }
-        if (!std::exchange(has_arrays_[on_cells ? 1 : 0], true)) {
+        if (std::exchange(has_arrays_[on_cells ? 1 : 0], true))
+            append_piece(here, on_cells, arrays_, values_);
+        else
             std::ranges::move(here, std::back_inserter(arrays_));
-            return;
-        }
-        const auto follows = [](const ValueArray& a, const ValueArray& b) {
-            return a.name == b.name && a.type == b.type && a.components == b.components &&
-                   a.texts == b.texts;
-        };
-        std::erase_if(arrays_, [&](ValueArray& array) {
-            if (array.on_triangles != on_cells) return false;
-            const auto more =
-                std::ranges::find_if(here, [&](const ValueArray& h) { return follows(h, array); });
-            if (more == here.end()) {
-                note_values(array.name, values_);
-                return true;
-            }
-            std::visit(
-                [&](auto& numbers) {
-                    const auto& further = std::get<std::decay_t<decltype(numbers)>>(more->numbers);
-                    numbers.insert(numbers.end(), further.begin(), further.end());
-                },
-                array.numbers);
-            return false;
-        });
-        for (const ValueArray& h : here)
-            if (std::ranges::none_of(arrays_, [&](const ValueArray& a) {
-                    return a.name == h.name && a.on_triangles == on_cells;
-                }))
-                note_values(h.name, values_);
     }
 
     /// Reads units and numbers without value, as Terrane writes them.
-    void describe_arrays(const pugi::xml_node& field) {
-        std::vector<std::string> names, units;
-        std::vector<double> no_data;
-        const auto names_node = array_named(field, "value_name"),
-                   units_node = array_named(field, "value_unit"),
-                   no_data_node = array_named(field, "value_no_data");
-        if (!names_node || !units_node || !no_data_node || strings_of(names_node, names) ||
-            strings_of(units_node, units) || values_of(no_data_node, no_data) ||
-            names.size() != arrays_.size() || units.size() != names.size() ||
-            no_data.size() != names.size())
-            return;
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            if (arrays_[i].name != names[i]) return;
-            arrays_[i].unit = units[i];
-            if (!std::isnan(no_data[i])) arrays_[i].no_data = no_data[i];
-        }
+    void read_descriptions(const pugi::xml_node& field) {
+        ArrayDescriptions all;
+        const auto names = array_named(field, "value_name"),
+                   units = array_named(field, "value_unit"),
+                   no_data = array_named(field, "value_no_data");
+        if (names && units && no_data && !strings_of(names, all.names) &&
+            !strings_of(units, all.units) && !values_of(no_data, all.no_data))
+            describe_arrays(all, arrays_);
     }
 
     /// Reads the names and roles of surfaces, if the file has them.
@@ -459,7 +266,7 @@ private:
         std::size_t points = 0;
         Ownership of;
         if (auto trouble = read_points(piece, points)) return trouble;
-        if (type_ == "UnstructuredGrid") return read_grid_cells(data, piece, points);
+        if (is_grid()) return read_grid_cells(data, piece, points);
         if (auto trouble = read_ownership(data, piece, of)) return trouble;
         const auto passed_over = [](std::size_t, const Corners&) -> MaybeError {
             return std::nullopt;
@@ -541,18 +348,10 @@ private:
         return for_each_cell(piece.child("Cells"), points, use);
     }
 
-    std::string_view contents_, source_, name_;
+    std::string_view name_;
     bool for_tetrahedra_ = false;   ///< instead of surfaces
     LabelledTetrahedra tetrahedra_; ///< without vertices
-    std::string_view type_;         ///< of the data that are read: PolyData or UnstructuredGrid
     std::size_t other_cells_ = 0;   ///< cells of a grid that are no faces
-    pugi::xml_document document_;
-    pugi::xml_node root_;
-    VtkEncoding encoding_;
-    std::string_view appended_;
-    std::string appended_text_; ///< without blanks, if it is base64
-    bool appended_is_base64_ = false;
-    std::size_t used_ = 0; ///< bytes of the file that arrays have read
     std::vector<Point3> vertices_;
     std::vector<FilePart> parts_;
     std::vector<ValueArray> arrays_;  ///< over all points and cells of the pieces so far

@@ -11,8 +11,11 @@
 
 #include <terrane/algorithms/triangulation/point_surface.hpp>
 #include <terrane/io/gocad/gocad_objects.hpp>
+#include <terrane/io/gocad/vertex_properties.hpp>
+#include <terrane/io/points/detail/column_values.hpp>
 #include <terrane/io/points/detail/heading.hpp>
 #include <terrane/io/points/detail/point_lines.hpp>
+#include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
 #include <terrane/io/text/units.hpp>
 
@@ -49,6 +52,7 @@ public:
             }
         }
         if (surfaces.empty()) return in_.file_error(ErrorCode::nothing_to_do, "there is no point");
+        for (std::size_t s = 0; s < surfaces.size(); ++s) values_[s].end(surfaces[s]);
         return std::nullopt;
     }
 
@@ -178,8 +182,11 @@ private:
             if (auto trouble = in_.read_number(columns[chosen_->at(i)], p[i])) return trouble;
         }
         const bool ends_line = p[0] == 999 && p[1] == 999 && p[2] == 999;
-        if (!ends_line && !is_no_height(p[2]))
-            surface_named(name, surfaces).vertices.push_back({p[0], p[1], p[2]});
+        if (ends_line || is_no_height(p[2])) return std::nullopt;
+        Surface& surface = surface_named(name, surfaces);
+        surface.vertices.push_back({p[0], p[1], p[2]});
+        if (heading_ && by_heading_)
+            values_[static_cast<std::size_t>(&surface - surfaces.data())].add(columns);
         return std::nullopt;
     }
 
@@ -189,6 +196,7 @@ private:
             Surface& surface = surfaces.emplace_back();
             surface.name = name;
             if (heading_) surface.frame = heading_->frame;
+            values_.push_back(heading_ ? ColumnValues(*heading_) : ColumnValues());
             if (heading_ && by_heading_ && !name.empty()) surface.role = heading_->role;
         }
         return surfaces[at->second];
@@ -222,6 +230,7 @@ private:
     bool by_heading_ = false;                          ///< lines have the columns of the heading
     std::optional<std::array<std::size_t, 3>> chosen_; ///< columns in use, set at the first point
     std::map<std::string, std::size_t> surface_of_;    ///< index by the text in front
+    std::vector<ColumnValues> values_;                 ///< per surface
 };
 
 Result<std::vector<Surface>> connected(std::vector<Surface> surfaces, std::string_view source,
@@ -272,8 +281,13 @@ public:
                 if (line) lines = surfaces.size();
                 surfaces.emplace_back();
             }
-            if (auto trouble = read_object(surfaces[line ? *lines : surfaces.size() - 1]))
-                return trouble;
+            Surface& surface = surfaces[line ? *lines : surfaces.size() - 1];
+            properties_ = {};
+            if (auto trouble = read_object(surface)) return trouble;
+            if (line) // of several objects, which may have others
+                properties_.end_unread(surface);
+            else
+                properties_.end(surface);
         }
         if (!found)
             return in_.file_error(ErrorCode::bad_syntax,
@@ -310,8 +324,12 @@ private:
             std::int64_t id = 0;
             if (!parse_integer(tokens.next(), id) || id < 0)
                 return in_.error(ErrorCode::bad_syntax, fmt::format("{} needs an id", keyword));
-            return in_.read_point(tokens, keyword, surface.vertices.emplace_back());
+            if (auto trouble = in_.read_point(tokens, keyword, surface.vertices.emplace_back()))
+                return trouble;
+            properties_.read_vertex(in_, tokens);
+            return std::nullopt;
         }
+        properties_.read_header(keyword, tokens.rest());
         if (keyword.starts_with('#')) return std::nullopt;
         if (keyword == "ZPOSITIVE") {
             depth = same_ignoring_case(unquoted(tokens.rest()), "Depth");
@@ -331,7 +349,8 @@ private:
     }
 
     LineParser in_;
-    bool again_ = false; ///< the current line is not processed yet
+    bool again_ = false;          ///< the current line is not processed yet
+    VertexProperties properties_; ///< of the current object
 };
 
 template <class Reader>

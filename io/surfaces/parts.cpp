@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <terrane/algorithms/mesh/values.hpp>
 #include <terrane/algorithms/triangulation/face.hpp>
 
 namespace terrane::detail {

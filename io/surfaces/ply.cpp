@@ -111,16 +111,6 @@ struct Header {
     }
 };
 
-/// Returns a text with each `from` replaced.
-std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
-    std::string out;
-    for (auto at = text.find(from); at != std::string_view::npos; at = text.find(from)) {
-        out.append(text.substr(0, at)).append(to);
-        text.remove_prefix(at + from.size());
-    }
-    return out.append(text);
-}
-
 class HeaderReader {
 public:
     HeaderReader(LineParser& in, Header& header) : in_(in), header_(header) {}
@@ -203,9 +193,8 @@ private:
         if (property.count_type || (is_reserved(name) && described_.left == 0) ||
             (arrays.size() == most_arrays && described_.left == 0))
             return note_values(name, header_.values);
-        if (described_.left == 0 || described_.on_faces != on_faces) {
+        if (described_.left == 0 || described_.on_faces != on_faces)
             described_ = {on_faces, {.name = std::string(name), .on_triangles = on_faces}, 1};
-        }
         if (described_.left == described_.array.components) {
             described_.array.type = number_types[static_cast<std::size_t>(property.type)];
             if (described_.array.type > NumberType::float32) described_.array.numbers.emplace<1>();
@@ -257,7 +246,7 @@ private:
         if (parse_double(tokens.next(), no_data) == NumberState::ok)
             described_.array.no_data = no_data;
         const auto unit = tokens.next();
-        if (unit != "-") described_.array.unit = replaced(unit, "%20", " ");
+        if (unit != "-") described_.array.unit = replaced_texts(unit, "%20", " ");
         described_.array.name = tokens.rest();
     }
 
@@ -500,90 +489,11 @@ private:
     std::vector<std::uint32_t> owners_;  ///< surfaces of the current face
 };
 
-/// Returns the type that PLY has for numbers of this type; integers of 64 bits become doubles.
-std::string_view ply_type(NumberType type) {
-    constexpr std::array<std::string_view, 10> names{"double", "float", "char", "uchar",  "short",
-                                                     "ushort", "int",   "uint", "double", "double"};
-    return names[static_cast<std::size_t>(type)];
-}
-
-/// Appends the properties of the arrays on vertices or faces, described by comments.
-void append_properties(std::string& out, std::span<const ValueArray> arrays, bool on_faces) {
-    for (const ValueArray& array : arrays) {
-        if (array.on_triangles != on_faces) continue;
-        const std::string name = one_line(array.name), word = replaced(name, " ", "_"),
-                          unit = replaced(one_line(array.unit), " ", "%20");
-        out += fmt::format("comment terrane values {} {} ", on_faces ? "face" : "vertex",
-                           array.components);
-        if (array.no_data)
-            append_number(out, *array.no_data);
-        else
-            out += '-';
-        out += fmt::format(" {} {}\n", unit.empty() ? "-" : unit, name);
-        for (std::uint32_t c = 0; c < array.components; ++c)
-            out += fmt::format("property {} {}{}\n", ply_type(array.type), word,
-                               array.components == 1 ? "" : fmt::format("_{}", c + 1));
-    }
-}
-
-/// Appends the values of a vertex or face.
-void append_values(std::string& out, std::span<const ValueArray> arrays, bool on_faces,
-                   std::size_t element) {
-    for (const ValueArray& array : arrays) {
-        if (array.on_triangles != on_faces) continue;
-        const bool is_wide = array.type >= NumberType::int64;
-        with_type(is_wide ? NumberType::float64 : array.type, [&]<class T>(T) {
-            std::visit(
-                [&](const auto& numbers) {
-                    for (std::size_t c = 0; c < array.components; ++c)
-                        store(out, static_cast<T>(numbers[element * array.components + c]));
-                },
-                array.numbers);
-        });
-    }
-}
-
 } // namespace
 
 Result<std::vector<Surface>> read_ply(std::string_view contents, std::string_view source,
                                       std::string_view name) {
     return PlyReader(contents, source).read(name);
-}
-
-std::string to_ply(const Mesh& mesh, std::span<const SurfaceValues> values) {
-    const auto arrays =
-        joined_values(mesh.vertices.size(), mesh.triangles, mesh.surfaces_of, values);
-    std::string out = "ply\nformat binary_little_endian 1.0\n";
-    for (const auto& surface : mesh.surfaces) {
-        const std::string name = one_line(surface.name); // a blank at an end would not be read
-        out += fmt::format("comment terrane surface {} {}\n",
-                           role_names[static_cast<std::size_t>(surface.role)], trimmed(name));
-    }
-    out += fmt::format("element vertex {}\nproperty double x\nproperty double y\n"
-                       "property double z\n",
-                       mesh.vertices.size());
-    append_properties(out, arrays, false);
-    out += fmt::format("element face {}\nproperty list uchar int vertex_indices\n"
-                       "property int surface\nproperty list uint int surfaces\n",
-                       mesh.triangles.size());
-    append_properties(out, arrays, true);
-    out += "end_header\n";
-    out.reserve(out.size() + mesh.vertices.size() * 24 + mesh.triangles.size() * 25);
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        const Point3& p = mesh.vertices[v];
-        for (const double c : {p.x, p.y, p.z}) store(out, c);
-        append_values(out, arrays, false, v);
-    }
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const auto surfaces = mesh.surfaces_of[i];
-        store(out, std::uint8_t(3));
-        for (const auto vertex : mesh.triangles[i]) store(out, vertex);
-        store(out, surfaces[0]);
-        store(out, static_cast<std::uint32_t>(surfaces.size()));
-        for (const auto surface : surfaces) store(out, surface);
-        append_values(out, arrays, true, i);
-    }
-    return out;
 }
 
 } // namespace terrane

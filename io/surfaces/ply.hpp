@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
-#include <terrane/algorithms/mesh/carry.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 
 namespace terrane {
@@ -29,6 +28,7 @@ Result<std::vector<Surface>> read_ply(std::string_view contents, std::string_vie
 /// comments "terrane surface ROLE NAME" in the header name the surfaces in order. `values` per surface, as from
 /// carry_values(), are further properties, one per component, after a comment "terrane values vertex COMPONENTS
 /// NO_DATA UNIT NAME" (or face); "-" stands for nothing. Integers of 64 bits become doubles, which PLY has.
+/// Defined in ply_writer.cpp.
 std::string to_ply(const Mesh& mesh, std::span<const SurfaceValues> values = {});
 
 } // namespace terrane

@@ -26,6 +26,10 @@ constexpr bool is_blank(char c) {
 [[nodiscard]] std::string lower(std::string_view text);
 [[nodiscard]] bool same_ignoring_case(std::string_view a, std::string_view b);
 
+/// Returns a text with each `from` in it replaced.
+[[nodiscard]] std::string replaced_texts(std::string_view text, std::string_view from,
+                                         std::string_view to);
+
 /// Quotes a token for a message: at most 40 characters of it, with '?' for unprintable ones.
 [[nodiscard]] std::string shown(std::string_view token);
 

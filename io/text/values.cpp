@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -96,10 +98,7 @@ private:
 } // namespace
 
 bool is_reserved(std::string_view name) {
-    constexpr std::array<std::string_view, 21> known{"x",
-                                                     "y",
-                                                     "z",
-                                                     "nx",
+    constexpr std::array<std::string_view, 18> known{"nx",
                                                      "ny",
                                                      "nz",
                                                      "normals",
@@ -133,6 +132,58 @@ bool add_array(ValueArray array, std::size_t count, std::vector<ValueArray>& arr
     rename_apart(arrays, array);
     arrays.push_back(std::move(array));
     return true;
+}
+
+void set_texts(std::span<const std::string> texts, ValueArray& array) {
+    array.type = NumberType::int32;
+    auto& codes = array.numbers.emplace<1>();
+    std::map<std::string_view, std::int64_t> code_of;
+    for (const std::string& text : texts) {
+        const auto [known, is_new] =
+            code_of.try_emplace(text, static_cast<std::int64_t>(array.texts.size()));
+        if (is_new) array.texts.push_back(text);
+        codes.push_back(known->second);
+    }
+}
+
+void describe_arrays(const ArrayDescriptions& descriptions, std::vector<ValueArray>& arrays) {
+    const auto& [names, units, no_data] = descriptions;
+    if (names.size() != arrays.size() || units.size() != names.size() ||
+        no_data.size() != names.size() ||
+        !std::ranges::equal(names, arrays, {}, {}, &ValueArray::name))
+        return;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        arrays[i].unit = units[i];
+        if (!std::isnan(no_data[i])) arrays[i].no_data = no_data[i];
+    }
+}
+
+void append_piece(std::span<const ValueArray> piece, bool on_triangles,
+                  std::vector<ValueArray>& arrays, std::vector<std::string>& left_out) {
+    const auto find = [&](auto& among, const ValueArray& array) {
+        return std::ranges::find_if(among, [&](const ValueArray& other) {
+            return other.on_triangles == on_triangles && other.name == array.name &&
+                   other.type == array.type && other.components == array.components &&
+                   other.texts == array.texts;
+        });
+    };
+    for (const ValueArray& array : piece)
+        if (find(arrays, array) == arrays.end()) note_values(array.name, left_out);
+    std::erase_if(arrays, [&](ValueArray& array) {
+        if (array.on_triangles != on_triangles) return false;
+        const auto more = find(piece, array);
+        if (more == piece.end()) {
+            note_values(array.name, left_out);
+            return true;
+        }
+        std::visit(
+            [&](auto& numbers) {
+                const auto& further = std::get<std::decay_t<decltype(numbers)>>(more->numbers);
+                numbers.insert(numbers.end(), further.begin(), further.end());
+            },
+            array.numbers);
+        return false;
+    });
 }
 
 std::vector<ValueArray> joined_values(std::size_t vertices, std::span<const Triangle> triangles,

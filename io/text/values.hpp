@@ -9,17 +9,35 @@
 #include <string_view>
 #include <vector>
 
-#include <terrane/algorithms/mesh/carry.hpp>
+#include <terrane/algorithms/core/index_lists.hpp>
+#include <terrane/algorithms/mesh/values.hpp>
 
 namespace terrane::detail {
 
-/// Tells whether a name is that of coordinates, of normals, or of an array in Terrane's own files, in any case.
+/// Tells whether a name is that of normals, or of an array in Terrane's own files, in any case.
 /// Such arrays are no values.
 bool is_reserved(std::string_view name);
 
 /// Adds an array that a reader has found, unless it has a reserved name, is empty, or does not have one value
 /// for each of `count` vertices or triangles. Repeated names get the ending _2, _3, ... Returns whether it did.
 bool add_array(ValueArray array, std::size_t count, std::vector<ValueArray>& arrays);
+
+/// Makes texts the values of an array: their indices, of type int32.
+void set_texts(std::span<const std::string> texts, ValueArray& array);
+
+/// What Terrane's own files say of each array besides its numbers.
+struct ArrayDescriptions {
+    std::vector<std::string> names, units;
+    std::vector<double> no_data; ///< NaN: none
+};
+
+/// Takes the units of arrays and their numbers without value, if it is these that are described, in this order.
+void describe_arrays(const ArrayDescriptions& descriptions, std::vector<ValueArray>& arrays);
+
+/// Appends the values of a further piece of a file to arrays on the same elements. Those that are not in both, with
+/// the same type, components and texts, are left out and noted.
+void append_piece(std::span<const ValueArray> piece, bool on_triangles,
+                  std::vector<ValueArray>& arrays, std::vector<std::string>& left_out);
 
 /// Returns arrays over all vertices and triangles of a mesh, in which vertices or triangles without a value have
 /// none. Arrays of several surfaces are one if they have the same name, type, components and unit; then a vertex or

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <terrane/algorithms/mesh/carry.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/reading.hpp>
 
@@ -57,6 +59,21 @@ void write(const MeshPointer& mesh, const py::object& path,
     run_stage(how, [mesh, to, options](const Run&) { return write_mesh(mesh->mesh, to, options); });
 }
 
+/// Writes surfaces as they are, with their values. Returns the names of values that the format has no place for.
+py::list write_surfaces(const py::sequence& surfaces, const py::object& path,
+                        const std::optional<std::string>& format, const HowToRun& how) {
+    const std::filesystem::path to = to_path(path);
+    const auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(surfaces));
+    const auto chosen = to_format(format);
+    run_stage(how, [given, to, chosen](const Run&) {
+        const auto values = values_of(*given);
+        return write_mesh(concatenate(*given), to, {.format = chosen, .values = values});
+    });
+    const auto written = chosen ? chosen : format_of(to);
+    return to_texts(written ? values_left_out(*written, values_of(*given))
+                            : std::vector<std::string>());
+}
+
 } // namespace
 
 void bind_files(py::module_& module) {
@@ -64,6 +81,7 @@ void bind_files(py::module_& module) {
                "how"_a);
     module.def("write_mesh", &write, "mesh"_a, "path"_a, "format"_a, "ascii"_a, "compress"_a,
                "how"_a);
+    module.def("write_surfaces", &write_surfaces, "surfaces"_a, "path"_a, "format"_a, "how"_a);
     module.def("check_reading", &check_all, "paths"_a, "format"_a, "depth"_a, "max_edge"_a,
                "columns"_a);
 }

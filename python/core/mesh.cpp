@@ -2,6 +2,7 @@
 #include <vector>
 
 #include <terrane/algorithms/check/check.hpp>
+#include <terrane/algorithms/mesh/carry.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/quality/quality.hpp>
@@ -115,7 +116,15 @@ void bind_mesh(py::module_& module) {
         "surfaces"_a, "how"_a);
     module.def(
         "surfaces_of_mesh",
-        [](const MeshPointer& m) { return from_surfaces(surfaces_of_mesh(m->mesh)); }, "mesh"_a);
+        [](const MeshPointer& m, const py::sequence& given) {
+            auto surfaces = surfaces_of_mesh(m->mesh);
+            const auto sources = to_surfaces(given);
+            auto values = carry_values({sources, {}}, m->mesh);
+            for (std::size_t s = 0; s < values.size(); ++s)
+                surfaces[s].arrays = std::move(values[s]);
+            return from_surfaces(std::move(surfaces));
+        },
+        "mesh"_a, "given"_a);
     module.def(
         "concatenate",
         [](const py::sequence& surfaces) {

@@ -3,10 +3,13 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include <terrane/algorithms/mesh/validation.hpp>
+#include <terrane/io/text/values.hpp>
 
 #include "arrays.hpp"
 #include "handles.hpp"
@@ -62,10 +65,54 @@ std::vector<Triangle> to_triangles(const py::array& array, std::size_t vertices,
                      : to_triangles<std::uint64_t>(array, vertices, owner);
 }
 
+/// Returns an array of values from (name, on_triangles, rows of numbers, unit, no_data, texts), which Python has
+/// judged.
+ValueArray to_values(const py::tuple& from) {
+    auto rows = from[2].cast<py::array>();
+    ValueArray made{.name = from_text(from[0]), .on_triangles = from[1].cast<bool>()};
+    made.components = static_cast<std::uint32_t>(rows.shape(1));
+    made.unit = from_text(from[3]);
+    made.no_data = from[4].cast<std::optional<double>>();
+    for (const py::handle text : from[5]) made.texts.push_back(from_text(text));
+    const std::string type = py::str(rows.dtype());
+    for (int t = 0; t <= static_cast<int>(NumberType::uint64); ++t)
+        if (name_of(static_cast<NumberType>(t)) == type) made.type = static_cast<NumberType>(t);
+    detail::with_type(made.type, [&]<class T>(T) {
+        const auto numbers = copied<T>(rows.reshape({-1}));
+        if constexpr (std::is_floating_point_v<T>)
+            made.numbers.emplace<0>(numbers.begin(), numbers.end());
+        else {
+            auto& integers = made.numbers.emplace<1>();
+            for (const T n : numbers) integers.push_back(static_cast<std::int64_t>(n));
+        }
+    });
+    return made;
+}
+
+py::list from_values(const Surface& surface) {
+    py::list all;
+    for (const ValueArray& a : surface.arrays) {
+        py::array rows = detail::with_type(a.type, [&]<class T>(T) -> py::array {
+            std::vector<T> numbers;
+            std::visit(
+                [&](const auto& from) {
+                    for (const auto n : from) numbers.push_back(static_cast<T>(n));
+                },
+                a.numbers);
+            return owned(std::move(numbers));
+        });
+        const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(a.size()),
+                                             static_cast<py::ssize_t>(a.components)};
+        all.append(py::make_tuple(to_text(a.name), a.on_triangles, rows.reshape(shape),
+                                  to_text(a.unit), a.no_data, to_texts(a.texts)));
+    }
+    return all;
+}
+
 /// Copies the arrays, and judges the copies: whoever can write to the arrays can't change what was judged.
 std::shared_ptr<Surface> judged_surface(const py::array& vertices, const py::array& triangles,
                                         const py::object& name, const py::object& role,
-                                        const py::tuple& frame) {
+                                        const py::tuple& frame, const py::sequence& values) {
     auto made = std::make_shared<Surface>();
     made->name = from_text(name);
     made->role = role_named(role);
@@ -77,6 +124,8 @@ std::shared_ptr<Surface> judged_surface(const py::array& vertices, const py::arr
             refuse(ErrorCode::bad_number, "a coordinate is not finite",
                    owner + "vertices[" + std::to_string(v) + "]");
     made->triangles = to_triangles(triangles, made->vertices.size(), owner);
+    for (const py::handle array : values)
+        made->arrays.push_back(to_values(py::cast<py::tuple>(array)));
     return made;
 }
 
@@ -145,7 +194,10 @@ std::vector<SurfaceInfo> to_infos(const py::sequence& list) {
 
 void bind_surface(py::module_& module) {
     py::class_<Surface, std::shared_ptr<Surface>> bound(module, "Surface");
-    bound.def(py::init(&judged_surface), "vertices"_a, "triangles"_a, "name"_a, "role"_a, "frame"_a)
+    bound
+        .def(py::init(&judged_surface), "vertices"_a, "triangles"_a, "name"_a, "role"_a, "frame"_a,
+             "values"_a)
+        .def_property_readonly("values", &from_values)
         .def("described_anew", &described_anew, "name"_a, "role"_a, "frame"_a)
         .def_property_readonly("name", [](const Surface& s) { return to_text(s.name); })
         .def_property_readonly("role", [](const Surface& s) { return to_text(name_of(s.role)); })

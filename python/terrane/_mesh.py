@@ -51,8 +51,16 @@ class Mesh(Result):
         "Edges at which surfaces meet: ndarray, shape (k, 2), uint32, vertices, the lower first.")
     is_proven = Part[bool]("Whether exact predicates have shown that the doubles are a conforming mesh.")
 
-    def split(self) -> List[Surface]:
+    def split(self, surfaces: Any = ()) -> List[Surface]:
         """Return the surfaces of the mesh as surfaces of their own.
+
+        Parameters
+        ----------
+        surfaces : surfaces, optional
+            Those that the mesh was made of, in their order: their ``point_data`` and ``cell_data`` are carried to the
+            result. A vertex at the place of a given one has the same value. At others, floating-point values are linear
+            in the nearest triangle; there is none (NaN) where a corner has none. Other numbers and texts are those of
+            the nearest corner, and values of triangles those of the triangle nearest to the centre.
 
         Examples
         --------
@@ -60,8 +68,15 @@ class Mesh(Result):
         >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]], "top")
         >>> terrane.mesh([flat]).split() == [flat]
         True
+        >>> flat = flat.replace(point_data={"height": [1.0, 5.0, 1.0]})
+        >>> wall = terrane.Surface([[1, 1, -1], [1, 1, 1], [1, 9, 0]], [[0, 1, 2]], "F1", "fault")
+        >>> mesh = terrane.round(terrane.arrange([flat, wall])).mesh
+        >>> part = mesh.split([flat, wall])[0]
+        >>> bool((part.point_data["height"] == 1 + part.vertices[:, 0]).all())
+        True
         """
-        return [surface_of_parts(parts) for parts in _core.surfaces_of_mesh(self._core)]
+        given = parts_of_surfaces(as_surfaces(surfaces))
+        return [surface_of_parts(parts) for parts in _core.surfaces_of_mesh(self._core, given)]
 
     def quality(self, *, threads: Optional[int] = None, progress: Any = None) -> Dict[str, Any]:
         """Return the quality of the triangles: q = 2 r / R, angles in degrees, edge lengths.

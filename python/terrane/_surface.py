@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple
+import warnings
+from collections.abc import Mapping as MappingOf
+from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -59,6 +61,9 @@ class Surface:
     role : {"unknown", "horizon", "fault", "boundary"}, optional
         What the surface is to the geologist.
 
+    point_data, cell_data : mapping of str to array_like, shape (n,) or (n, k), optional
+        Values per vertex and per triangle: numbers of any type, or texts. Files have them and get them.
+
     Raises
     ------
     terrane.Error
@@ -80,10 +85,13 @@ class Surface:
     __slots__ = ("_core",)
 
     def __init__(self, vertices: Any, triangles: Any, name: str = "", role: str = "unknown",
-                 frame: Optional[Frame] = None) -> None:
+                 frame: Optional[Frame] = None, point_data: Optional[Mapping[str, Any]] = None,
+                 cell_data: Optional[Mapping[str, Any]] = None) -> None:
         place = f"{name}: " if as_text(name, "name") else ""
-        self._core = _core.Surface(as_points(vertices, place + "vertices"), as_triangles(triangles, place + "triangles"),
-                                   name, as_role(role), _as_frame(frame))
+        points, corners = as_points(vertices, place + "vertices"), as_triangles(triangles, place + "triangles")
+        values = (_as_values(point_data, len(points), False, place + "point_data")
+                  + _as_values(cell_data, len(corners), True, place + "cell_data"))
+        self._core = _core.Surface(points, corners, name, as_role(role), _as_frame(frame), values)
 
     @classmethod
     def _of(cls, core: _core.Surface) -> "Surface":
@@ -97,6 +105,37 @@ class Surface:
     name = Part[str]("The name; may be empty.")
     role = Part[str]("One of `terrane.ROLES`.")
     frame = Part[Frame]("The statements of a file about the coordinates.", Frame._make)
+
+    @property
+    def point_data(self) -> Dict[str, Any]:
+        """The values per vertex by their names: ndarrays, shape (n,) or (n, k), of their own types.
+
+        Examples
+        --------
+        >>> import terrane
+        >>> flat = ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        >>> s = terrane.Surface(*flat, point_data={"porosity": [0.1, 0.2, 0.3]}, cell_data={"rock": ["clay"]})
+        >>> s.point_data["porosity"]
+        array([0.1, 0.2, 0.3])
+        >>> s.cell_data["rock"][0]
+        'clay'
+        """
+        return _shown_values(self._core.values, False)
+
+    @property
+    def cell_data(self) -> Dict[str, Any]:
+        """The values per triangle by their names: ndarrays, shape (m,) or (m, k), of their own types."""
+        return _shown_values(self._core.values, True)
+
+    @property
+    def units(self) -> Dict[str, str]:
+        """The units of values by their names, where the file states one."""
+        return {name: unit for name, _, _, unit, _, _ in self._core.values if unit}
+
+    @property
+    def no_data(self) -> Dict[str, float]:
+        """The numbers that stand for no value, by the names of the values, where the file states one."""
+        return {name: number for name, _, _, _, number, _ in self._core.values if number is not None}
 
     @property
     def bounds(self) -> Tuple[Tuple[float, float, float], Tuple[float, float, float]]:
@@ -115,7 +154,9 @@ class Surface:
         return (float(low[0]), float(low[1]), float(low[2])), (float(high[0]), float(high[1]), float(high[2]))
 
     def replace(self, **changes: Any) -> "Surface":
-        """Return a copy in which some of vertices, triangles, name, role and frame are others.
+        """Return a copy in which some of vertices, triangles, name, role, frame, point_data and cell_data are others.
+
+        With other vertices or triangles it has only the values that are given.
 
         Examples
         --------
@@ -125,13 +166,17 @@ class Surface:
         <Surface 'F1': fault, 3 vertices, 1 triangle>
         """
         values: Dict[str, Any] = {"vertices": self.vertices, "triangles": self.triangles,
-                                  "name": self.name, "role": self.role, "frame": self.frame}
+                                  "name": self.name, "role": self.role, "frame": self.frame,
+                                  "point_data": None, "cell_data": None}
         unknown = set(changes) - set(values)
         if unknown:
             raise TypeError(f"a surface has no {', '.join(sorted(unknown))}")
         values.update(changes)
         if changes.keys() & {"vertices", "triangles"}:
             return Surface(**values)
+        if changes.keys() & {"point_data", "cell_data"}:
+            return Surface(**{**values, **{data: changes.get(data, getattr(self, data))
+                                           for data in ("point_data", "cell_data")}})
         return Surface._of(self._core.described_anew(as_text(values["name"], "name"), as_role(values["role"]),
                                                      _as_frame(values["frame"])))
 
@@ -145,10 +190,12 @@ class Surface:
         >>> terrane.read("top.obj")[0].name
         'top'
         """
-        _core.write_mesh(_core.concatenate([self._core]), path, as_format(format), False, True, how(1, None))
+        left_out = _core.write_surfaces([self._core], path, as_format(format), how(1, None))
+        if left_out:
+            warnings.warn(f"{path!s}: the format has no place for these values: {', '.join(left_out)}", stacklevel=2)
 
     def to_pyvista(self) -> Any:
-        """Return a ``pyvista.PolyData``. Needs PyVista.
+        """Return a ``pyvista.PolyData`` with the values. Needs PyVista.
 
         Examples
         --------
@@ -157,7 +204,12 @@ class Surface:
         >>> surface.to_pyvista().points.shape
         (3, 3)
         """
-        return polydata(self.vertices, self.triangles, {})
+        made = polydata(self.vertices, self.triangles, {})
+        for name, values in self.point_data.items():
+            made.point_data[name] = np.array(values)
+        for name, values in self.cell_data.items():
+            made.cell_data[name] = np.array(values)
+        return made
 
     def to_meshio(self) -> Any:
         """Return a ``meshio.Mesh``. Needs meshio.
@@ -187,7 +239,8 @@ class Surface:
             return NotImplemented
         return bool(self.name == other.name and self.role == other.role and self.frame == other.frame
                     and np.array_equal(self.vertices, other.vertices)
-                    and np.array_equal(self.triangles, other.triangles))
+                    and np.array_equal(self.triangles, other.triangles)
+                    and _are_same(self._core.values, other._core.values))
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -198,8 +251,8 @@ class Surface:
         return self  # nobody can change it
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        return Surface, (np.array(self.vertices), np.array(self.triangles), self.name, self.role,
-                         tuple(self.frame))
+        return _made_of_state, (np.array(self.vertices), np.array(self.triangles), self.name, self.role,
+                                tuple(self.frame), [(*v[:2], np.array(v[2]), *v[3:]) for v in self._core.values])
 
     def __repr__(self) -> str:
         return (f"<Surface {self.name!r}: {self.role}, {counted(len(self.vertices), 'vertex')}, "
@@ -209,6 +262,74 @@ class Surface:
         return card("Surface " + self.name,
                     {"role": self.role, "vertices": len(self.vertices), "triangles": len(self.triangles)},
                     self.vertices, self.triangles)
+
+
+def _made_of_state(vertices: Any, triangles: Any, name: str, role: str, frame: Any, values: List[Any]) -> Surface:
+    """Return the surface of a pickle."""
+    made = Surface(vertices, triangles, name, role, frame)
+    if values:
+        data: Tuple[Dict[str, Any], Dict[str, Any]] = ({}, {})
+        for value in values:
+            data[1 if value[1] else 0][as_text(value[0], "name")] = value[2]
+        judged = (_as_values(data[0], len(made.vertices), False, "point_data")
+                  + _as_values(data[1], len(made.triangles), True, "cell_data"))
+        texts = {(v[0], v[1]): [as_text(t, "text") for t in v[5]] for v in values}
+        extras = {(v[0], v[1]): (as_text(v[3], "unit"), v[4] if v[4] is None else float(v[4])) for v in values}
+        made._core = _core.Surface(made.vertices, made.triangles, name, role, _as_frame(frame), [
+            (of, on, rows, *extras[of, on], _as_texts(texts[of, on], rows)) for of, on, rows, _, _, _ in judged])
+    return made
+
+
+def _as_texts(texts: List[str], codes: Any) -> List[str]:
+    """Return texts of which codes are the indices."""
+    if texts and codes.size and not (0 <= int(codes.min()) and int(codes.max()) < len(texts)):
+        raise Error("bad_index", "codes name texts that do not exist", "values")
+    return texts
+
+
+def _as_values(data: Optional[Mapping[str, Any]], count: int, on_triangles: bool, place: str) -> List[Tuple[Any, ...]]:
+    """Return arrays of values as the extension module takes them; texts become codes."""
+    found: List[Tuple[Any, ...]] = []
+    if data is not None and not isinstance(data, MappingOf):
+        raise TypeError(f"{place} is a mapping of names to arrays, not {type(data).__name__}")
+    for name, given in (data or {}).items():
+        as_text(name, place)
+        at = f"{place}[{name!r}]"
+        array = np.asarray(given)
+        texts: List[str] = []
+        if array.dtype.kind in "OU" and array.size and all(isinstance(text, str) for text in array.reshape(-1)):
+            words, codes = np.unique(array.astype(str), return_inverse=True)
+            texts, array = words.tolist(), codes.reshape(array.shape).astype(np.int32)
+        if array.dtype.kind == "b":
+            array = array.astype(np.uint8)
+        if array.dtype.kind not in "fiu" or array.dtype.itemsize not in (1, 2, 4, 8) or array.dtype == np.float16:
+            raise bad_option(f"must be numbers of at most 64 bits, or texts, not {array.dtype}", at)
+        if array.ndim not in (1, 2) or len(array) != count or (array.ndim == 2 and array.shape[1] == 0):
+            raise bad_option(f"must have the shape ({count},) or ({count}, k), not {array.shape}", at)
+        rows = np.ascontiguousarray(array.reshape(count, -1 if count else 1), dtype=array.dtype.newbyteorder("="))
+        found.append((as_text(name, place), on_triangles, rows, "", None, texts))
+    return found
+
+
+def _shown_values(values: List[Any], on_triangles: bool) -> Dict[str, Any]:
+    """Return the arrays of values by their names, read-only."""
+    shown: Dict[str, Any] = {}
+    for name, is_on_triangles, rows, _, _, texts in values:
+        if is_on_triangles != on_triangles:
+            continue
+        array = rows[:, 0] if rows.shape[1] == 1 else rows
+        if texts:
+            array = np.array(texts, dtype=object)[array]
+            array.setflags(write=False)
+        shown[name] = array
+    return shown
+
+
+def _are_same(one: List[Any], other: List[Any]) -> bool:
+    """Tell whether values are equal; no value (NaN) is equal to none."""
+    return len(one) == len(other) and all(
+        (*a[:2], *a[3:]) == (*b[:2], *b[3:]) and a[2].dtype == b[2].dtype
+        and np.array_equal(a[2], b[2], equal_nan=a[2].dtype.kind == "f") for a, b in zip(one, other))
 
 
 def _as_frame(value: Any) -> Frame:
@@ -262,6 +383,16 @@ def _parts_of(value: Any) -> Optional[Tuple[Any, Any]]:
     return None
 
 
+def _data_of(value: Any) -> Tuple[Dict[str, Any], Dict[str, Any]]:
+    """Return the values of a pyvista.PolyData per point and per cell, but for normals."""
+    if not hasattr(value, "points") or not hasattr(value, "faces"):
+        return {}, {}
+    kinds = [getattr(value, kind, None) for kind in ("point_data", "cell_data")]
+    data = [{name: np.asarray(array) for name, array in kind.items() if name != "Normals"}
+            if kind is not None and hasattr(kind, "items") else {} for kind in kinds]
+    return data[0], data[1]
+
+
 def as_surface(value: Any, name: Optional[str] = None, role: Optional[str] = None) -> Surface:
     """Return a surface of what has vertices and triangles, whatever package it is from.
 
@@ -289,8 +420,9 @@ def as_surface(value: Any, name: Optional[str] = None, role: Optional[str] = Non
                         "triangles or cells")
     given = getattr(value, "name", "") if name is None else name
     own_role = getattr(value, "role", "unknown") if role is None else role
+    points, cells = _data_of(value)
     return Surface(parts[0], parts[1], given if isinstance(given, str) else "",
-                   own_role if isinstance(own_role, str) and own_role in ROLES else "unknown")
+                   own_role if isinstance(own_role, str) and own_role in ROLES else "unknown", None, points, cells)
 
 
 def as_surfaces(value: Any, place: str = "surfaces") -> List[Surface]:

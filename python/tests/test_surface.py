@@ -290,3 +290,76 @@ def test_one_surface_and_generators():
 def test_import_needs_no_other_package():
     run_python("import sys, terrane; bad = {'pyvista', 'meshio', 'trimesh', 'matplotlib', 'scipy'} & set(sys.modules);"
                "assert not bad, bad")
+
+
+POINT_DATA = {"height": [1.0, 5.0, 1.0, 5.0], "flow": np.arange(12, dtype=np.float32).reshape(4, 3),
+              "code": np.array([1, 2, 3, 4], dtype=">u2"), "flag": [True, False, True, False], "rock": ["b", "a", "b", "c"]}
+CELL_DATA = {"number": np.array([2**63 - 1, -2**63])}
+
+
+def with_values():
+    return terrane.Surface(V, T, "top", point_data=POINT_DATA, cell_data=CELL_DATA)
+
+
+def test_values_keep_their_types_and_cannot_be_changed():
+    s = with_values()
+    assert {name: a.dtype.str for name, a in s.point_data.items()} == {
+        "height": "<f8", "flow": "<f4", "code": "<u2", "flag": "|u1", "rock": "|O"}
+    for name, given in POINT_DATA.items():
+        assert np.array_equal(s.point_data[name], given), name
+        with pytest.raises(ValueError):
+            s.point_data[name][0] = s.point_data[name][1]
+    assert s.cell_data["number"].tolist() == [2**63 - 1, -2**63]
+
+
+def test_values_are_part_of_a_surface():
+    s = with_values()
+    assert pickle.loads(pickle.dumps(s)) == s == copy.deepcopy(s)
+    assert s != terrane.Surface(V, T, "top")
+    assert s != s.replace(cell_data={"number": np.array([1, 2])})
+    assert s.replace(name="a").point_data.keys() == s.point_data.keys()
+    assert s.replace(point_data={}).cell_data.keys() == {"number"}
+    assert not s.replace(triangles=T[:1]).point_data
+
+
+def test_values_of_files(tmp_path):
+    s = with_values()
+    s.save(tmp_path / "a.vtp")
+    read = terrane.read(tmp_path / "a.vtp")[0]
+    assert read.point_data["rock"].tolist() == POINT_DATA["rock"]
+    assert np.array_equal(read.point_data["flow"], POINT_DATA["flow"])
+    assert read.cell_data["number"].tolist() == [2**63 - 1, -2**63]
+    with pytest.warns(UserWarning, match="no place for these values: height, flow, code, flag, rock, number"):
+        s.save(tmp_path / "a.off")
+    (tmp_path / "b.ts").write_text("GOCAD TSurf 1\nHEADER {\nname:b\n}\nPROPERTIES p\nUNITS m\nNO_DATA_VALUES -9\nTFACE\n"
+                                   "PVRTX 1 0 0 0 1\nPVRTX 2 1 0 0 -9\nPVRTX 3 0 1 0 3\nTRGL 1 2 3\nEND\n")
+    b = terrane.read(tmp_path / "b.ts")[0]
+    assert (b.point_data["p"].tolist(), b.units, b.no_data) == ([1, -9, 3], {"p": "m"}, {"p": -9})
+    assert pickle.loads(pickle.dumps(b)).no_data == b.no_data
+
+
+def test_values_are_carried_to_a_mesh():
+    wall = terrane.Surface([[1, 1, -9], [1, 1, 9], [1, 9, 0]], [[0, 1, 2]], "F1")
+    s = with_values()
+    mesh = terrane.round(terrane.arrange([s, wall])).mesh
+    top, cut = mesh.split([s, wall])
+    assert not cut.point_data and not mesh.split()[0].point_data
+    assert np.allclose(top.point_data["height"], 1 + top.vertices[:, 0], rtol=0, atol=1e-14)
+    assert set(top.point_data["rock"]) == {"a", "b", "c"}
+    assert len(top.triangles) > 2
+    assert set(top.cell_data["number"].tolist()) == {2**63 - 1, -2**63}
+
+
+def test_values_to_and_from_pyvista(pyvista):
+    made = with_values().to_pyvista()
+    assert made.point_data["height"].tolist() == POINT_DATA["height"]
+    assert made.cell_data["number"].tolist() == [2**63 - 1, -2**63]
+    assert terrane.as_surface(made, name="top") == with_values()
+
+
+@pytest.mark.parametrize("values", [[1, 2], [1, 2, 3, 1j], np.zeros((4, 0)), np.zeros((4, 1, 1)), [None] * 4, 3])
+def test_values_that_are_refused(values):
+    with pytest.raises(terrane.Error) as e:
+        terrane.Surface(V, T, "top", point_data={"a": values})
+    assert e.value.code == "bad_option"
+    assert e.value.place == "top: point_data['a']"

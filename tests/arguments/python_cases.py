@@ -183,7 +183,9 @@ FUNCTIONS = {
 METHODS = {
     "Surface": (lambda f: f.surfaces[0], {
         "": (lambda f: dict(vertices=f.surfaces[0].vertices, triangles=f.surfaces[0].triangles),
-             {"name": "a", "role": "fault", "frame": None}),
+             {"name": "a", "role": "fault", "frame": None,
+              "point_data": lambda f: {"z": f.surfaces[0].vertices[:, 2]},
+              "cell_data": lambda f: {"first": f.surfaces[0].triangles[:, 0]}}),
         "replace": (lambda f: {}, {"vertices": lambda f: f.surfaces[0].vertices + 1, "name": "other", "role": "fault",
                                    "triangles": lambda f: f.surfaces[0].triangles[:4], "frame": None}),
         "save": (lambda f: dict(path="s.obj"), {"format": "off"})}),
@@ -196,7 +198,7 @@ METHODS = {
         "save": (lambda f: dict(path="r.vtp"), {"format": "obj", "keep_unverified": None, "ascii": None, "compress": False})}),
     "Mesh": (lambda f: f.model.mesh, {
         "save": (lambda f: dict(path="m.vtp"), {"format": "obj", "ascii": None, "compress": False}),
-        "quality": (lambda f: {}, {})}),
+        "quality": (lambda f: {}, {}), "split": (lambda f: {}, {"surfaces": lambda f: f.surfaces})}),
     "Volumes": (lambda f: f.volumes, {
         "exact": (lambda f: {}, {}), "points": (lambda f: {}, {}), "locate": (lambda f: dict(points=[(1, 1, 0)]), {})}),
     "Filled": (lambda f: f.filled, {"save": (lambda f: dict(path="f.obj"), {"format": "off"}),

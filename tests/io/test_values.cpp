@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <terrane/algorithms/mesh/carry.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/plausibility/plausibility.hpp>
 #include <terrane/io/files.hpp>
@@ -77,13 +78,25 @@ TEST_CASE("values: each format that has them gives them") {
     const std::string ts = "GOCAD TSurf 1\nHEADER {\nname:a\n}\n" + properties +
                            "TFACE\nPVRTX 1 0 0 0 .2 .5 7 1 2 3 CNXYZ\nVRTX 2 1 0 0\n"
                            "PVRTX 3 0 1 0 -99999 nan 1e38 4\nATOM 4 1\nTRGL 1 2 3\nEND\n";
-    CHECK(arrays_in(ts, Format::gocad) == Names{"Poro: 0.2 nan -99999", "net to gross: 0.5 nan nan",
-                                                "flow: 1 2 3 nan nan nan 4 nan nan"});
+    const Names meant{"Poro: 0.2 nan -99999", "net to gross: 0.5 nan nan", "Z: 7 nan 1e+38",
+                      "flow: 1 2 3 nan nan nan 4 nan nan"};
+    CHECK(arrays_in(ts, Format::gocad) == meant);
     const auto arrays = surface_in(ts, Format::gocad).arrays;
     CHECK(arrays[0].no_data == -99999);
     CHECK(arrays[1].unit == "m 3");
     CHECK(arrays[1].no_data == -1);
-    CHECK(arrays[2].components == 3);
+    CHECK_FALSE(arrays[2].no_data);
+    CHECK(arrays[3].components == 3);
+    const std::string vs = "GOCAD VSet 1\n" + ts.substr(ts.find("HEADER"));
+    CHECK(arrays_in(vs.substr(0, vs.find("ATOM")) + "END\n", Format::vset) == meant);
+    const std::string csv = "x_m;y_m;Elevation;Poro;rock type;mixed;thick_ft\n0;0;0;.5;clay;1;2\n"
+                            "1;0;0;;sand;a;3\n0;1;0;.25;clay;2\n0;9;-9999;7;chalk;2;2\n";
+    CHECK(arrays_in(csv, Format::xyz) ==
+          Names{"Poro: 0.5 nan 0.25", "rock type: 0 1 0 int32", "thick: 2 3 nan"});
+    CHECK(values_in(csv, Format::xyz) == Names{"mixed"});
+    const auto columns = surface_in(csv, Format::xyz).arrays;
+    CHECK(columns[1].texts == Names{"clay", "sand"});
+    CHECK(columns[2].unit == "ft");
     CHECK(arrays_in("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                     "property float z\nproperty float quality\nelement face 1\n"
                     "property list uchar int vertex_indices\nproperty uchar red\nelement edge 0\n"
@@ -166,7 +179,7 @@ Surface with_arrays() {
                  .on_triangles = true,
                  .type = NumberType::int16,
                  .numbers = std::vector<std::int64_t>{-5, 300}},
-                {.name = "flag",
+                {.name = "z",
                  .type = NumberType::uint8,
                  .numbers = std::vector<std::int64_t>{0, 255, 1, 0}}};
     return s;
@@ -198,11 +211,11 @@ TEST_CASE("values: what is written reads back as the same, with types, units and
     CHECK(gocad[2].numbers == decltype(ValueArray::numbers)(std::vector<double>{0, 255, 1, 0}));
     const auto msh41 = arrays_in(written_as(s, Format::msh), Format::msh);
     CHECK(msh41 == Names{"net to gross: 0.1 1e-300 nan 0.3", "flow: 1 2 3 4 5 6 7 8 9 10 11 0.25",
-                         "code of triangles: -5 300", "flag: 0 255 1 0"});
+                         "code of triangles: -5 300", "z: 0 255 1 0"});
     CHECK(msh41 == arrays_in(written_as(s, Format::msh22), Format::msh));
     CHECK(values_left_out(Format::gocad, values_of(std::span(&s, 1))) == Names{"code"});
     CHECK(values_left_out(Format::off, values_of(std::span(&s, 1))) ==
-          Names{"net to gross", "flow", "code", "flag"});
+          Names{"net to gross", "flow", "code", "z"});
 }
 
 TEST_CASE("values: integers of 64 bits and texts keep all digits in VTK files") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/meshes/detail/vtk_data.hpp>
 
+#include <algorithm>
 #include <array>
 #include <new>
 #include <type_traits>
@@ -184,6 +185,15 @@ std::optional<std::string> convert_to(std::string_view bytes, std::string_view t
 }
 
 } // namespace
+
+std::optional<NumberType> number_type_named(std::string_view name) {
+    constexpr std::array<std::string_view, 10> types{
+        "Float64", "Float32", "Int8",   "UInt8", "Int16",
+        "UInt16",  "Int32",   "UInt32", "Int64", "UInt64"}; // in the order of NumberType
+    const auto* const found = std::ranges::find(types, name);
+    if (found == types.end()) return std::nullopt;
+    return static_cast<NumberType>(found - types.begin());
+}
 
 std::optional<std::string> decode_vtk(std::string_view text, bool base64, std::size_t at,
                                       const VtkEncoding& encoding, std::string& bytes,

@@ -12,7 +12,12 @@
 #include <string_view>
 #include <vector>
 
+#include <terrane/algorithms/mesh/surface.hpp>
+
 namespace terrane::detail {
+
+/// Returns the type of number with this name in VTK's XML files.
+std::optional<NumberType> number_type_named(std::string_view name);
 
 /// How a file stores the bytes of its arrays.
 struct VtkEncoding {

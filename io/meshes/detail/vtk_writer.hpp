@@ -11,7 +11,6 @@
 
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
-#include <terrane/algorithms/mesh/values.hpp>
 #include <terrane/io/meshes/cell_array.hpp>
 
 namespace terrane::detail {

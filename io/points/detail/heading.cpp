@@ -21,8 +21,9 @@ constexpr std::size_t most_columns = 64;
 
 /// A column called "Depth (ft)" has the name "depth" and the unit "ft".
 struct Column {
-    std::string name; ///< in small letters
-    std::string unit; ///< empty: none
+    std::string name;      ///< in small letters
+    std::string unit;      ///< empty: none
+    std::string spelled{}; ///< the name as in the heading
 };
 
 /// Returns the unit in "(m)" or "[ft]"; empty if there is none.
@@ -38,12 +39,14 @@ Column column_called(std::string_view text) {
     text = trimmed(text);
     if (const auto bracket = text.find_first_of("(["); bracket != std::string_view::npos)
         if (auto unit = unit_in_brackets(text.substr(bracket)); !unit.empty())
-            return {lower(trimmed(text.substr(0, bracket))), std::move(unit)};
+            return {lower(trimmed(text.substr(0, bracket))), std::move(unit),
+                    std::string(trimmed(text.substr(0, bracket)))};
     if (const auto end = text.rfind('_'); end != std::string_view::npos && end > 0) {
         auto unit = unit_named(text.substr(end + 1));
-        if (metres_in(unit)) return {lower(text.substr(0, end)), std::move(unit)};
+        if (metres_in(unit))
+            return {lower(text.substr(0, end)), std::move(unit), std::string(text.substr(0, end))};
     }
-    return {lower(text), {}};
+    return {lower(text), {}, std::string(text)};
 }
 
 char delimiter_of(std::string_view line) {
@@ -144,6 +147,10 @@ std::optional<Heading> heading_of(const std::vector<Column>& columns, char delim
     if (!x || !y || !z) return std::nullopt;
     heading.xyz = {*x, *y, *z};
     heading.columns = columns.size();
+    for (const Column& column : columns) {
+        heading.names.push_back(column.spelled);
+        heading.units.push_back(column.unit);
+    }
     constexpr std::array<std::string_view, 6> surfaces{"surface", "formation", "horizon",
                                                        "fault",   "unit",      "name"};
     heading.name = place_of(columns, surfaces);

@@ -26,6 +26,8 @@ struct Heading {
     std::array<std::size_t, 3> xyz{};  ///< columns of x, y and z
     std::optional<std::size_t> name{}; ///< column with names of surfaces
     std::size_t columns = 0;           ///< how many it names
+    std::vector<std::string> names{};  ///< of all columns, as spelled, without units; or none
+    std::vector<std::string> units{};  ///< of all columns; empty: not stated
     char delimiter = ' ';              ///< ' ': blanks, commas and semicolons
     Role role = Role::unknown; ///< of the surfaces, as the column with their names is called
     CoordinateFrame frame{};   ///< units, and whether z is called depth

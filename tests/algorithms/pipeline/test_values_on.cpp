@@ -11,6 +11,7 @@
 
 #include "support/work_count.hpp"
 #include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/algorithms/mesh/values.hpp>
 #include <terrane/algorithms/pipeline/build.hpp>
 
 namespace values_on_test {
@@ -109,13 +110,21 @@ TEST_CASE("values: a linear function is exact at all vertices after each stage",
     const auto better = check_values(values_on(*built, improved), improved, numbers);
     CHECK(better > arranged);
 #ifdef TERRANE_HAS_TETGEN
-    const TetrahedralMesh& t = built->filled->tetrahedra;
-    Mesh faces;
-    faces.surfaces = t.surfaces;
-    faces.vertices = t.vertices;
-    faces.triangles = t.faces;
-    faces.surfaces_of = t.surfaces_of;
-    CHECK(check_values(values_on(*built, t), faces, numbers) > 0);
+    const auto check_faces = [&](const Built& made) {
+        const TetrahedralMesh& t = made.filled->tetrahedra;
+        Mesh faces;
+        faces.surfaces = t.surfaces;
+        faces.vertices = t.vertices;
+        faces.triangles = t.faces;
+        faces.surfaces_of = t.surfaces_of;
+        CHECK(check_values(values_on(made, t), faces, numbers) > 0);
+    };
+    check_faces(*built);
+    project.improve = {};
+    project.tetrahedra.options.edge_length = 1;
+    const auto as_given = build(project, {.surfaces = model_with_values()});
+    if (!as_given) FAIL(as_given.error().message());
+    check_faces(*as_given);
 #endif
 }
 
@@ -196,6 +205,52 @@ TEST_CASE("values: vertices that are there still keep their bits, and NaN and no
         else
             CHECK(v[i] == -9); // a corner that counts has no value
     }
+}
+
+TEST_CASE("values: a corner without a value does not count on the edge that is opposite",
+          "[values]") {
+    Surface a{"a", Role::horizon, {{0.1, 0.3, 0.7}, {4.1, 0.7, 0.9}, {0.3, 4.9, 0.2}}, {{0, 1, 2}}},
+        b{"b", Role::fault, {{1.3, -9, -9}, {1.7, -9, 9}, {1.1, 9, 0}}, {{0, 1, 2}}};
+    a.arrays = {{.name = "v", .numbers = std::vector<double>{1, 2, std::nan("")}}};
+    Project project;
+    project.last = BuildStage::arrange;
+    const auto built = build(project, {.surfaces = {a, b}});
+    REQUIRE(built);
+    const auto values = values_on(*built, *built->arranged.rounded.mesh);
+    const auto& v = reals(values[0][0]);
+    CHECK(std::ranges::count_if(v, [](double n) { return n > 1 && n < 2; }) == 1);
+    CHECK(std::ranges::count_if(v, [](double n) { return std::isnan(n); }) == 2);
+}
+
+TEST_CASE("values: surfaces that were joined have the values of the nearest point", "[values]") {
+    const auto square = [](const std::string& name, double z, std::uint32_t n) {
+        Surface s{name, Role::horizon, {}, {}};
+        for (std::uint32_t j = 0; j <= n; ++j)
+            for (std::uint32_t i = 0; i <= n; ++i)
+                s.vertices.push_back({8.0 * i / n, 8.0 * j / n, z + 0.01 * ((i + j) % 2)});
+        for (std::uint32_t j = 0; j < n; ++j)
+            for (std::uint32_t i = 0; i < n; ++i) {
+                const std::uint32_t v = (n + 1) * j + i;
+                s.triangles.push_back({v, v + 1, v + n + 2});
+                s.triangles.push_back({v, v + n + 2, v + n + 1});
+            }
+        add_values(s, 4);
+        return s;
+    };
+    Project project;
+    project.last = BuildStage::arrange;
+    project.tolerance = 0.1;
+    const auto built = build(project, {.surfaces = {square("a", 4, 5), square("b", 4.02, 7)}});
+    REQUIRE(built);
+    REQUIRE(built->arranged.joined->is_joined);
+    const Mesh& mesh = *built->arranged.rounded.mesh;
+    const auto values = values_on(*built, mesh);
+    const auto surfaces = surfaces_of_mesh(mesh);
+    std::size_t count = 0;
+    for (std::size_t s = 0; s < 2; ++s)
+        for (std::size_t v = 0; v < surfaces[s].vertices.size(); ++v, ++count)
+            CHECK(std::fabs(reals(values[s][0])[v] - linear(surfaces[s].vertices[v])) < 0.1 * 4);
+    CHECK(count > 0);
 }
 
 TEST_CASE("values: where triangles of a surface overlap, the first parent has the values",
