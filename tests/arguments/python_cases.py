@@ -198,7 +198,9 @@ METHODS = {
         "save": (lambda f: dict(path="r.vtp"), {"format": "obj", "keep_unverified": None, "ascii": None, "compress": False})}),
     "Mesh": (lambda f: f.model.mesh, {
         "save": (lambda f: dict(path="m.vtp"), {"format": "obj", "ascii": None, "compress": False}),
-        "quality": (lambda f: {}, {}), "split": (lambda f: {}, {"surfaces": lambda f: f.surfaces})}),
+        "quality": (lambda f: {}, {}),
+        "split": (lambda f: {}, {"surfaces": lambda f: [s.replace(point_data={"z": s.vertices[:, 2]})
+                                                        for s in f.surfaces]})}),
     "Volumes": (lambda f: f.volumes, {
         "exact": (lambda f: {}, {}), "points": (lambda f: {}, {}), "locate": (lambda f: dict(points=[(1, 1, 0)]), {})}),
     "Filled": (lambda f: f.filled, {"save": (lambda f: dict(path="f.obj"), {"format": "off"}),
