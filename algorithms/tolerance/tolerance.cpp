@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <utility>
 
@@ -40,6 +41,12 @@ struct Owned {
         for (std::uint32_t v = 0; v < exact.vertices.size(); ++v)
             all.push_back(exact.nearest(VertexId(v)));
         return all;
+    }
+    [[nodiscard]] bool has_near_vertices(double bound) const {
+        std::vector<Triangle> kept;
+        for (std::size_t t = 0; t < owners.size(); ++t)
+            if (!owners[t].empty()) kept.push_back(exact.triangles[t]);
+        return !near_vertices(places(), kept, bound).empty();
     }
     [[nodiscard]] Pieces pieces(std::span<const Point3> places) const {
         return {exact.triangles, exact.parents_of, places};
@@ -135,17 +142,19 @@ Result<std::size_t> thin_blocks(const Mesh& mesh, double bound, const Run& run) 
     return thin;
 }
 
-/// Surfaces that were joined once, and whether rounding made thin blocks.
+/// Surfaces that were joined once, and what rounding made of them.
 struct JoinedOnce {
     JoinedSurfaces joined;
-    bool is_clean = true; ///< conforming
-    bool is_thin = false;
+    bool is_clean = true;            ///< conforming
+    bool is_thin = false;            ///< has thin blocks
+    std::map<Point3, Point3> near{}; ///< where near vertices go
 };
 
-/// Joins surfaces that move by no more than about `bound`. is_first: else only cells that surfaces
-/// enclose are thin, which rounding made.
-Result<JoinedOnce> join_once(const std::vector<Surface>& given, double bound, bool is_first,
-                             const ToleranceOptions& options, const Run& run) {
+/// Joins surfaces that move by no more than about `bound`. `last`: of the last pass; then only cells that
+/// surfaces enclose are thin, which rounding made.
+Result<JoinedOnce> join_once(const std::vector<Surface>& given, double bound,
+                             const JoinedOnce* last, const ToleranceOptions& options,
+                             const Run& run) {
     JoinedOnce once{{given, {}}};
     JoinedSurfaces& joined = once.joined;
     std::vector<bool> closed;
@@ -153,11 +162,15 @@ Result<JoinedOnce> join_once(const std::vector<Surface>& given, double bound, bo
         closed.push_back(std::ranges::all_of(
             edges_of(s), [](const SurfaceEdge& e) { return e.sides.size() % 2 == 0; }));
     auto all = given;
-    if (is_first) {
+    if (last) {
+        join_near_vertices(all, last->near);
+        joined.report.vertices = last->near.size();
+        all.emplace_back();
+    } else {
         snap_near_vertices(all, bound);
         joined.report.vertices = join_curves(all, tuning.curve_share * bound);
+        all.push_back(fences_of(all, bound));
     }
-    all.push_back(is_first ? fences_of(all, bound) : Surface{});
     auto exact = arrange(all, options.arrange, run);
     if (!exact) return exact.error();
     auto found = join_thin_cells(*exact, closed, bound, run);
@@ -165,8 +178,9 @@ Result<JoinedOnce> join_once(const std::vector<Surface>& given, double bound, bo
     joined.report.cells = found->cells;
     joined.report.volume = found->volume;
     joined.report.left = std::move(found->left);
-    if (found->cells == 0 && joined.report.vertices == 0) return once;
     Owned owned{std::move(*exact), std::move(found->owners)};
+    if (found->cells == 0 && joined.report.vertices == 0 && !owned.has_near_vertices(bound))
+        return once;
     auto fewer = arrange_needed(std::move(all), owned, closed, options, run);
     if (!fewer) return fewer.error();
     if (are_closed(fewer->pieces(fewer->places()), fewer->owners, closed, run))
@@ -189,15 +203,17 @@ Result<JoinedOnce> join_once(const std::vector<Surface>& given, double bound, bo
     const auto thin = thin_blocks(mesh, bound, run);
     if (!thin) return thin.error();
     once.is_thin = *thin > joined.report.left.size();
+    once.near = near_vertices(mesh.vertices, mesh.triangles, bound);
     return once;
 }
 
-/// Joins surfaces until nothing thin is left that can be joined.
+/// Joins surfaces until nothing thin or short is left that can be joined.
 Result<JoinedOnce> join_by(const std::vector<Surface>& surfaces, double bound,
                            const ToleranceOptions& options, const Run& run) {
-    auto all = join_once(surfaces, bound, true, options, run);
-    for (unsigned pass = 1; all && all->is_thin && pass < tuning.most_passes; ++pass) {
-        auto once = join_once(all->joined.surfaces, bound, false, options, run);
+    auto all = join_once(surfaces, bound, nullptr, options, run);
+    for (unsigned pass = 1;
+         all && (all->is_thin || !all->near.empty()) && pass < tuning.most_passes; ++pass) {
+        auto once = join_once(all->joined.surfaces, bound, &*all, options, run);
         if (!once) return once;
         // What rounding makes of narrow gaps may be worse than they were.
         if (!once->joined.report.is_joined || !once->is_clean || run.stop.stop_requested()) break;
@@ -237,7 +253,7 @@ Result<JoinedSurfaces> join_within(std::vector<Surface> surfaces, const Toleranc
         for (double bound = options.tolerance; bound >= options.tolerance / 4; bound /= 2) {
             auto found = join_by(surfaces, bound, options, inner);
             if (!found) return found.error();
-            auto& [joined, is_clean, is_thin] = *found;
+            JoinedSurfaces& joined = found->joined;
             joined.report.tolerance = options.tolerance;
             for (std::uint32_t s = 0; s < surfaces.size(); ++s)
                 if (joined.surfaces[s].triangles.empty() && !surfaces[s].triangles.empty())
@@ -247,7 +263,7 @@ Result<JoinedSurfaces> join_within(std::vector<Surface> surfaces, const Toleranc
                                    are_within(surfaces, joined.surfaces, options.tolerance, inner));
             if (run.stop.stop_requested())
                 return Error{ErrorCode::interrupted, "stopped on request", ""};
-            if (is_shown && is_clean) return std::move(joined);
+            if (is_shown && found->is_clean) return std::move(joined);
             if (is_shown && best.report.is_refused) best = std::move(joined);
         }
         if (best.report.is_refused) best.surfaces = std::move(surfaces);

@@ -13,6 +13,7 @@ from . import _core
 from ._arrays import Float64Array, Path, UInt32Array, as_count, as_flag, as_format, as_points, as_text, as_triangles, as_word
 from ._errors import Error, bad_option
 from ._interop import meshio_mesh, polydata
+from ._modellers import parts_of_vtk, refuse_internal_coordinates, surfaces_of_model
 from ._picture import card
 from ._results import Part, counted
 from ._run import how
@@ -367,6 +368,10 @@ def _parts_of_meshio(mesh: Any) -> Tuple[Any, Any]:
 
 def _parts_of(value: Any) -> Optional[Tuple[Any, Any]]:
     """Return vertices and triangles of an object, judged by its attributes; None if it has none."""
+    refuse_internal_coordinates(value)
+    vtk = parts_of_vtk(value)
+    if vtk is not None and not hasattr(value, "faces"):  # no pyvista.PolyData
+        return vtk
     if hasattr(value, "vertices") and hasattr(value, "faces"):  # trimesh.Trimesh
         return np.asarray(value.vertices), np.asarray(value.faces)
     if hasattr(value, "points") and hasattr(value, "cells") and hasattr(value, "cell_data"):
@@ -399,9 +404,10 @@ def as_surface(value: Any, name: Optional[str] = None, role: Optional[str] = Non
     Parameters
     ----------
     value : object
-        A `Surface`; a ``pyvista.PolyData`` of triangles; a ``meshio.Mesh``; a ``trimesh.Trimesh``; a surface of
-        LoopStructural (``vertices``, ``triangles``) or GemPy (``vertices``, ``edges`` of three indices); a tuple
-        (vertices, triangles). The packages are not needed: attributes decide.
+        A `Surface`; a ``pyvista.PolyData`` or ``vtkPolyData`` of triangles; a ``meshio.Mesh``; a
+        ``trimesh.Trimesh``; a surface of LoopStructural (``vertices``, ``triangles``) or an element of GemPy
+        (``vertices``, ``edges`` of three indices); a tuple (vertices, triangles), or of the four arrays of
+        ``skimage.measure.marching_cubes``. The packages are not needed: attributes decide.
     name, role : str, optional
         Name and role, instead of those that the object has.
 
@@ -414,7 +420,8 @@ def as_surface(value: Any, name: Optional[str] = None, role: Optional[str] = Non
     if isinstance(value, Surface):
         changes = {k: v for k, v in (("name", name), ("role", role)) if v is not None}
         return value.replace(**changes) if changes else value
-    parts = value if isinstance(value, tuple) and len(value) == 2 else _parts_of(value)
+    # (vertices, triangles), and what else skimage.measure.marching_cubes returns.
+    parts = value[:2] if isinstance(value, tuple) and len(value) in (2, 4) else _parts_of(value)
     if parts is None:
         raise TypeError(f"{type(value).__name__} is no surface: it has no vertices with faces, "
                         "triangles or cells")
@@ -426,7 +433,10 @@ def as_surface(value: Any, name: Optional[str] = None, role: Optional[str] = Non
 
 
 def as_surfaces(value: Any, place: str = "surfaces") -> List[Surface]:
-    """Return a list of surfaces of one surface, a list of them, or a dict of them by name.
+    """Return a list of surfaces of one surface, a list of them, a dict of them by name, or a model.
+
+    A model is a computed ``GeoModel`` of GemPy or a ``GeologicalModel`` of LoopStructural. Its surfaces have the
+    model's names, are horizons or faults, and have the coordinates of the model's data.
 
     Examples
     --------
@@ -444,6 +454,8 @@ def as_surfaces(value: Any, place: str = "surfaces") -> List[Surface]:
         raise TypeError(f"{place} are surfaces, not a name; read files with terrane.read()")
     if isinstance(value, np.ndarray):
         raise TypeError(f"{place} are surfaces, not one array; make terrane.Surface(vertices, triangles)")
+    if (of_model := surfaces_of_model(value)) is not None:
+        return [as_surface(surface, role=role) for surface, role in of_model]
     if _parts_of(value) is not None:
         return [as_surface(value)]
     try:

@@ -115,7 +115,7 @@ print("done", counts)
 @pytest.mark.skipif(SANITIZED, reason="slow")
 @pytest.mark.parametrize("kind", MAKE)
 def test_changed_pickles_never_crash(kind):
-    done = run_python(BATTERY, str(pathlib.Path(__file__).parent), kind, 1, 60, check=False)
+    done = run_python(BATTERY, str(pathlib.Path(__file__).parent), kind, 1, 30, check=False)
     tail = "\n".join(done.stdout.splitlines()[-3:])
     assert done.returncode == 0, f"{tail}\n{done.stderr[-2000:]}"
 

@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Surfaces from arrays of all kinds, and what is refused."""
 
+import contextlib
 import copy
 import gc
+import io
 import pickle
+import re
 
 import numpy as np
 import pytest
 
 import terrane
-from conftest import run_python
+from conftest import BOX, SOURCE, run_python, stack
 
 V = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 1.0], [4.0, 4.0, 2.0]]
 T = [[0, 1, 2], [1, 3, 2]]
@@ -227,6 +230,7 @@ FOREIGN = {
     "LoopStructural": lambda: Plain(vertices=np.array(V), triangles=np.array(T), normals=np.zeros((4, 3)), name="top"),
     "GemPy": lambda: Plain(vertices=np.array(V), edges=np.array(T), name="top"),
     "tuple": lambda: (np.array(V), np.array(T)),
+    "skimage.measure.marching_cubes": lambda: (np.array(V), np.array(T), np.zeros((4, 3)), np.zeros(4)),
     "Surface": lambda: terrane.Surface(V, T),
 }
 
@@ -240,6 +244,64 @@ def test_duck_typing(package):
 @pytest.mark.parametrize("package", FOREIGN)
 def test_stages_take_surfaces_of_other_packages(package):
     assert len(terrane.arrange([FOREIGN[package]()]).triangles) == 2
+
+
+def element(name, vertices=V):
+    return Plain(name=name, vertices=None if vertices is None else np.array(vertices, float), edges=np.array(T))
+
+
+def test_models_of_gempy():
+    groups = [Plain(is_fault=True, elements=[element("F1")]),
+              Plain(is_fault=False, elements=[element("top"), element("basement", None)])]
+    model = Plain(structural_frame=Plain(structural_groups=groups))
+    assert [(s.name, s.role) for s in terrane.as_surfaces(model)] == [("F1", "fault"), ("top", "horizon")]
+    assert len(terrane.arrange(model).surfaces) == 2
+    with pytest.raises(terrane.Error, match="compute it first"):
+        terrane.as_surfaces(Plain(structural_frame=Plain(structural_groups=groups[:0])))
+
+
+def test_meshes_in_internal_coordinates_of_gempy_are_refused():
+    with pytest.raises(terrane.Error, match="internal coordinates"):
+        terrane.arrange([Plain(vertices=np.array(V), edges=np.array(T), dc_data=None)])
+
+
+def test_models_of_loopstructural():
+    surface = Plain(vertices=np.array(V), triangles=np.array(T), name="base of sand")
+    fault = Plain(vertices=np.array(V), triangles=np.array(T), name="F1")
+    model = Plain(get_stratigraphic_surfaces=lambda: [surface], get_fault_surfaces=lambda: [fault])
+    assert [(s.name, s.role) for s in terrane.as_surfaces(model)] == [("base of sand", "horizon"), ("F1", "fault")]
+    with pytest.raises(terrane.Error, match="no surfaces"):
+        terrane.as_surfaces(Plain(get_stratigraphic_surfaces=list, get_fault_surfaces=list))
+
+
+def test_the_page_on_models_of_other_programs():
+    (_, y0, z0), (x1, y1, z1) = BOX
+    groups = [Plain(is_fault=s.role == "fault", elements=[Plain(name=s.name, vertices=s.vertices, edges=s.triangles)])
+              for s in stack()]
+    gempy = Plain(structural_frame=Plain(structural_groups=groups), grid=Plain(extent=(BOX[0][0], x1, y0, y1, z0, z1)))
+    loop = Plain(bounding_box=Plain(origin=BOX[0], maximum=BOX[1]), get_fault_surfaces=lambda: stack()[2:],
+                 get_stratigraphic_surfaces=lambda: stack()[:2])
+    page = (SOURCE / "docs/how-to/coming-from.md").read_text()
+    blocks = re.findall("```python\n(.*?)```", page, re.S)
+    printed = []
+    for block, given in zip(blocks[:2], ({"geo_model": gempy}, {"loop_model": loop}), strict=True):
+        with contextlib.redirect_stdout(io.StringIO()) as out:
+            exec(block, {"terrane": terrane, **given})
+        printed.append(sorted(out.getvalue().splitlines()))
+    assert printed[0] == printed[1] and len(printed[0]) == len(terrane.model(stack(), box=BOX).blocks)
+
+
+def test_polydata_of_vtk():
+    sources = pytest.importorskip("vtkmodules.vtkFiltersSources")
+    plane = sources.vtkPlaneSource()
+    plane.Update()
+    with pytest.raises(terrane.Error, match="vtkTriangleFilter"):
+        terrane.as_surface(plane.GetOutput())
+    filters = pytest.importorskip("vtkmodules.vtkFiltersCore").vtkTriangleFilter()
+    filters.SetInputData(plane.GetOutput())
+    filters.Update()
+    s = terrane.as_surface(filters.GetOutput(), name="plane")
+    assert s.triangles.shape == (2, 3) and s.bounds == ((-0.5, -0.5, 0.0), (0.5, 0.5, 0.0))
 
 
 @pytest.mark.parametrize("kind", ["quad", "polygon", "triangle6"])

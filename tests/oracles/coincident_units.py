@@ -21,7 +21,8 @@ it must then end conforming. The greatest numbers of all models of a row are in 
 With --tolerance F, T is F times the largest distance of a vertex from where it was computed (1e-9 of the model where that
 is less). `terrane volume --tolerance T` must then find exactly the parts of units that hang together, each with the volume
 that its cells have, but for T times the area around it, and no vertex of a surface may be farther than T from where the
-surface was, nor one that was there from the surface; some vertices are tested. With --tetrahedra the blocks are meshed, too.
+surface was, nor one that was there from the surface; some vertices are tested. No edge may be shorter than T / 256.
+With --tetrahedra the blocks are meshed, too.
 
 Prints a line for each model that does not, and a table; status 1 if there is one.
 """
@@ -247,6 +248,12 @@ def moved_too_far(units, path, tolerance, rng):
     return worst if worst > tolerance * (1 + 1e-9) else 0.0
 
 
+def shortest_edge(path):
+    vertices, surfaces = read_surfaces(path)
+    corners = vertices[np.vstack(list(surfaces.values()))]
+    return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=-1).min()
+
+
 def judge_joined(args, made, tolerance, path, folder):
     """(how it ended, what is wrong, statistics, seconds)."""
     units, parts, _ = made
@@ -275,6 +282,9 @@ def judge_joined(args, made, tolerance, path, folder):
     worst = moved_too_far(units, folder / "out.obj", tolerance, np.random.default_rng(1))
     if worst:
         return "failed", "moved by %.3g, tolerance %.3g" % (worst, tolerance), told, seconds
+    shortest = shortest_edge(folder / "out.obj")
+    if shortest < tolerance / 256:
+        return "failed", "an edge of %.3g, tolerance %.3g" % (shortest, tolerance), told, seconds
     return "joined", "", told, seconds
 
 

@@ -59,8 +59,9 @@ Result<FlatHole> FlatHole::of(const Surface& surface, const BorderLoop& loop,
                               std::span<const BorderLoop> loops, std::size_t rings,
                               const Run& run) {
     const double edge = loop.length / std::max(1.0, static_cast<double>(loop.vertices.size()));
-    const double reach = constants.reach * std::sqrt(loop.area / std::numbers::pi);
-    const RingRange range{rings, edge > 0 ? std::floor(reach / edge) : 0};
+    // A surface may be of another kind farther away than the hole is wide.
+    const double radius = std::sqrt(loop.area / std::numbers::pi);
+    const RingRange range{rings, edge > 0 ? std::floor(radius / edge) : 0};
     auto found = collect_data(surface, loops_within(surface, loop, loops), range, run);
     if (!found) return found.error();
     FlatHole hole;

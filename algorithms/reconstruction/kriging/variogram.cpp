@@ -26,19 +26,24 @@ double radians(double degrees) {
     return degrees * std::numbers::pi / 180;
 }
 
+/// Returns e^-x; 0 where even its product with x^2 is lost beside 1. Underflow would take longer.
+double decay(double x) {
+    return x > 50 ? 0 : std::exp(-x);
+}
+
 /// Evaluates a model without nugget and with sill 1.
 double shape(VariogramModel model, double ratio, double exponent) {
     switch (model) {
     case VariogramModel::spherical:
         return ratio >= 1 ? 1 : ratio * (1.5 - 0.5 * ratio * ratio);
     case VariogramModel::exponential:
-        return 1 - std::exp(-3 * ratio);
+        return 1 - decay(3 * ratio);
     case VariogramModel::gaussian:
-        return 1 - std::exp(-3 * ratio * ratio);
+        return 1 - decay(3 * ratio * ratio);
     case VariogramModel::matern: {
         const bool once = exponent < 2;
         const double a = ratio * (once ? matern_once : matern_twice);
-        return 1 - (1 + a + (once ? 0 : a * a / 3)) * std::exp(-a);
+        return 1 - (1 + a + (once ? 0 : a * a / 3)) * decay(a);
     }
     case VariogramModel::thin_plate:
         return ratio > 0 ? -ratio * ratio * std::log(ratio) : 0;

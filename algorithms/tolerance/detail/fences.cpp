@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <set>
 #include <span>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
@@ -139,6 +140,29 @@ void snap_near_vertices(std::vector<Surface>& surfaces, double bound) {
         for (Point3& p : surfaces[s].vertices)
             if (farthest_of_near(tree, s, p, bound) > 0)
                 p = {snapped(p.x), snapped(p.y), snapped(p.z)};
+}
+
+std::map<Point3, Point3> near_vertices(std::span<const Point3> points,
+                                       std::span<const Triangle> triangles, double bound) {
+    DisjointSets clusters(points.size());
+    std::set<std::uint32_t> ends;
+    for (const Triangle& t : triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto a = t[k], b = t[(k + 1) % 3];
+            if (distance_between(points[a], points[b]) >= bound / tuning.grid_steps) continue;
+            clusters.join(a, b);
+            ends.insert({a, b});
+        }
+    std::map<Point3, Point3> joined;
+    for (const auto v : ends) joined.emplace(points[v], points[clusters.find(v)]);
+    return joined;
+}
+
+void join_near_vertices(std::vector<Surface>& surfaces, const std::map<Point3, Point3>& joined) {
+    for (Surface& s : surfaces) {
+        for (Point3& p : s.vertices)
+            if (const auto at = joined.find(p); at != joined.end()) p = at->second;
+    }
 }
 
 Surface fences_of(const std::vector<Surface>& surfaces, double tolerance) {

@@ -21,11 +21,13 @@ struct Tuning {
     double alike = 0.1;
     /// An interface vanishes if that reduces the area of all triangles by this share of its cell's.
     double least_gain = 1e-9;
-    /// The least number of steps per tolerance of the grid to which near vertices move.
+    /// The least number of steps per tolerance of the grid to which near vertices move; ends of edges
+    /// shorter than that are joined.
     double grid_steps = 64;
     /// The least width, in spacings of doubles, of triangles that their centres tell apart.
     double located_spacings = 4096;
-    /// The largest number of passes: a pass joins the thin blocks that rounding made in the last.
+    /// The largest number of passes: a pass joins the thin blocks and short edges that rounding made
+    /// in the last.
     unsigned most_passes = 4;
     /// The share of the tolerance by which vertices of curves may move.
     double curve_share = 0.5;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/algorithms/tolerance/tolerance.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -140,6 +141,32 @@ TEST_CASE("tolerance: a unit that is thinner vanishes and is listed", "[toleranc
     const auto with = joined(units, 0.004);
     CHECK(with.report.vanished.empty());
     CHECK(found_in(with.surfaces).blocks.size() == 3);
+}
+
+TEST_CASE("tolerance: ends of short edges that crossings leave are joined", "[tolerance]") {
+    // The walls cross on the base 1e-6 beside its diagonal.
+    const auto quad = [](std::string name, Point3 a, Point3 b, Point3 c, Point3 d) {
+        return Surface{std::move(name), Role::unknown, {a, b, c, d}, {{0, 1, 2}, {0, 2, 3}}};
+    };
+    const std::vector<Surface> surfaces{
+        quad("base", {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}),
+        quad("wall", {1e-6, -2, -1}, {1e-6, 2, -1}, {1e-6, 2, 2}, {1e-6, -2, 2}),
+        quad("other", {-2, 0, -1}, {2, 0, -1}, {2, 0, 3}, {-2, 0, 3})};
+    const auto shortest = [](const std::vector<Surface>& all) {
+        const auto a = arrange(all);
+        REQUIRE(a);
+        double least = HUGE_VAL;
+        for (const Triangle& t : a->triangles)
+            for (std::size_t k = 0; k < 3; ++k)
+                least = std::min(least, distance_between(a->nearest(VertexId(t[k])),
+                                                         a->nearest(VertexId(t[(k + 1) % 3]))));
+        return least;
+    };
+    CHECK(shortest(surfaces) < 2e-6);
+    CHECK(shortest(joined(surfaces, 1e-3).surfaces) > 1e-3 / 64);
+    // Edges that are longer than a 64th stay.
+    const auto as_it_was = joined(surfaces, 1e-5);
+    CHECK_FALSE(as_it_was.report.is_joined);
 }
 
 TEST_CASE("tolerance: the result does not depend on the number of threads", "[tolerance]") {

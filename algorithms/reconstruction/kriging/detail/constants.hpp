@@ -10,9 +10,6 @@
 namespace terrane::kriging::detail {
 
 struct KrigingConstants : Constants {
-    /// Distance from the hole up to which data are near, in radii of the hole. Larger: less noise, but
-    /// farther parts of the surface may be of another kind.
-    double reach = add("reach", 2);
     /// No further ring is added to this number of near data.
     std::size_t enough_data = add("enough_data", 4000);
     /// With fewer data, no expected error can be told.
@@ -29,7 +26,7 @@ struct KrigingConstants : Constants {
     std::size_t few_data = add("few_data", 250);
     /// Well-spread data near the hole from which likelihoods are computed; half of them with their
     /// nearest neighbour, and a quarter as many farther away. Larger: slower, n^3 for each model.
-    std::size_t most_fitted = add("most_fitted", 96);
+    std::size_t most_fitted = add("most_fitted", 112);
     /// Least range, in median distances of neighbours: a surface that is rougher than that can't be
     /// told from noise.
     double gaps_per_range = add("gaps_per_range", 3);
