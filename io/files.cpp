@@ -43,7 +43,7 @@
 #include <terrane/io/surfaces/off.hpp>
 #include <terrane/io/surfaces/ply.hpp>
 #include <terrane/io/surfaces/stl.hpp>
-#include <terrane/io/text/gzip.hpp>
+#include <terrane/io/text/compressed.hpp>
 #include <terrane/io/text/text.hpp>
 #include <terrane/io/text/units.hpp>
 #include <terrane/io/text/utf8.hpp>
@@ -58,7 +58,7 @@ namespace {
 /// The largest file that is read. It has at least 3 bytes per vertex, so 32-bit indices suffice.
 constexpr std::uint64_t max_bytes = 3 * (std::uint64_t(1) << 32) - 3;
 
-constexpr std::array<std::pair<std::string_view, Format>, 45> names{{
+constexpr std::array<std::pair<std::string_view, Format>, 46> names{{
     {"ts", Format::gocad},    {"ml", Format::gocad},      {"gp", Format::gocad},
     {"mx", Format::gocad},    {"gm", Format::gocad},      {"obj", Format::obj},
     {"off", Format::off},     {"stl", Format::stl},       {"ply", Format::ply},
@@ -74,18 +74,14 @@ constexpr std::array<std::pair<std::string_view, Format>, 45> names{{
     {"dxf", Format::dxf},     {"grdecl", Format::grdecl}, {"sticks", Format::sticks},
     {"exo", Format::exodus},  {"e", Format::exodus},      {"ugi", Format::ugi},
     {"ogs", Format::ogs},     {"geos", Format::geos},     {"pylith", Format::pylith},
+    {"vts", Format::vts},
 }};
 
-fs::path without_gz(const fs::path& path) {
-    return same_ignoring_case(path.extension().string(), ".gz") ? path.parent_path() / path.stem()
-                                                                : path;
-}
-
-/// Reads a file, and what gzip has compressed.
+/// Reads a file, and what was compressed.
 Result<std::string> plain_file(const fs::path& path, const std::string& place) {
     auto contents = read_file(path);
-    if (!contents || !is_gzip(*contents)) return contents;
-    return gunzipped(*contents, place);
+    if (!contents || !is_compressed(*contents)) return contents;
+    return decompressed(*contents, place);
 }
 
 std::string place_of(const fs::path& path, bool reading) {
@@ -119,7 +115,7 @@ Result<Format> choose_format(const fs::path& path, std::optional<Format> wanted,
 Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::string_view source,
                                              Format format, const ReadOptions& options) {
     const std::string place(source);
-    const auto name = without_gz(place).stem().string();
+    const auto name = without_compression(place).stem().string();
     if (contents.size() > max_bytes)
         return Error{ErrorCode::unsupported, "the file is larger than 12 GiB", place};
     switch (format) {
@@ -142,6 +138,8 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
         return read_msh(contents, source, name);
     case Format::vtk:
         return read_vtk(contents, source, name);
+    case Format::vts:
+        return read_vts(contents, source, name);
     case Format::dxf:
         return read_dxf(contents, source, name);
     case Format::grdecl:
@@ -175,8 +173,10 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
 Result<std::vector<Surface>> parse(std::string_view contents, std::string_view source,
                                    Format format, const ReadOptions& options) {
     std::string plain;
-    if (is_gzip(contents)) {
-        auto done = gunzipped(contents, source);
+    const bool is_ringmesh = format == Format::gocad && contents.starts_with("PK") &&
+                             without_compression(source) == source; // refused by its reader
+    if (is_compressed(contents) && !is_ringmesh) {
+        auto done = decompressed(contents, source);
         if (!done) return done.error();
         contents = plain = std::move(*done);
     }
@@ -384,7 +384,7 @@ std::optional<Format> format_of(const fs::path& path) {
 }
 
 std::optional<Format> format_to_read(const fs::path& path) {
-    return format_of(without_gz(path));
+    return format_of(without_compression(path));
 }
 
 Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::string_view source,
@@ -422,7 +422,7 @@ Result<GocadModel> read_model(const fs::path& path) {
     return guard_file(path, true, [&](const std::string& place) -> Result<GocadModel> {
         const auto contents = plain_file(path, place);
         if (!contents) return contents.error();
-        return read_gocad_model(contents.value(), place, without_gz(path).stem().string());
+        return read_gocad_model(contents.value(), place, without_compression(path).stem().string());
     });
 }
 
@@ -432,7 +432,8 @@ std::vector<StatedBlock> read_stated_blocks(const fs::path& path, std::optional<
     if (path == "-" || chosen != Format::gocad) return {};
     const auto contents = plain_file(path, path.string());
     if (!contents || contents->find("Model3d") == std::string::npos) return {};
-    const auto model = read_gocad_model(*contents, path.string(), without_gz(path).stem().string());
+    const auto model =
+        read_gocad_model(*contents, path.string(), without_compression(path).stem().string());
     return model ? stated_blocks_of(*model) : std::vector<StatedBlock>();
 }
 

@@ -51,6 +51,7 @@ enum class Format {
     dxf,    ///< .dxf, read only: 3DFACE
     grdecl, ///< .grdecl, read only: corner-point grids
     sticks, ///< .sticks, read only: fault sticks
+    vts,    ///< .vts, read only: surfaces as structured grids
 };
 
 /// Tells whether surfaces can be read from this format.
@@ -75,7 +76,7 @@ bool holds_outlines(Format format);
 /// Returns the format for the extension of a file name, in any case; none if it is unknown.
 std::optional<Format> format_of(const std::filesystem::path& path);
 
-/// Does the same for a file that is read: `top.ts.gz` is a GOCAD file that gzip has compressed.
+/// Does the same for a file that is read: `top.ts.gz`, `top.ts.xz` and `top.ts.zip` are compressed GOCAD files.
 std::optional<Format> format_to_read(const std::filesystem::path& path);
 
 /// Returns the format with this name, an extension without its dot: "ts", "ml", "obj", ...

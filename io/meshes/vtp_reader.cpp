@@ -13,6 +13,7 @@
 
 #include <terrane/io/meshes/detail/vtk_cells.hpp>
 #include <terrane/io/meshes/detail/vtk_data.hpp>
+#include <terrane/io/meshes/detail/vtk_structured.hpp>
 #include <terrane/io/surfaces/parts.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
@@ -129,12 +130,12 @@ private:
         if (type != type_)
             return error(root_, ErrorCode::unsupported,
                          fmt::format("the file has {}; only {} is read", shown(type), type_));
-        const std::string_view compressor = root_.attribute("compressor").value();
-        if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
-            return error(
-                root_, ErrorCode::unsupported,
-                fmt::format("{} is not read, only vtkZLibDataCompressor", shown(compressor)));
-        encoding_.compressed = !compressor.empty();
+        const std::string_view name = root_.attribute("compressor").value();
+        const auto compressor = vtk_compressor(name);
+        if (!compressor)
+            return error(root_, ErrorCode::unsupported,
+                         fmt::format("{} is not read by this build", shown(name)));
+        encoding_.compressor = *compressor;
         const std::string_view order = root_.attribute("byte_order").value();
         encoding_.order = order == "BigEndian" ? std::endian::big : std::endian::little;
         const std::string_view header = root_.attribute("header_type").value();
@@ -357,6 +358,7 @@ private:
             for (const pugi::xml_node array : piece.child(data_of).children())
                 note_values(array.attribute("Name").value(), values_);
         if (type_ == "UnstructuredGrid") return read_grid_cells(data, piece, points);
+        if (type_ == "StructuredGrid") return read_structured(piece, points);
         if (auto trouble = read_ownership(data, piece, of)) return trouble;
         const auto polygon = [&](std::size_t k, const Corners& corners) {
             return add_polygon(piece, of, k, corners);
@@ -367,6 +369,23 @@ private:
         };
         if (auto trouble = for_each_cell(piece.child("Polys"), points, polygon)) return trouble;
         return for_each_cell(piece.child("Strips"), points, strip);
+    }
+
+    /// Reads a piece of a structured grid.
+    MaybeError read_structured(const pugi::xml_node& piece, std::size_t points) {
+        const auto counts = points_of_extent(piece.attribute("Extent").value(), points);
+        if (!counts)
+            return error(piece, ErrorCode::bad_syntax,
+                         fmt::format("Extent is none of {} points", points));
+        const auto size = structured_surface(*counts);
+        if (!size) return error(piece, ErrorCode::unsupported, structured_volume);
+        HiddenParts hidden;
+        if (const auto array = array_named(piece.child("PointData"), "vtkGhostType"))
+            if (auto trouble = values_of(array, hidden.points)) return trouble;
+        if (const auto array = array_named(piece.child("CellData"), "vtkGhostType"))
+            if (auto trouble = values_of(array, hidden.cells)) return trouble;
+        append_structured(*size, vertices_.size() - points, hidden, parts_[0]);
+        return std::nullopt;
     }
 
     /// Reads the types of the cells of a grid, as kinds. Fails at cells with curved sides.
@@ -456,6 +475,11 @@ Result<std::vector<Surface>> read_vtp(std::string_view contents, std::string_vie
 Result<std::vector<Surface>> read_vtu(std::string_view contents, std::string_view source,
                                       std::string_view name) {
     return VtkXmlReader(contents, source, name, "UnstructuredGrid").read();
+}
+
+Result<std::vector<Surface>> read_vts(std::string_view contents, std::string_view source,
+                                      std::string_view name) {
+    return VtkXmlReader(contents, source, name, "StructuredGrid").read();
 }
 
 Result<LabelledTetrahedra> read_vtu_tetrahedra(std::string_view contents, std::string_view source) {

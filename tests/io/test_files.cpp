@@ -153,7 +153,7 @@ TEST_CASE("files: reading what can't be read", "[io][files]") {
     const std::string list_of_readable =
         "; read are ts, ml, gp, mx, gm, obj, off, stl, ply, vtp, vtu, msh, irap, gri, fgr, "
         "zmap, zycor, cps3, cps, asc, agr, grd, xyz, csv, txt, dat, poi, pol, "
-        "vs, pl, vtk, dxf, grdecl, sticks";
+        "vs, pl, vtk, dxf, grdecl, sticks, vts";
     check(read_surfaces("a.abc"), unknown_format,
           "a.abc: unknown format \".abc\"" + list_of_readable);
     check(read_surfaces("a"), unknown_format,
