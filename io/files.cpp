@@ -22,6 +22,7 @@
 #include <terrane/io/meshes/abaqus.hpp>
 #include <terrane/io/meshes/cell_array.hpp>
 #include <terrane/io/meshes/exodus.hpp>
+#include <terrane/io/meshes/flac3d.hpp>
 #include <terrane/io/meshes/geos.hpp>
 #include <terrane/io/meshes/gmsh.hpp>
 #include <terrane/io/meshes/gmsh22.hpp>
@@ -33,12 +34,14 @@
 #include <terrane/io/meshes/pflotran.hpp>
 #include <terrane/io/meshes/poly.hpp>
 #include <terrane/io/meshes/pylith.hpp>
+#include <terrane/io/meshes/universal.hpp>
 #include <terrane/io/meshes/vtk.hpp>
 #include <terrane/io/meshes/vtp_reader.hpp>
 #include <terrane/io/points/points.hpp>
 #include <terrane/io/points/sticks.hpp>
 #include <terrane/io/reading.hpp>
 #include <terrane/io/surfaces/dxf.hpp>
+#include <terrane/io/surfaces/landxml.hpp>
 #include <terrane/io/surfaces/obj.hpp>
 #include <terrane/io/surfaces/off.hpp>
 #include <terrane/io/surfaces/ply.hpp>
@@ -58,23 +61,24 @@ namespace {
 /// The largest file that is read. It has at least 3 bytes per vertex, so 32-bit indices suffice.
 constexpr std::uint64_t max_bytes = 3 * (std::uint64_t(1) << 32) - 3;
 
-constexpr std::array<std::pair<std::string_view, Format>, 46> names{{
-    {"ts", Format::gocad},    {"ml", Format::gocad},      {"gp", Format::gocad},
-    {"mx", Format::gocad},    {"gm", Format::gocad},      {"obj", Format::obj},
-    {"off", Format::off},     {"stl", Format::stl},       {"ply", Format::ply},
-    {"vtp", Format::vtp},     {"vtu", Format::vtu},       {"msh", Format::msh},
-    {"msh22", Format::msh22}, {"inp", Format::inp},       {"mesh", Format::medit},
-    {"poly", Format::poly},   {"smesh", Format::smesh},   {"irap", Format::irap},
-    {"gri", Format::irap},    {"fgr", Format::irap},      {"zmap", Format::zmap},
-    {"zycor", Format::zmap},  {"cps3", Format::cps3},     {"cps", Format::cps3},
-    {"asc", Format::esri},    {"agr", Format::esri},      {"grd", Format::surfer},
-    {"xyz", Format::xyz},     {"csv", Format::xyz},       {"txt", Format::xyz},
-    {"dat", Format::xyz},     {"poi", Format::xyz},       {"pol", Format::xyz},
-    {"vs", Format::vset},     {"pl", Format::pline},      {"vtk", Format::vtk},
-    {"dxf", Format::dxf},     {"grdecl", Format::grdecl}, {"sticks", Format::sticks},
-    {"exo", Format::exodus},  {"e", Format::exodus},      {"ugi", Format::ugi},
-    {"ogs", Format::ogs},     {"geos", Format::geos},     {"pylith", Format::pylith},
-    {"vts", Format::vts},
+constexpr std::array<std::pair<std::string_view, Format>, 50> names{{
+    {"ts", Format::gocad},    {"ml", Format::gocad},        {"gp", Format::gocad},
+    {"mx", Format::gocad},    {"gm", Format::gocad},        {"obj", Format::obj},
+    {"off", Format::off},     {"stl", Format::stl},         {"ply", Format::ply},
+    {"vtp", Format::vtp},     {"vtu", Format::vtu},         {"msh", Format::msh},
+    {"msh22", Format::msh22}, {"inp", Format::inp},         {"mesh", Format::medit},
+    {"poly", Format::poly},   {"smesh", Format::smesh},     {"irap", Format::irap},
+    {"gri", Format::irap},    {"fgr", Format::irap},        {"zmap", Format::zmap},
+    {"zycor", Format::zmap},  {"cps3", Format::cps3},       {"cps", Format::cps3},
+    {"asc", Format::esri},    {"agr", Format::esri},        {"grd", Format::surfer},
+    {"xyz", Format::xyz},     {"csv", Format::xyz},         {"txt", Format::xyz},
+    {"dat", Format::xyz},     {"poi", Format::xyz},         {"pol", Format::xyz},
+    {"vs", Format::vset},     {"pl", Format::pline},        {"vtk", Format::vtk},
+    {"dxf", Format::dxf},     {"grdecl", Format::grdecl},   {"sticks", Format::sticks},
+    {"exo", Format::exodus},  {"e", Format::exodus},        {"ugi", Format::ugi},
+    {"ogs", Format::ogs},     {"geos", Format::geos},       {"pylith", Format::pylith},
+    {"vts", Format::vts},     {"unv", Format::unv},         {"f3grid", Format::f3grid},
+    {"xml", Format::landxml}, {"landxml", Format::landxml},
 }};
 
 /// Reads a file, and what was compressed.
@@ -140,6 +144,8 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
         return read_vtk(contents, source, name);
     case Format::vts:
         return read_vts(contents, source, name);
+    case Format::landxml:
+        return read_landxml(contents, source, name);
     case Format::dxf:
         return read_dxf(contents, source, name);
     case Format::grdecl:
@@ -213,6 +219,10 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
         return to_medit(mesh);
     case Format::vtk:
         return to_vtk(mesh);
+    case Format::dxf:
+        return to_dxf(mesh);
+    case Format::unv:
+        return to_universal(mesh);
     case Format::poly:
         return to_poly(mesh, options.block_points);
     case Format::smesh:
@@ -255,6 +265,10 @@ Result<SeveralFiles> files_of(const TetrahedralMesh& mesh, Format format, const 
         return one_file(to_medit(mesh));
     case Format::exodus:
         return one_file(to_exodus(mesh, block_names, nodes));
+    case Format::unv:
+        return one_file(to_universal(mesh, block_names));
+    case Format::f3grid:
+        return one_file(to_flac3d(mesh, block_names));
     case Format::pylith:
         return one_file(to_pylith(mesh));
     case Format::ogs:
@@ -333,6 +347,7 @@ bool is_read(Format format) {
     case Format::vtu:
     case Format::msh:
     case Format::vtk:
+    case Format::dxf:
         return true;
     default:
         return format >= Format::irap;
@@ -349,7 +364,7 @@ bool holds_outlines(Format format) {
 
 bool holds_tetrahedra(Format format) {
     return format == Format::vtu || format == Format::msh || format == Format::msh22 ||
-           format == Format::inp || format == Format::medit ||
+           format == Format::inp || format == Format::medit || format == Format::unv ||
            (format >= Format::exodus && format < Format::irap);
 }
 
