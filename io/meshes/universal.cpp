@@ -11,6 +11,7 @@
 #include <terrane/io/meshes/detail/face_groups.hpp>
 #include <terrane/io/meshes/detail/side_sets.hpp>
 #include <terrane/io/text/names.hpp>
+#include <terrane/io/text/text.hpp>
 
 namespace terrane {
 
