@@ -86,8 +86,7 @@ TEST_CASE("VTP: blocks compressed by LZ4 and LZMA, where their libraries are the
         for (std::size_t n = whole.find("<AppendedData"); n < whole.size(); ++n)
             (void)parse_surfaces(whole.substr(0, n), "a", Format::vtp);
         if (name == "lzma") // which has checksums
-            CHECK_FALSE(
-                parse_surfaces(replaced(whole, "ohPv3i5", "ohPv4i5"), "a", Format::vtp));
+            CHECK_FALSE(parse_surfaces(replaced(whole, "ohPv3i5", "ohPv4i5"), "a", Format::vtp));
     }
 }
 
