@@ -44,7 +44,8 @@ Result<std::vector<Surface>> read(std::string_view contents) {
 /// Returns the format to write: PLY for formats that are only read.
 Format written_format() {
     const Format format = *format_named(format_name);
-    return holds_surfaces(format) ? format : Format::ply;
+    // A DXF has corners without numbers, so that those of a polyface may get others.
+    return holds_surfaces(format) && format != Format::dxf ? format : Format::ply;
 }
 
 std::string written(const Mesh& mesh) {

@@ -22,6 +22,7 @@
 #include <terrane/io/meshes/abaqus.hpp>
 #include <terrane/io/meshes/cell_array.hpp>
 #include <terrane/io/meshes/exodus.hpp>
+#include <terrane/io/meshes/flac3d.hpp>
 #include <terrane/io/meshes/geos.hpp>
 #include <terrane/io/meshes/gmsh.hpp>
 #include <terrane/io/meshes/gmsh22.hpp>
@@ -34,17 +35,19 @@
 #include <terrane/io/meshes/pflotran.hpp>
 #include <terrane/io/meshes/poly.hpp>
 #include <terrane/io/meshes/pylith.hpp>
+#include <terrane/io/meshes/universal.hpp>
 #include <terrane/io/meshes/vtk.hpp>
 #include <terrane/io/meshes/vtp_reader.hpp>
 #include <terrane/io/points/points.hpp>
 #include <terrane/io/points/sticks.hpp>
 #include <terrane/io/reading.hpp>
 #include <terrane/io/surfaces/dxf.hpp>
+#include <terrane/io/surfaces/landxml.hpp>
 #include <terrane/io/surfaces/obj.hpp>
 #include <terrane/io/surfaces/off.hpp>
 #include <terrane/io/surfaces/ply.hpp>
 #include <terrane/io/surfaces/stl.hpp>
-#include <terrane/io/text/gzip.hpp>
+#include <terrane/io/text/compressed.hpp>
 #include <terrane/io/text/text.hpp>
 #include <terrane/io/text/units.hpp>
 #include <terrane/io/text/utf8.hpp>
@@ -59,34 +62,31 @@ namespace {
 /// The largest file that is read. It has at least 3 bytes per vertex, so 32-bit indices suffice.
 constexpr std::uint64_t max_bytes = 3 * (std::uint64_t(1) << 32) - 3;
 
-constexpr std::array<std::pair<std::string_view, Format>, 45> names{{
-    {"ts", Format::gocad},    {"ml", Format::gocad},      {"gp", Format::gocad},
-    {"mx", Format::gocad},    {"gm", Format::gocad},      {"obj", Format::obj},
-    {"off", Format::off},     {"stl", Format::stl},       {"ply", Format::ply},
-    {"vtp", Format::vtp},     {"vtu", Format::vtu},       {"msh", Format::msh},
-    {"msh22", Format::msh22}, {"inp", Format::inp},       {"mesh", Format::medit},
-    {"poly", Format::poly},   {"smesh", Format::smesh},   {"irap", Format::irap},
-    {"gri", Format::irap},    {"fgr", Format::irap},      {"zmap", Format::zmap},
-    {"zycor", Format::zmap},  {"cps3", Format::cps3},     {"cps", Format::cps3},
-    {"asc", Format::esri},    {"agr", Format::esri},      {"grd", Format::surfer},
-    {"xyz", Format::xyz},     {"csv", Format::xyz},       {"txt", Format::xyz},
-    {"dat", Format::xyz},     {"poi", Format::xyz},       {"pol", Format::xyz},
-    {"vs", Format::vset},     {"pl", Format::pline},      {"vtk", Format::vtk},
-    {"dxf", Format::dxf},     {"grdecl", Format::grdecl}, {"sticks", Format::sticks},
-    {"exo", Format::exodus},  {"e", Format::exodus},      {"ugi", Format::ugi},
-    {"ogs", Format::ogs},     {"geos", Format::geos},     {"pylith", Format::pylith},
+constexpr std::array<std::pair<std::string_view, Format>, 50> names{{
+    {"ts", Format::gocad},    {"ml", Format::gocad},        {"gp", Format::gocad},
+    {"mx", Format::gocad},    {"gm", Format::gocad},        {"obj", Format::obj},
+    {"off", Format::off},     {"stl", Format::stl},         {"ply", Format::ply},
+    {"vtp", Format::vtp},     {"vtu", Format::vtu},         {"msh", Format::msh},
+    {"msh22", Format::msh22}, {"inp", Format::inp},         {"mesh", Format::medit},
+    {"poly", Format::poly},   {"smesh", Format::smesh},     {"irap", Format::irap},
+    {"gri", Format::irap},    {"fgr", Format::irap},        {"zmap", Format::zmap},
+    {"zycor", Format::zmap},  {"cps3", Format::cps3},       {"cps", Format::cps3},
+    {"asc", Format::esri},    {"agr", Format::esri},        {"grd", Format::surfer},
+    {"xyz", Format::xyz},     {"csv", Format::xyz},         {"txt", Format::xyz},
+    {"dat", Format::xyz},     {"poi", Format::xyz},         {"pol", Format::xyz},
+    {"vs", Format::vset},     {"pl", Format::pline},        {"vtk", Format::vtk},
+    {"dxf", Format::dxf},     {"grdecl", Format::grdecl},   {"sticks", Format::sticks},
+    {"exo", Format::exodus},  {"e", Format::exodus},        {"ugi", Format::ugi},
+    {"ogs", Format::ogs},     {"geos", Format::geos},       {"pylith", Format::pylith},
+    {"vts", Format::vts},     {"unv", Format::unv},         {"f3grid", Format::f3grid},
+    {"xml", Format::landxml}, {"landxml", Format::landxml},
 }};
 
-fs::path without_gz(const fs::path& path) {
-    return same_ignoring_case(path.extension().string(), ".gz") ? path.parent_path() / path.stem()
-                                                                : path;
-}
-
-/// Reads a file, and what gzip has compressed.
+/// Reads a file, and what was compressed.
 Result<std::string> plain_file(const fs::path& path, const std::string& place) {
     auto contents = read_file(path);
-    if (!contents || !is_gzip(*contents)) return contents;
-    return gunzipped(*contents, place);
+    if (!contents || !is_compressed(*contents)) return contents;
+    return decompressed(*contents, place);
 }
 
 std::string place_of(const fs::path& path, bool reading) {
@@ -120,7 +120,7 @@ Result<Format> choose_format(const fs::path& path, std::optional<Format> wanted,
 Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::string_view source,
                                              Format format, const ReadOptions& options) {
     const std::string place(source);
-    const auto name = without_gz(place).stem().string();
+    const auto name = without_compression(place).stem().string();
     if (contents.size() > max_bytes)
         return Error{ErrorCode::unsupported, "the file is larger than 12 GiB", place};
     switch (format) {
@@ -143,6 +143,10 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
         return read_msh(contents, source, name);
     case Format::vtk:
         return read_vtk(contents, source, name);
+    case Format::vts:
+        return read_vts(contents, source, name);
+    case Format::landxml:
+        return read_landxml(contents, source, name);
     case Format::dxf:
         return read_dxf(contents, source, name);
     case Format::grdecl:
@@ -176,8 +180,10 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
 Result<std::vector<Surface>> parse(std::string_view contents, std::string_view source,
                                    Format format, const ReadOptions& options) {
     std::string plain;
-    if (is_gzip(contents)) {
-        auto done = gunzipped(contents, source);
+    const bool is_ringmesh = format == Format::gocad && contents.starts_with("PK") &&
+                             without_compression(source) == source; // refused by its reader
+    if (is_compressed(contents) && !is_ringmesh) {
+        auto done = decompressed(contents, source);
         if (!done) return done.error();
         contents = plain = std::move(*done);
     }
@@ -214,6 +220,10 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
         return to_medit(mesh);
     case Format::vtk:
         return to_vtk(mesh, options.values);
+    case Format::dxf:
+        return to_dxf(mesh);
+    case Format::unv:
+        return to_universal(mesh);
     case Format::poly:
         return to_poly(mesh, options.block_points);
     case Format::smesh:
@@ -259,6 +269,10 @@ Result<SeveralFiles> files_of(const TetrahedralMesh& mesh, Format format, const 
         return one_file(to_medit(mesh));
     case Format::exodus:
         return one_file(to_exodus(mesh, block_names, nodes));
+    case Format::unv:
+        return one_file(to_universal(mesh, block_names));
+    case Format::f3grid:
+        return one_file(to_flac3d(mesh, block_names));
     case Format::pylith:
         return one_file(to_pylith(mesh));
     case Format::ogs:
@@ -337,6 +351,7 @@ bool is_read(Format format) {
     case Format::vtu:
     case Format::msh:
     case Format::vtk:
+    case Format::dxf:
         return true;
     default:
         return format >= Format::irap;
@@ -353,7 +368,7 @@ bool holds_outlines(Format format) {
 
 bool holds_tetrahedra(Format format) {
     return format == Format::vtu || format == Format::msh || format == Format::msh22 ||
-           format == Format::inp || format == Format::medit ||
+           format == Format::inp || format == Format::medit || format == Format::unv ||
            (format >= Format::exodus && format < Format::irap);
 }
 
@@ -388,7 +403,7 @@ std::optional<Format> format_of(const fs::path& path) {
 }
 
 std::optional<Format> format_to_read(const fs::path& path) {
-    return format_of(without_gz(path));
+    return format_of(without_compression(path));
 }
 
 Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::string_view source,
@@ -426,7 +441,7 @@ Result<GocadModel> read_model(const fs::path& path) {
     return guard_file(path, true, [&](const std::string& place) -> Result<GocadModel> {
         const auto contents = plain_file(path, place);
         if (!contents) return contents.error();
-        return read_gocad_model(contents.value(), place, without_gz(path).stem().string());
+        return read_gocad_model(contents.value(), place, without_compression(path).stem().string());
     });
 }
 
@@ -436,7 +451,8 @@ std::vector<StatedBlock> read_stated_blocks(const fs::path& path, std::optional<
     if (path == "-" || chosen != Format::gocad) return {};
     const auto contents = plain_file(path, path.string());
     if (!contents || contents->find("Model3d") == std::string::npos) return {};
-    const auto model = read_gocad_model(*contents, path.string(), without_gz(path).stem().string());
+    const auto model =
+        read_gocad_model(*contents, path.string(), without_compression(path).stem().string());
     return model ? stated_blocks_of(*model) : std::vector<StatedBlock>();
 }
 

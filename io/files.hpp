@@ -21,36 +21,40 @@ namespace terrane {
 
 /// The file formats.
 enum class Format {
-    gocad,  ///< .ts .ml .gp .mx .gm
-    obj,    ///< .obj
-    off,    ///< .off
-    stl,    ///< .stl (float32)
-    ply,    ///< .ply
-    vtp,    ///< .vtp
-    vtu,    ///< .vtu: tetrahedra; the faces among its cells are read
-    msh,    ///< .msh: MSH 4.1; also MSH 2.2 where it is read
-    msh22,  ///< written only: MSH 2.2; no extension selects it, only its name
-    inp,    ///< .inp, written only: Abaqus
-    medit,  ///< .mesh, written only
-    poly,   ///< .poly, written only: TetGen, surfaces
-    smesh,  ///< .smesh, written only: TetGen, surfaces
-    vtk,    ///< .vtk: legacy VTK; written as POLYDATA
-    exodus, ///< .exo .e, written only: Exodus II, tetrahedra
-    ugi,    ///< .ugi, written only: PFLOTRAN, tetrahedra and the files of regions
-    ogs,    ///< written only: OpenGeoSys, VTU files of tetrahedra and of boundaries; by its name
-    geos,   ///< written only: GEOS, a .vtm with tetrahedra and fractures; by its name
-    pylith, ///< written only: PyLith, MSH 4.1 of tetrahedra with edges of faults; by its name
-    irap,   ///< .irap .gri .fgr, read only: a grid, text or binary
-    zmap,   ///< .zmap .zycor, read only: a grid
-    cps3,   ///< .cps3 .cps, read only: a grid
-    esri,   ///< .asc .agr, read only: a grid
-    surfer, ///< .grd, read only: a grid, text or binary
-    xyz,    ///< .xyz .csv .txt .dat .poi .pol, read only: points
-    vset,   ///< .vs: points of GOCAD's VSet and PLine; written: the vertices of surfaces
-    pline,  ///< .pl: the same points; written: borders of surfaces and intersection curves
-    dxf,    ///< .dxf, read only: 3DFACE
-    grdecl, ///< .grdecl, read only: corner-point grids
-    sticks, ///< .sticks, read only: fault sticks
+    gocad,   ///< .ts .ml .gp .mx .gm
+    obj,     ///< .obj
+    off,     ///< .off
+    stl,     ///< .stl (float32)
+    ply,     ///< .ply
+    vtp,     ///< .vtp
+    vtu,     ///< .vtu: tetrahedra; the faces among its cells are read
+    msh,     ///< .msh: MSH 4.1; also MSH 2.2 where it is read
+    msh22,   ///< written only: MSH 2.2; no extension selects it, only its name
+    inp,     ///< .inp, written only: Abaqus
+    medit,   ///< .mesh, written only
+    poly,    ///< .poly, written only: TetGen, surfaces
+    smesh,   ///< .smesh, written only: TetGen, surfaces
+    vtk,     ///< .vtk: legacy VTK; written as POLYDATA
+    dxf,     ///< .dxf: 3DFACE
+    unv,     ///< .unv, written only: universal files of I-DEAS
+    exodus,  ///< .exo .e, written only: Exodus II, tetrahedra
+    ugi,     ///< .ugi, written only: PFLOTRAN, tetrahedra and the files of regions
+    ogs,     ///< written only: OpenGeoSys, VTU files of tetrahedra and of boundaries; by its name
+    geos,    ///< written only: GEOS, a .vtm with tetrahedra and fractures; by its name
+    pylith,  ///< written only: PyLith, MSH 4.1 of tetrahedra with edges of faults; by its name
+    f3grid,  ///< .f3grid, written only: FLAC3D, tetrahedra
+    irap,    ///< .irap .gri .fgr, read only: a grid, text or binary
+    zmap,    ///< .zmap .zycor, read only: a grid
+    cps3,    ///< .cps3 .cps, read only: a grid
+    esri,    ///< .asc .agr, read only: a grid
+    surfer,  ///< .grd, read only: a grid, text or binary
+    xyz,     ///< .xyz .csv .txt .dat .poi .pol, read only: points
+    vset,    ///< .vs: points of GOCAD's VSet and PLine; written: the vertices of surfaces
+    pline,   ///< .pl: the same points; written: borders of surfaces and intersection curves
+    grdecl,  ///< .grdecl, read only: corner-point grids
+    sticks,  ///< .sticks, read only: fault sticks
+    vts,     ///< .vts, read only: surfaces as structured grids
+    landxml, ///< .xml .landxml, read only: LandXML
 };
 
 /// Tells whether surfaces can be read from this format.
@@ -79,7 +83,7 @@ std::vector<std::string> values_left_out(Format format, std::span<const SurfaceV
 /// Returns the format for the extension of a file name, in any case; none if it is unknown.
 std::optional<Format> format_of(const std::filesystem::path& path);
 
-/// Does the same for a file that is read: `top.ts.gz` is a GOCAD file that gzip has compressed.
+/// Does the same for a file that is read: `top.ts.gz`, `top.ts.xz` and `top.ts.zip` are compressed GOCAD files.
 std::optional<Format> format_to_read(const std::filesystem::path& path);
 
 /// Returns the format with this name, an extension without its dot: "ts", "ml", "obj", ...

@@ -26,7 +26,7 @@ bool has_depths(std::optional<Format> format) {
            format == Format::sticks;
 }
 
-constexpr std::array<std::pair<Format, std::string_view>, 19> titles{{
+constexpr std::array<std::pair<Format, std::string_view>, 21> titles{{
     {Format::gocad, "GOCAD"},
     {Format::obj, "Wavefront OBJ"},
     {Format::off, "OFF"},
@@ -46,6 +46,8 @@ constexpr std::array<std::pair<Format, std::string_view>, 19> titles{{
     {Format::dxf, "DXF"},
     {Format::grdecl, "corner-point grid"},
     {Format::sticks, "fault sticks"},
+    {Format::vts, "VTK StructuredGrid"},
+    {Format::landxml, "LandXML"},
 }};
 
 } // namespace

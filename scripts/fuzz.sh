@@ -20,8 +20,8 @@ targets=("$@")
              forge_arrangement forge_volumes forge_tetrahedra forge_improved forge_filled
              forge_layered forge_cut forge_sealed
              read_ts read_ml read_obj read_off read_stl read_ply read_irap read_zmap read_cps3
-             read_asc read_xyz read_vs read_vtp read_vtu read_vtk read_msh read_dxf read_grdecl read_sticks read_geojson
-             read_shp)
+             read_asc read_xyz read_vs read_vtp read_vtu read_vts read_vtk read_msh read_dxf read_grdecl read_sticks
+             read_landxml read_geojson read_shp)
 
 preset=${FUZZ_PRESET:-fuzz}
 cmake --preset "$preset" >/dev/null

@@ -9,7 +9,7 @@ packages=(
     ca-certificates git g++ lld clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14
     cmake ninja-build ccache pkgconf
     libcgal-dev libgmp-dev libmpfr-dev nettle-dev libeigen3-dev libnanoflann-dev libtbb-dev
-    libcli11-dev libfmt-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev libshp-dev
+    libcli11-dev libfmt-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev libshp-dev liblzma-dev liblz4-dev
     libtet1.5-dev libgmsh-dev catch2
     libopenmpi-dev openmpi-bin                            # terrane-mpi
     python3-dev pybind11-dev python3-numpy                # the Python package

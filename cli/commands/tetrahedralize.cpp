@@ -40,8 +40,8 @@ edge.
 
 VTU has arrays block, surface and parent; MSH physical groups; Abaqus INP element sets, node sets
 and surfaces; MEDIT references: block and surface + 1; Exodus II element blocks, side sets and node
-sets. PFLOTRAN (.ugi) and, by --output-format, OpenGeoSys (ogs), GEOS (geos) and PyLith (pylith) get
-files of their own. With --order 2 tetrahedra have 10 nodes; edges stay straight.
+sets; UNV and FLAC3D (.f3grid) groups. PFLOTRAN (.ugi) and, by --output-format, OpenGeoSys (ogs),
+GEOS (geos) and PyLith (pylith) get files of their own. With --order 2 tetrahedra have 10 nodes; edges stay straight.
 
 Names of blocks are those of `terrane volume`: units of --column, regions of a GOCAD model, or "below
 top, above base, west of F1". With --split two tetrahedra at a surface share a node only where they hang together round it

@@ -51,8 +51,8 @@ inline constexpr std::array<std::string_view, 13> block_formats{
     "auto", "vtp",   "obj", "ts",   "ply",  "off",  "stl",
     "msh",  "msh22", "inp", "mesh", "poly", "smesh"};
 inline constexpr auto surface_formats = std::span(block_formats).subspan<1>();
-inline constexpr std::array<std::string_view, 10> tetrahedra_formats{
-    "vtu", "msh", "msh22", "inp", "mesh", "exo", "ugi", "ogs", "geos", "pylith"};
+inline constexpr std::array<std::string_view, 12> tetrahedra_formats{
+    "vtu", "msh", "msh22", "inp", "mesh", "exo", "ugi", "ogs", "geos", "pylith", "unv", "f3grid"};
 inline constexpr std::array<std::string_view, 1> formats{"terrane-project 1"};
 
 inline constexpr double most_threads = 1024;

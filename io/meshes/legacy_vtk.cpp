@@ -13,6 +13,7 @@
 #include <terrane/io/meshes/detail/legacy_vtk_arrays.hpp>
 #include <terrane/io/meshes/detail/legacy_vtk_scanner.hpp>
 #include <terrane/io/meshes/detail/vtk_cells.hpp>
+#include <terrane/io/meshes/detail/vtk_structured.hpp>
 #include <terrane/io/surfaces/parts.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
@@ -86,10 +87,11 @@ private:
             return in_.error(ErrorCode::bad_syntax, "DATASET is needed here");
         const auto kind = in_.token();
         is_grid_ = same_ignoring_case(kind, "unstructured_grid");
-        if (!is_grid_ && !same_ignoring_case(kind, "polydata"))
+        is_structured_ = same_ignoring_case(kind, "structured_grid");
+        if (!is_grid_ && !is_structured_ && !same_ignoring_case(kind, "polydata"))
             return in_.error(ErrorCode::unsupported,
-                             fmt::format("the file has {}; only POLYDATA and UNSTRUCTURED_GRID are "
-                                         "read",
+                             fmt::format("the file has {}; only POLYDATA, UNSTRUCTURED_GRID and "
+                                         "STRUCTURED_GRID are read",
                                          shown(kind)));
         if (encoding == "binary") in_.set_binary();
         return std::nullopt;
@@ -102,6 +104,7 @@ private:
             return std::nullopt;
         }
         if (section == "field") return arrays_.read_field();
+        if (is_structured_ && section == "dimensions") return read_dimensions();
         if (is_grid_) {
             if (section == "cells") return read_cells(polygons_.emplace_back());
             if (section == "cell_types") return read_types();
@@ -117,7 +120,25 @@ private:
             return trouble;
         }
         return in_.error(ErrorCode::bad_syntax,
-                         fmt::format("{} is no section of POLYDATA", shown(section)));
+                         fmt::format("{} is no section of {}", shown(section),
+                                     is_structured_ ? "STRUCTURED_GRID" : "POLYDATA"));
+    }
+
+    MaybeError read_dimensions() {
+        std::array<std::size_t, 3> points{};
+        for (std::size_t& count : points)
+            if (auto trouble = in_.read_count(count)) return trouble;
+        structured_ = structured_surface(points);
+        if (!structured_) return in_.error(ErrorCode::unsupported, structured_volume);
+        return std::nullopt;
+    }
+
+    MaybeError add_structured() {
+        if (!structured_ || !is_of(*structured_, vertices_.size()))
+            return in_.error(ErrorCode::bad_syntax,
+                             fmt::format("DIMENSIONS do not fit the {} points", vertices_.size()));
+        append_structured(*structured_, 0, 0, {}, parts_[0]);
+        return std::nullopt;
     }
 
     MaybeError read_points() {
@@ -205,7 +226,7 @@ private:
     }
 
     [[nodiscard]] std::size_t cell_count() const {
-        std::size_t count = other_polydata_;
+        std::size_t count = other_polydata_ + (structured_ ? cells_of(*structured_) : 0);
         for (const auto* sections : {&polygons_, &strips_})
             for (const LegacyCells& cells : *sections) count += cells.ends.size();
         return count;
@@ -216,8 +237,7 @@ private:
         return arrays_.read(section, vertices_.size(), cell_count());
     }
 
-    /// Reads the names of the surfaces, and of which ones the polygons are. `section`: the first one
-    /// after the geometry, or empty.
+    /// Reads names, and of which surfaces polygons are; `section`: the first after the geometry, or empty.
     MaybeError read_names(const std::string& section) {
         const auto names = arrays_.texts("surface_name"), roles = arrays_.texts("surface_role");
         for (std::size_t s = 0; s < names.size(); ++s) {
@@ -248,6 +268,7 @@ private:
     }
 
     MaybeError make_triangles() {
+        if (is_structured_ && !for_tetrahedra_) return add_structured();
         cells_ = other_polydata_;
         for (const LegacyCells& cells : polygons_)
             if (auto trouble = add(cells, CellKind::polygon)) return trouble;
@@ -375,7 +396,8 @@ private:
     bool for_tetrahedra_ = false;   ///< instead of surfaces
     LabelledTetrahedra tetrahedra_; ///< without vertices
     std::vector<double> labels_;    ///< per cell; or none
-    bool is_grid_ = false;
+    bool is_grid_ = false, is_structured_ = false;
+    std::optional<StructuredSize> structured_; ///< points of a structured surface
     std::size_t other_polydata_ = 0; ///< points and lines of POLYDATA, whose values come first
     std::size_t cells_ = 0;          ///< whose triangles are made
     std::vector<Point3> vertices_;

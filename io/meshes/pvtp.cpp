@@ -53,7 +53,8 @@ public:
         const pugi::xml_node root = document_.child("VTKFile"), data = root.child("PolyData"),
                              piece = data.child("Piece");
         if (!parsed || !piece) return flaw("this is no piece in VTK's XML format PolyData");
-        encoding_.compressed = !std::string_view(root.attribute("compressor").value()).empty();
+        const std::string_view compressor = root.attribute("compressor").value();
+        if (!compressor.empty()) encoding_.compressor = VtkCompressor::zlib; // as it is written
         encoding_.wide_headers =
             std::string_view(root.attribute("header_type").value()) == "UInt64";
         read_surfaces(data.child("FieldData"));

@@ -14,6 +14,7 @@
 
 #include <terrane/io/meshes/detail/vtk_cells.hpp>
 #include <terrane/io/meshes/detail/vtk_data.hpp>
+#include <terrane/io/meshes/detail/vtk_structured.hpp>
 #include <terrane/io/meshes/detail/vtk_xml_file.hpp>
 #include <terrane/io/surfaces/parts.hpp>
 #include <terrane/io/text/names.hpp>
@@ -266,7 +267,8 @@ private:
         std::size_t points = 0;
         Ownership of;
         if (auto trouble = read_points(piece, points)) return trouble;
-        if (is_grid()) return read_grid_cells(data, piece, points);
+        if (type() == "UnstructuredGrid") return read_grid_cells(data, piece, points);
+        if (type() == "StructuredGrid") return read_structured(piece, points);
         if (auto trouble = read_ownership(data, piece, of)) return trouble;
         const auto passed_over = [](std::size_t, const Corners&) -> MaybeError {
             return std::nullopt;
@@ -284,6 +286,24 @@ private:
                     return trouble;
         if (auto trouble = for_each_cell(piece.child("Polys"), points, polygon)) return trouble;
         return for_each_cell(piece.child("Strips"), points, strip);
+    }
+
+    /// Reads a piece of a structured grid.
+    MaybeError read_structured(const pugi::xml_node& piece, std::size_t points) {
+        const auto counts = points_of_extent(piece.attribute("Extent").value(), points);
+        if (!counts)
+            return error(piece, ErrorCode::bad_syntax,
+                         fmt::format("Extent is none of {} points", points));
+        const auto size = structured_surface(*counts);
+        if (!size) return error(piece, ErrorCode::unsupported, structured_volume);
+        HiddenParts hidden;
+        if (const auto array = array_named(piece.child("PointData"), "vtkGhostType"))
+            if (auto trouble = values_of(array, hidden.points)) return trouble;
+        if (const auto array = array_named(piece.child("CellData"), "vtkGhostType"))
+            if (auto trouble = values_of(array, hidden.cells)) return trouble;
+        append_structured(*size, vertices_.size() - points, cells_, hidden, parts_[0]);
+        cells_ += cells_of(*size);
+        return std::nullopt;
     }
 
     /// Reads the types of the cells of a grid, as kinds. Fails at cells with curved sides.
@@ -372,6 +392,11 @@ Result<std::vector<Surface>> read_vtp(std::string_view contents, std::string_vie
 Result<std::vector<Surface>> read_vtu(std::string_view contents, std::string_view source,
                                       std::string_view name) {
     return VtkXmlReader(contents, source, name, "UnstructuredGrid").read();
+}
+
+Result<std::vector<Surface>> read_vts(std::string_view contents, std::string_view source,
+                                      std::string_view name) {
+    return VtkXmlReader(contents, source, name, "StructuredGrid").read();
 }
 
 Result<LabelledTetrahedra> read_vtu_tetrahedra(std::string_view contents, std::string_view source) {

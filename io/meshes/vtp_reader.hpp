@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Reading VTK XML PolyData (.vtp) and the faces of an UnstructuredGrid (.vtu).
+// Reading VTK XML PolyData (.vtp), the faces of an UnstructuredGrid (.vtu) and surfaces as StructuredGrid (.vts).
 #pragma once
 
 #include <string_view>
@@ -13,7 +13,7 @@ namespace terrane {
 
 /// Reads the polygons and triangle strips of all pieces; vertices and lines are passed over. Data
 /// may be text, base64 or appended (raw or base64), of either byte order, as they are or compressed
-/// by zlib.
+/// by zlib, or by LZ4 and LZMA where their libraries were there when Terrane was built.
 /// - Polygons are divided as append_face() does (algorithms/triangulation/face.hpp).
 /// - A file that to_vtp() wrote gives its surfaces back: the field arrays surface_name and
 /// surface_role
@@ -31,6 +31,11 @@ Result<std::vector<Surface>> read_vtp(std::string_view contents, std::string_vie
 /// faces of its tetrahedra on surfaces. Errors: those of read_vtp; unsupported for faces with curved
 /// sides.
 Result<std::vector<Surface>> read_vtu(std::string_view contents, std::string_view source,
+                                      std::string_view name);
+
+/// Reads the cells of a StructuredGrid with one point along i, j or k, without those that vtkGhostType hides. Errors:
+/// those of read_vtp; unsupported for a volume.
+Result<std::vector<Surface>> read_vts(std::string_view contents, std::string_view source,
                                       std::string_view name);
 
 /// Reads the tetrahedra of all pieces, of second order by their corners, and their labels: the array `block`,

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Reading AutoCAD DXF: 3DFACE.
+// AutoCAD DXF: 3DFACE.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 
 namespace terrane {
@@ -22,5 +24,9 @@ namespace terrane {
 /// there is no face. Cost: linear.
 Result<std::vector<Surface>> read_dxf(std::string_view contents, std::string_view source,
                                       std::string_view name);
+
+/// Writes a 3DFACE for each triangle, on the layer called after its surface, in text of release 12. A triangle of several
+/// surfaces is there once for each. In names blanks and AutoCAD's special characters become '_'; roles have no place.
+std::string to_dxf(const Mesh& mesh);
 
 } // namespace terrane

@@ -98,24 +98,10 @@ private:
 } // namespace
 
 bool is_reserved(std::string_view name) {
-    constexpr std::array<std::string_view, 18> known{"nx",
-                                                     "ny",
-                                                     "nz",
-                                                     "normals",
-                                                     "surface",
-                                                     "surfaces",
-                                                     "surface_count",
-                                                     "region",
-                                                     "parent",
-                                                     "block",
-                                                     "twin",
-                                                     "cut_side",
-                                                     "volume_front",
-                                                     "volume_back",
-                                                     "interface",
-                                                     "patch",
-                                                     "triangle",
-                                                     "vtkValidPointMask"};
+    constexpr auto known = std::to_array<std::string_view>(
+        {"nx", "ny", "nz", "normals", "surface", "surfaces", "surface_count", "region", "parent",
+         "block", "twin", "cut_side", "volume_front", "volume_back", "interface", "patch",
+         "triangle", "vtkValidPointMask", "vtkGhostType"});
     return std::ranges::any_of(
         known, [&](std::string_view other) { return same_ignoring_case(name, other); });
 }

@@ -104,7 +104,7 @@ terrane_package(library ${c_package} libs LGPL-3+ "exact meshes of geological su
     CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/shlibs ${PROJECT_BINARY_DIR}/debian/triggers)
 terrane_package(dev libterrane-dev libdevel LGPL-3+ "exact meshes of geological surfaces - development files"
     "${what}\n.\nThis package has the headers of the C and C++ interfaces, the static\nlibraries and the CMake files."
-    DEPENDS "${c_package} (= ${debian_version}), libfmt-dev, libgmp-dev, libmpfr-dev, libpugixml-dev, libshp-dev, libtbb-dev, nettle-dev, zlib1g-dev"
+    DEPENDS "${c_package} (= ${debian_version}), libfmt-dev, libgmp-dev, liblz4-dev, liblzma-dev, libmpfr-dev, libpugixml-dev, libshp-dev, libtbb-dev, nettle-dev, zlib1g-dev"
     RECOMMENDS terrane-tetgen)
 terrane_package(program terrane science LGPL-3+ "exact meshes of geological surfaces - program"
     "${what}\n.\nThis package has the program." RECOMMENDS terrane-tetgen

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Opens what Terrane writes with VTK, gmsh and meshio and compares it with what was meant.
 
-VTK reads VTP, VTU and its legacy format, gmsh MSH 4.1, MSH 2.2 and MEDIT, meshio VTU and Abaqus files; *SURFACE, which meshio
+VTK reads VTP, VTU and its legacy format, gmsh MSH 4.1, MSH 2.2, MEDIT and UNV, meshio VTU, FLAC3D and Abaqus files; *SURFACE, which meshio
 leaves out, is read by the few lines below, from Abaqus' description of the keywords. (TetGen's
 formats are tested in test_poly.cpp.)
 
@@ -13,6 +13,7 @@ Needs VTK's Python modules, meshio and the program gmsh; without one of them it 
 import json
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -395,6 +396,67 @@ def check_sides(path, meant, blocks, elements, labels):
     check(found == wanted, f"{path}: sets and surfaces {found}, not {wanted}")
 
 
+def word(name):
+    return re.sub(r"[^0-9A-Za-z-]+", "_", name).strip("_")
+
+
+def group_members(meant):
+    """The names of blocks and surfaces, and of the sides of cuts, with the corners of their elements."""
+    groups = {}
+    for corners, block in zip(meant["cells"], meant.get("block_of", [])):
+        groups.setdefault(f"block_{block}" if block else "outside", []).append(corners)
+    names = different([word(name) for name in meant["names"]], "_")
+    for corners, surfaces, side in zip(meant.get("faces", meant["cells"]), meant["surfaces_of"], sides_of(meant)):
+        for s in surfaces:
+            groups.setdefault(names[s], []).append(corners)
+            if side:
+                groups.setdefault(names[s] + ("", "_front", "_back")[side], []).append(corners)
+    return groups
+
+
+def check_flac3d(path, meant):
+    mesh = meshio.read(path)
+    check([same_numbers(list(p), wanted) for p, wanted in zip(mesh.points, meant["points"])]
+          == [True] * len(meant["points"]), f"{path}: points")
+    cells = {block.type: [list(map(int, corners)) for corners in block.data] for block in mesh.cells}
+    check(cells == {"tetra": meant["cells"], "triangle": meant["faces"]}, f"{path}: cells {cells}")
+    found, starts = {}, [sum(len(block.data) for block in mesh.cells[:i]) for i in range(len(mesh.cells))]
+    for key, members in mesh.cell_sets.items():
+        found[key.split(":")[1]] = [list(map(int, mesh.cells[i].data[k - starts[i]]))
+                                    for i, ks in enumerate(members) for k in ks]
+    check(found == group_members(meant), f"{path}: groups {found}")
+
+
+def check_universal(path, meant):
+    """Groups are read here, elements by Gmsh, whose entities are those of property numbers."""
+    nodes, elements, _, _ = through_gmsh(path)
+    point = [tuple(f"{x:.16g}" for x in p) for p in meant["points"]]
+    wanted = Counter()
+    for corners in meant["cells"]:
+        wanted[4 if "faces" in meant else 2, tuple(point[v] for v in corners)] += 1
+    for corners in meant.get("faces", []):
+        wanted[2, tuple(point[v] for v in corners)] += 1
+    found = Counter()
+    for (kind, _, corners), count in elements.items():
+        found[kind, tuple(nodes[v] for v in corners)] += count
+    check(found == wanted, f"{path}: Gmsh's elements {found - wanted}, not {wanted - found}")
+    with open(path, encoding="utf-8") as file:
+        datasets = [part.strip("\n").split("\n") for part in re.split(r"(?m)^    -1\n", file.read())]
+    datasets = {int(lines[0]): lines[1:] for lines in datasets if lines != [""]}
+    found = [[float(x.replace("D", "E")) for x in line.split()] for line in datasets[2411][1::2]]
+    check(len(found) == len(meant["points"]) and all(map(same_numbers, found, meant["points"])), f"{path}: nodes")
+    corners_of = {int(head.split()[0]): [int(v) - 1 for v in corners.split()]
+                  for head, corners in zip(datasets[2412][::2], datasets[2412][1::2])}
+    groups, lines = {}, iter(datasets[2467])
+    for head in lines:
+        count, name, numbers = int(head.split()[7]), next(lines), []
+        while len(numbers) < 4 * count:
+            line = next(lines)
+            numbers += [int(line[k:k + 10]) for k in range(0, len(line), 10)]
+        groups[name] = [corners_of[n] for n in numbers[1::4]]
+    check(groups == group_members(meant), f"{path}: groups {groups}")
+
+
 def main():
     check(len(sys.argv) == 2, "usage: read_back.py TERRANE_TESTS")
     check(shutil.which("gmsh"), "there is no program gmsh")
@@ -417,6 +479,9 @@ def main():
             check_gmsh(base + "_22.msh", meant)
             check_medit(base + ".mesh", meant)
             check_abaqus(base + ".inp", meant)
+            check_universal(base + ".unv", meant)
+            if extension == ".vtu":
+                check_flac3d(base + ".f3grid", meant)
             print(f"{name}: VTK, gmsh and meshio read what was meant")
 
 

@@ -26,11 +26,11 @@ using namespace test_support;
 
 namespace {
 
-constexpr Format readable[] = {Format::gocad, Format::obj,    Format::off,   Format::stl,
-                               Format::ply,   Format::irap,   Format::zmap,  Format::cps3,
-                               Format::esri,  Format::xyz,    Format::vset,  Format::vtp,
-                               Format::msh,   Format::vtk,    Format::dxf,   Format::grdecl,
-                               Format::vtu,   Format::sticks, Format::surfer};
+constexpr Format readable[] = {
+    Format::gocad,  Format::obj,  Format::off,    Format::stl,    Format::ply,  Format::irap,
+    Format::zmap,   Format::cps3, Format::esri,   Format::xyz,    Format::vset, Format::vtp,
+    Format::msh,    Format::vtk,  Format::dxf,    Format::grdecl, Format::vtu,  Format::sticks,
+    Format::surfer, Format::vts,  Format::landxml};
 
 bool keeps_its_promises(const std::vector<Surface>& surfaces) {
     bool any = false;

@@ -68,9 +68,9 @@ TEST_CASE("files: what is written reads back", "[io][files]") {
 
 TEST_CASE("files: what holds surfaces, and what tetrahedra", "[io][files]") {
     TemporaryFolder folder;
-    const std::vector<std::string> names{"ts",  "obj",   "off", "stl",  "ply",   "vtp",   "vtu",
-                                         "msh", "msh22", "inp", "mesh", "poly",  "smesh", "vtk",
-                                         "exo", "ugi",   "ogs", "geos", "pylith"};
+    const std::vector<std::string> names{
+        "ts",   "obj",   "off", "stl", "ply", "vtp", "vtu",  "msh",    "msh22", "inp", "mesh",
+        "poly", "smesh", "vtk", "exo", "ugi", "ogs", "geos", "pylith", "dxf",   "unv", "f3grid"};
     std::string of_surfaces, of_tetrahedra;
     for (const auto& name : names) {
         const auto format = format_named(name);
@@ -83,8 +83,8 @@ TEST_CASE("files: what holds surfaces, and what tetrahedra", "[io][files]") {
         if (surfaces) of_surfaces += name + " ";
         if (tetrahedra) of_tetrahedra += name + " ";
     }
-    CHECK(of_surfaces == "ts obj off stl ply vtp msh msh22 inp mesh poly smesh vtk ");
-    CHECK(of_tetrahedra == "vtu msh msh22 inp mesh exo ugi ogs geos pylith ");
+    CHECK(of_surfaces == "ts obj off stl ply vtp msh msh22 inp mesh poly smesh vtk dxf unv ");
+    CHECK(of_tetrahedra == "vtu msh msh22 inp mesh exo ugi ogs geos pylith unv f3grid ");
 }
 
 TEST_CASE("files: all files of a simulator are written, or none", "[io][files]") {
@@ -120,7 +120,7 @@ TEST_CASE("files: tetrahedra of second order", "[io][files]") {
         CHECK(message_of(write_tetrahedra(two_tetrahedra(), second, {.order = 2})) == "no error");
         CHECK(read_file(first).value() != read_file(second).value());
     }
-    for (const std::string name : {"mesh", "ugi", "geos", "pylith"}) {
+    for (const std::string name : {"mesh", "ugi", "geos", "pylith", "unv", "f3grid"}) {
         INFO(name);
         CHECK(!holds_second_order(*format_named(name)));
         const auto file = folder / ("c." + name);
@@ -153,7 +153,7 @@ TEST_CASE("files: reading what can't be read", "[io][files]") {
     const std::string list_of_readable =
         "; read are ts, ml, gp, mx, gm, obj, off, stl, ply, vtp, vtu, msh, irap, gri, fgr, "
         "zmap, zycor, cps3, cps, asc, agr, grd, xyz, csv, txt, dat, poi, pol, "
-        "vs, pl, vtk, dxf, grdecl, sticks";
+        "vs, pl, vtk, dxf, grdecl, sticks, vts, xml, landxml";
     check(read_surfaces("a.abc"), unknown_format,
           "a.abc: unknown format \".abc\"" + list_of_readable);
     check(read_surfaces("a"), unknown_format,

@@ -89,6 +89,8 @@ void save(const std::filesystem::path& folder, const std::string& name, const An
     write(name + "_22.msh", {.format = Format::msh22});
     write(name + ".mesh", {});
     write(name + ".inp", {});
+    write(name + ".unv", {});
+    if constexpr (std::is_same_v<AnyMesh, TetrahedralMesh>) write(name + ".f3grid", {});
     std::ofstream(folder / (name + ".json")) << to_json(mesh);
 }
 

@@ -7,6 +7,12 @@
 #include <type_traits>
 
 #include <zlib.h>
+#ifdef TERRANE_HAS_LZ4
+#include <lz4.h>
+#endif
+#ifdef TERRANE_HAS_LZMA
+#include <lzma.h>
+#endif
 
 #include <terrane/io/text/bytes.hpp>
 
@@ -106,15 +112,48 @@ std::optional<std::string> decode_plain(ByteSource& in, const VtkEncoding& e, st
     return std::nullopt;
 }
 
-bool inflate_to(std::string_view from, std::size_t size, std::string& bytes) {
-    if (size / most_growth > from.size()) return false;
-    const std::size_t start = bytes.size();
-    bytes.resize(start + size);
+bool inflate_to(std::string_view from, std::size_t size, char* to) {
     uLongf made = size;
-    const int code = uncompress(reinterpret_cast<Bytef*>(bytes.data() + start), &made,
+    const int code = uncompress(reinterpret_cast<Bytef*>(to), &made,
                                 reinterpret_cast<const Bytef*>(from.data()), from.size());
     if (code == Z_MEM_ERROR) throw std::bad_alloc(); // nothing is wrong with the data
     return code == Z_OK && made == size;
+}
+
+#ifdef TERRANE_HAS_LZ4
+bool unpack_lz4(std::string_view from, std::size_t size, char* to) {
+    if (from.size() > LZ4_MAX_INPUT_SIZE || size > LZ4_MAX_INPUT_SIZE) return false;
+    const auto length = static_cast<int>(size);
+    return LZ4_decompress_safe(from.data(), to, static_cast<int>(from.size()), length) == length;
+}
+#endif
+
+#ifdef TERRANE_HAS_LZMA
+bool unpack_lzma(std::string_view from, std::size_t size, char* to) {
+    std::uint64_t most_memory = std::uint64_t{256} << 20U;
+    std::size_t read = 0, made = 0;
+    const lzma_ret code = lzma_stream_buffer_decode(
+        &most_memory, 0, nullptr, reinterpret_cast<const std::uint8_t*>(from.data()), &read,
+        from.size(), reinterpret_cast<std::uint8_t*>(to), &made, size);
+    if (code == LZMA_MEM_ERROR) throw std::bad_alloc();
+    return code == LZMA_OK && made == size;
+}
+#endif
+
+/// Appends the `size` bytes of a block.
+bool append_block(VtkCompressor compressor, std::string_view from, std::size_t size,
+                  std::string& bytes) {
+    if (size / most_growth > from.size()) return false;
+    const std::size_t start = bytes.size();
+    bytes.resize(start + size);
+    char* const to = bytes.data() + start;
+#ifdef TERRANE_HAS_LZ4
+    if (compressor == VtkCompressor::lz4) return unpack_lz4(from, size, to);
+#endif
+#ifdef TERRANE_HAS_LZMA
+    if (compressor == VtkCompressor::lzma) return unpack_lzma(from, size, to);
+#endif
+    return compressor == VtkCompressor::zlib && inflate_to(from, size, to);
 }
 
 std::optional<std::string> decode_compressed(ByteSource& in, const VtkEncoding& e,
@@ -138,7 +177,8 @@ std::optional<std::string> decode_compressed(ByteSource& in, const VtkEncoding& 
     for (std::uint64_t b = 0; b < blocks; ++b) {
         const std::uint64_t part = header_word(header, 3 + b, e);
         const bool is_rest = b + 1 == blocks && last != 0;
-        if (!inflate_to(std::string_view(packed).substr(at, part), is_rest ? last : whole, bytes))
+        if (!append_block(e.compressor, std::string_view(packed).substr(at, part),
+                          is_rest ? last : whole, bytes))
             return "the data of the array cannot be decompressed";
         at += part;
     }
@@ -195,13 +235,26 @@ std::optional<NumberType> number_type_named(std::string_view name) {
     return static_cast<NumberType>(found - types.begin());
 }
 
+std::optional<VtkCompressor> vtk_compressor(std::string_view name) {
+    if (name.empty()) return VtkCompressor::none;
+    if (name == "vtkZLibDataCompressor") return VtkCompressor::zlib;
+#ifdef TERRANE_HAS_LZ4
+    if (name == "vtkLZ4DataCompressor") return VtkCompressor::lz4;
+#endif
+#ifdef TERRANE_HAS_LZMA
+    if (name == "vtkLZMADataCompressor") return VtkCompressor::lzma;
+#endif
+    return std::nullopt;
+}
+
 std::optional<std::string> decode_vtk(std::string_view text, bool base64, std::size_t at,
                                       const VtkEncoding& encoding, std::string& bytes,
                                       std::size_t& used) {
     bytes.clear();
     ByteSource in(text, base64, at);
-    auto flaw = encoding.compressed ? decode_compressed(in, encoding, text, bytes)
-                                    : decode_plain(in, encoding, bytes);
+    auto flaw = encoding.compressor != VtkCompressor::none
+                    ? decode_compressed(in, encoding, text, bytes)
+                    : decode_plain(in, encoding, bytes);
     used += in.at() > at ? in.at() - at : 0;
     return flaw;
 }

@@ -73,11 +73,12 @@ MaybeError VtkXmlFile::read_header() {
     if (type != type_)
         return error(root_, ErrorCode::unsupported,
                      fmt::format("the file has {}; only {} is read", shown(type), type_));
-    const std::string_view compressor = root_.attribute("compressor").value();
-    if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
+    const std::string_view name = root_.attribute("compressor").value();
+    const auto compressor = vtk_compressor(name);
+    if (!compressor)
         return error(root_, ErrorCode::unsupported,
-                     fmt::format("{} is not read, only vtkZLibDataCompressor", shown(compressor)));
-    encoding_.compressed = !compressor.empty();
+                     fmt::format("{} is not read by this build", shown(name)));
+    encoding_.compressor = *compressor;
     const std::string_view order = root_.attribute("byte_order").value();
     encoding_.order = order == "BigEndian" ? std::endian::big : std::endian::little;
     const std::string_view header = root_.attribute("header_type").value();

@@ -22,14 +22,14 @@ using Integers = std::vector<std::int64_t>;
 /// The contents of a file. What it returns are errors at the line of an element.
 class VtkXmlFile {
 public:
-    /// `type`: of the data that are read, PolyData or UnstructuredGrid.
+    /// `type`: of the data that are read, PolyData, UnstructuredGrid or StructuredGrid.
     VtkXmlFile(std::string_view contents, std::string_view source, std::string_view type) :
         contents_(contents), source_(source), type_(type) {}
 
     /// Parses the file and finds the element with its data.
     MaybeError open(pugi::xml_node& data);
     [[nodiscard]] std::string_view source() const { return source_; }
-    [[nodiscard]] bool is_grid() const { return type_ == "UnstructuredGrid"; }
+    [[nodiscard]] std::string_view type() const { return type_; }
     [[nodiscard]] Error error(const pugi::xml_node& at, ErrorCode code, std::string what) const;
 
     /// Reads the numbers of an array.

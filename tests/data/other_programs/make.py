@@ -5,23 +5,27 @@
 The .vtu files, and the .vtk files called grid, have a tetrahedron below it, an edge and a point as well. Files called
 named have the arrays that Terrane writes into .vtp and .vtu files: what VTK makes of these when it writes .vtk.
 All of them hold the same roof: six points, two triangles and a quadrilateral; the gmsh files hold a square
-that is divided into two named physical surfaces.
+that is divided into two named physical surfaces. The files of OBJ are a triangle that Python has compressed.
 
 usage: /usr/bin/python3 make.py [FOLDER]
 """
+import lzma
 import pathlib
 import subprocess
 import sys
 import tempfile
+import zipfile
 
 import meshio
 import numpy
 from vtkmodules.vtkCommonCore import vtkIntArray, vtkPoints, vtkStringArray, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import (VTK_LINE, VTK_PIXEL, VTK_QUAD, VTK_TETRA, VTK_TRIANGLE,
                                            VTK_VERTEX, vtkCellArray, vtkPolyData,
-                                           vtkUnstructuredGrid)
-from vtkmodules.vtkIOLegacy import vtkPolyDataWriter, vtkUnstructuredGridWriter
-from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
+                                           vtkStructuredGrid, vtkUnstructuredGrid)
+from vtkmodules.vtkIOLegacy import (vtkPolyDataWriter, vtkStructuredGridWriter,
+                                     vtkUnstructuredGridWriter)
+from vtkmodules.vtkIOXML import (vtkXMLPolyDataWriter, vtkXMLStructuredGridWriter,
+                                  vtkXMLUnstructuredGridWriter)
 
 POINTS = [(0, 0, 0), (2, 0, 0), (2, 1, 0.5), (0, 1, 0.5), (0, 2, 0.1), (2, 2, 0.1)]
 TRIANGLES = [(3, 2, 4), (4, 2, 5)]
@@ -75,7 +79,8 @@ def write_xml(path, mode, compress, big_endian=False, encode=True, wide=False):
     {"ascii": writer.SetDataModeToAscii, "binary": writer.SetDataModeToBinary,
      "appended": writer.SetDataModeToAppended}[mode]()
     if compress:
-        writer.SetCompressorTypeToZLib()
+        {True: writer.SetCompressorTypeToZLib, "lz4": writer.SetCompressorTypeToLZ4,
+         "lzma": writer.SetCompressorTypeToLZMA}[compress]()
         writer.SetBlockSize(96)  # so that there are several blocks
     else:
         writer.SetCompressorTypeToNone()
@@ -117,6 +122,35 @@ def write_legacy(path, binary, version, data):
     writer.Write()
 
 
+def structured():
+    """The roof as a structured grid, whose second row of points begins with the fourth of POINTS."""
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    for k in (0, 1, 3, 2, 4, 5):
+        points.InsertNextPoint(*POINTS[k])
+    data = vtkStructuredGrid()
+    data.SetDimensions(2, 1, 3)
+    data.SetPoints(points)
+    return data
+
+
+def write_structured(folder):
+    for blank in (False, True):
+        writer, data = vtkXMLStructuredGridWriter(), structured()
+        if blank:
+            data.BlankCell(1)
+        writer.SetFileName(str(folder / f"vtk_{'blank' if blank else 'lzma'}.vts"))
+        writer.SetInputData(data)
+        writer.SetCompressorTypeToLZMA()
+        writer.Write()
+    for binary in (False, True):
+        writer = vtkStructuredGridWriter()
+        writer.SetFileName(str(folder / f"vtk_structured_{'binary' if binary else 'ascii'}.vtk"))
+        writer.SetInputData(structured())
+        writer.SetFileTypeToBinary() if binary else writer.SetFileTypeToASCII()
+        writer.Write()
+
+
 def write_gmsh(folder):
     with tempfile.TemporaryDirectory() as work:
         geo = pathlib.Path(work) / "square.geo"
@@ -126,6 +160,17 @@ def write_gmsh(folder):
                             str(folder / name)], check=True)
         subprocess.run(["gmsh", str(geo), "-2", "-format", "msh41", "-bin", "-v", "1", "-o",
                         str(folder / "gmsh_binary.msh")], check=True)
+
+
+def write_compressed(folder):
+    text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+    (folder / "triangle.obj.xz").write_bytes(lzma.compress(text.encode()))
+    for name, method, files in (("triangle.obj.zip", zipfile.ZIP_DEFLATED, ("triangle.obj",)),
+                                ("stored.obj.zip", zipfile.ZIP_STORED, ("__MACOSX/._x", "a/", "a/x.obj")),
+                                ("two.zip", zipfile.ZIP_STORED, ("a.obj", "b.obj"))):
+        with zipfile.ZipFile(folder / name, "w", method) as archive:
+            for file in files:
+                archive.writestr(zipfile.ZipInfo(file), "" if file.endswith("/") else text, method)
 
 
 def main():
@@ -138,6 +183,8 @@ def main():
     write_xml(folder / "vtk_appended_raw_zlib.vtp", "appended", True, encode=False)
     write_xml(folder / "vtk_appended_zlib.vtp", "appended", True, encode=True)
     write_xml(folder / "vtk_big_endian.vtp", "appended", True, big_endian=True)
+    write_xml(folder / "vtk_lz4.vtp", "appended", "lz4", encode=False)
+    write_xml(folder / "vtk_lzma.vtp", "binary", "lzma")
     write_xml(folder / "vtk_ascii.vtu", "ascii", False)
     write_xml(folder / "vtk_binary_zlib.vtu", "binary", True, wide=True)
     write_xml(folder / "vtk_appended_raw.vtu", "appended", False, encode=False)
@@ -150,6 +197,8 @@ def main():
         write_legacy(folder / f"vtk_grid_{name}", binary, version, grid(pixel=binary))
         write_legacy(folder / f"vtk_named_grid_{name}", binary, version, named(grid()))
         write_legacy(folder / f"vtk_named_{name}", binary, version, named(roof()))
+    write_structured(folder)
+    write_compressed(folder)
     write_gmsh(folder)
     mesh = meshio.Mesh(numpy.array(POINTS, dtype=float),
                        [("quad", [QUADRILATERAL]), ("triangle", TRIANGLES)])

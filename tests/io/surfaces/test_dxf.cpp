@@ -155,3 +155,23 @@ TEST_CASE("DXF: what can't be read is named with its line", "[io][dxf]") {
     CHECK(dxf_message(dxf_entities + "0\n3DFACE\n10\n1\n20\n1\n" + dxf_end) ==
           "a:16: corner 2 of the 3DFACE has no x and y");
 }
+
+TEST_CASE("DXF: what is written is read back, also names", "[io][dxf]") {
+    Mesh mesh;
+    mesh.surfaces = {{"top: A/B", Role::horizon}, {"top_ A_B", Role::fault}};
+    mesh.vertices = {
+        {0.1, -0.0, 5e-324}, {4234567.123456789, 0, 0}, {0, 1.0 / 3, -1e300}, {1, 1, 1}};
+    mesh.triangles = {{0, 1, 2}, {1, 3, 2}};
+    mesh.surfaces_of.push_back(std::vector<std::uint32_t>{0});
+    mesh.surfaces_of.push_back(std::vector<std::uint32_t>{0, 1});
+    const auto text = format_mesh(mesh, Format::dxf);
+    REQUIRE(text);
+    const auto read = parse_surfaces(*text, "a", Format::dxf);
+    if (!read) FAIL(read.error().message());
+    REQUIRE(read->size() == 2);
+    CHECK(read->front().name == "top__A_B");
+    CHECK(read->back().name == "top__A_B_2");
+    CHECK(read->front().vertices == mesh.vertices);
+    CHECK(read->front().triangles == mesh.triangles);
+    CHECK(read->back().triangles == std::vector<Triangle>{{0, 1, 2}});
+}

@@ -70,6 +70,8 @@ class TerraneConan(ConanFile):
         tc.cache_variables["TERRANE_PROGRAM"] = bool(self.options.program)
         tc.cache_variables["TERRANE_SHAPELIB"] = bool(self.options.shapelib)
         tc.cache_variables["TERRANE_GMSH"] = False  # GPL
+        tc.cache_variables["TERRANE_LZ4"] = False
+        tc.cache_variables["TERRANE_LZMA"] = False
         tc.cache_variables["TERRANE_TETGEN"] = False  # AGPL
         tc.cache_variables["TERRANE_TESTS"] = False
         tc.cache_variables["TERRANE_UNITY"] = True

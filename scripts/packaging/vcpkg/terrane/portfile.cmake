@@ -21,6 +21,8 @@ vcpkg_cmake_configure(
         ${FEATURE_OPTIONS}
         -DBUILD_SHARED_LIBS=OFF
         -DTERRANE_GMSH=OFF
+        -DTERRANE_LZ4=OFF
+        -DTERRANE_LZMA=OFF
         -DTERRANE_TESTS=OFF
         -DTERRANE_TETGEN=OFF
         -DTERRANE_UNITY=ON
