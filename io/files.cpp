@@ -206,8 +206,7 @@ Result<std::string> contents_of(const Mesh& mesh, Format format, const WriteOpti
     case Format::off:
         return to_off(mesh);
     case Format::stl:
-        if (options.ascii) return to_stl_ascii(mesh);
-        return to_stl(mesh);
+        return options.ascii ? to_stl_ascii(mesh) : to_stl(mesh);
     case Format::ply:
         return to_ply(mesh, options.values);
     case Format::msh:
