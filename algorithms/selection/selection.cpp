@@ -143,7 +143,7 @@ Result<SelectedRegion> repeatable_region(Arrangement exact, const Question& ques
     return region;
 }
 
-void measure(const SelectedRegion& region, bool fractions, Selection& made) {
+void measure(const SelectedRegion& region, bool fractions, Selected& made) {
     Volumes volumes{region.of_sides, volumes::measure_volumes(region.boundary, region.of_sides,
                                                               region.pieces + std::size_t{1})};
     made.volume = volumes.measures[0];
@@ -181,7 +181,7 @@ void count_through_all(std::span<const Surface> surfaces, const Question& questi
 
 /// Rounds the boundary and turns its triangles outwards.
 Status round_boundary(const SelectedRegion& region, const SelectOptions& options, const Run& run,
-                      Selection& made) {
+                      Selected& made) {
     const BoundaryFacets facets(region);
     auto rounded = round_to_doubles(region.boundary, options.rounding, run);
     if (!rounded && rounded.error().code == ErrorCode::nothing_to_do) {
@@ -198,12 +198,12 @@ Status round_boundary(const SelectedRegion& region, const SelectOptions& options
     return Done{};
 }
 
-Result<Selection> selected(std::span<const Surface> surfaces, const Question& question,
-                           const SelectOptions& options, const Run& run) {
+Result<Selected> selected(std::span<const Surface> surfaces, const Question& question,
+                          const SelectOptions& options, const Run& run) {
     StageTimer timer(run, "select");
     auto exact = arrange(surfaces_of(surfaces, question), options.arrange, timer.inside());
     if (!exact) return exact.error();
-    Selection made;
+    Selected made;
     made.arrangement = exact->statistics;
     const InputTriangles counted = exact->inputs;
     auto region = repeatable_region(std::move(*exact), question, timer.inside());
@@ -231,15 +231,15 @@ std::optional<InsideRule> inside_rule_named(std::string_view name) {
     return static_cast<InsideRule>(found - rule_names.begin());
 }
 
-Mesh Selection::piece(std::uint32_t number) const {
+Mesh Selected::piece(std::uint32_t number) const {
     std::vector<bool> keep;
     for (const std::uint32_t p : piece_of) keep.push_back(p == number);
     return selection::part_of(mesh, keep);
 }
 
-Result<Selection> select(std::span<const Surface> surfaces, std::string_view expression,
-                         const SelectOptions& options, const Run& run) {
-    return guarded("for the selection", "select", [&]() -> Result<Selection> {
+Result<Selected> select(std::span<const Surface> surfaces, std::string_view expression,
+                        const SelectOptions& options, const Run& run) {
+    return guarded("for the selection", "select", [&]() -> Result<Selected> {
         if (const auto valid = validate(surfaces); !valid) return valid.error();
         const auto question = question_of(surfaces, expression, options.rule);
         if (!question) return question.error();

@@ -60,7 +60,7 @@ struct SelectedPiece {
 };
 
 /// A region of space.
-struct Selection {
+struct Selected {
     Mesh
         mesh; ///< its boundary. Surfaces and parents are those of the input, counted through all surfaces
     std::vector<std::uint32_t> piece_of; ///< per triangle: the piece that it bounds
@@ -80,7 +80,7 @@ struct Selection {
 /// difference), ~a (complement), brackets, and names in double quotes. A region without points has an empty mesh.
 /// Errors: bad_option with the column (syntax, an unknown name) or if the region has no end; not_closed for a
 /// surface that bounds no solid, with the place; those of arrange(), find_volumes() and round_to_doubles().
-Result<Selection> select(std::span<const Surface> surfaces, std::string_view expression,
-                         const SelectOptions& options = {}, const Run& run = {});
+Result<Selected> select(std::span<const Surface> surfaces, std::string_view expression,
+                        const SelectOptions& options = {}, const Run& run = {});
 
 } // namespace terrane

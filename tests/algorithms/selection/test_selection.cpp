@@ -24,8 +24,8 @@ using namespace test_support;
 
 namespace {
 
-Selection chosen(const std::vector<Surface>& surfaces, const std::string& expression,
-                 InsideRule rule = InsideRule::nonzero) {
+Selected chosen(const std::vector<Surface>& surfaces, const std::string& expression,
+                InsideRule rule = InsideRule::nonzero) {
     auto made = select(surfaces, expression, {.rule = rule, .fractions = true});
     INFO(expression);
     REQUIRE(made);
@@ -55,7 +55,7 @@ bool is_within(int winding, InsideRule rule) {
 
 /// Compares a selection with the winding numbers of random points; returns how many were compared.
 int compare_points(const std::vector<Surface>& surfaces, const std::string& text, InsideRule rule,
-                   const Selection& made, Random& random) {
+                   const Selected& made, Random& random) {
     const auto expression = parse_expression(text);
     REQUIRE(expression);
     int compared = 0;
@@ -78,7 +78,7 @@ int compare_points(const std::vector<Surface>& surfaces, const std::string& text
     return compared;
 }
 
-void check_boundary(const Selection& made) {
+void check_boundary(const Selected& made) {
     CHECK(made.rounding.clean);
     CHECK(conforming(made.mesh.vertices, made.mesh.triangles,
                      std::vector<std::uint32_t>(made.mesh.triangles.size())));
