@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/volumes/complex.hpp>
 
 namespace terrane::volumes {
@@ -20,6 +21,9 @@ using VolumeSides = std::span<const std::array<std::uint32_t, 2>>;
 /// about 106 bits and an error bound; where this does not decide the rounding, the exact sum does.
 /// [0] is the sum of all blocks. The rounding mode must be "to nearest".
 std::vector<double> measure_volumes(const TriangleComplex& sheets, VolumeSides of_sides,
+                                    std::size_t count);
+/// The same of the triangles of an arrangement, whose volumes the caller numbered.
+std::vector<double> measure_volumes(const Arrangement& arrangement, VolumeSides of_sides,
                                     std::size_t count);
 
 /// Returns, for each volume, six times the part of its exact measure that these triangles

@@ -213,6 +213,14 @@ Result<Volumes> find_volumes(const Mesh& mesh, const Run& run) {
     });
 }
 
+std::vector<double> volumes::measure_volumes(const Arrangement& a, VolumeSides of_sides,
+                                             std::size_t count) {
+    const auto planes = planes_of(a);
+    const auto edges = group_edges(a.triangles, a.vertices.size());
+    return measure_volumes({a.state->points, a.vertices, a.triangles, edges, planes, &a.parents_of},
+                           of_sides, count);
+}
+
 ExactVolumes exact_volumes(const Arrangement& a, const Volumes& volumes, int base) {
     const StandardArithmetic guard;
     const auto planes = planes_of(a);

@@ -10,6 +10,7 @@
 #include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/selection/windings.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/kernel/predicates.hpp>
 
@@ -182,12 +183,6 @@ Result<Bound> bound_of(const Arrangement& exact, double spacings) {
                      "the bound " + figure(bound) + " is more than a 4096th of the inputs' extent",
                      "spacings"};
     return Bound{bound, std::max(bound, spacing / 4), most_of_extent * extent, {}};
-}
-
-Sign turn_of(const Arrangement& exact, std::uint32_t input, Axis axis) {
-    const Triangle& c = exact.input_corners()[input];
-    const PointStore& points = exact.state->points;
-    return orient2d(axis, points.input(c[0]), points.input(c[1]), points.input(c[2]));
 }
 
 Target whole_arrangement(const Arrangement& exact) {

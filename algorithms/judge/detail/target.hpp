@@ -73,7 +73,4 @@ struct Cells {
 /// Finds the cells. Cost: O(n log n).
 Cells find_cells(const Target& target);
 
-/// Returns the sign of the turn of an input triangle, which lies in the plane of the projection.
-Sign turn_of(const Arrangement& exact, std::uint32_t input, Axis axis);
-
 } // namespace terrane::judging

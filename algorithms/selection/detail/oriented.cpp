@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/selection/detail/oriented.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <tuple>
+#include <utility>
+
+#include <terrane/algorithms/arrangement/exact_arrangement.hpp>
+#include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
+
+namespace terrane::selection {
+namespace {
+
+/// Returns the mean of three points, whatever their order.
+Point3 middle_of(std::array<Point3, 3> p) {
+    std::sort(p.begin(), p.end());
+    return {(p[0].x + p[1].x + p[2].x) / 3, (p[0].y + p[1].y + p[2].y) / 3,
+            (p[0].z + p[1].z + p[2].z) / 3};
+}
+
+std::array<Point3, 3> corners_of(const Mesh& mesh, std::size_t t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    return {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
+}
+
+/// What the facets say of the volumes of a rounded boundary.
+class Ballot {
+public:
+    Ballot(const Mesh& rounded, const Volumes& volumes, const BoundaryFacets& facets) :
+        volumes_(volumes), balance_(volumes.measures.size()) {
+        for (std::size_t t = 0; t < rounded.triangles.size(); ++t) {
+            const auto* facet = facets.nearest(rounded.parents_of[t][0], corners_of(rounded, t));
+            if (facet == nullptr || volumes.dangles(t)) continue;
+            const auto& sides = volumes.of_sides[t];
+            ++balance_[sides[facet->is_behind ? 1 : 0]];
+            --balance_[sides[facet->is_behind ? 0 : 1]];
+            pieces_.emplace_back(sides[facet->is_behind ? 1 : 0], facet->piece);
+        }
+    }
+
+    /// Whether each volume is in the region; the outside never is.
+    [[nodiscard]] std::vector<bool> inside() const {
+        std::vector<bool> in;
+        for (const auto sum : balance_) in.push_back(!in.empty() && sum > 0);
+        return in;
+    }
+
+    /// Returns the piece of each volume that is inside: of volumes that are connected, the one that most
+    /// facets have.
+    [[nodiscard]] std::vector<std::uint32_t> pieces(const std::vector<bool>& inside) {
+        DisjointSets joined(inside.size());
+        for (const auto& [front, behind] : volumes_.of_sides)
+            if (inside[front] && inside[behind]) joined.join(front, behind);
+        for (auto& [volume, piece] : pieces_) volume = joined.find(volume);
+        std::sort(pieces_.begin(), pieces_.end());
+        std::vector<std::uint32_t> piece(inside.size(), 0);
+        std::vector<std::size_t> most(inside.size(), 0);
+        for (std::size_t i = 0, end = 0; i < pieces_.size(); i = end) {
+            while (end < pieces_.size() && pieces_[end] == pieces_[i]) ++end;
+            const auto [volume, named] = pieces_[i];
+            if (end - i > most[volume])
+                std::tie(most[volume], piece[volume]) = std::pair(end - i, named);
+        }
+        for (std::uint32_t v = 0; v < piece.size(); ++v) piece[v] = piece[joined.find(v)];
+        return piece;
+    }
+
+private:
+    const Volumes& volumes_;
+    std::vector<std::int64_t>
+        balance_; ///< per volume: facets with the region there, minus the others
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pieces_; ///< {volume, piece} per facet
+};
+
+} // namespace
+
+BoundaryFacets::BoundaryFacets(const SelectedRegion& region) :
+    mixed_(region.boundary.input_corners().size()) {
+    const Arrangement& a = region.boundary;
+    facets_.reserve(a.triangles.size());
+    for (std::size_t t = 0; t < a.triangles.size(); ++t) {
+        const auto at = [&](unsigned i) { return a.nearest(VertexId(a.triangles[t][i])); };
+        const auto [front, behind] = region.of_sides[t];
+        facets_.push_back({a.parents_of[t][0], middle_of({at(0), at(1), at(2)}),
+                           std::max(front, behind) - 1, behind != 0});
+    }
+    std::sort(facets_.begin(), facets_.end(), [](const Facet& f, const Facet& g) {
+        return std::tie(f.parent, f.middle) < std::tie(g.parent, g.middle);
+    });
+    for (std::size_t i = 1; i < facets_.size(); ++i) {
+        const Facet &f = facets_[i - 1], &g = facets_[i];
+        if (f.parent == g.parent && (f.piece != g.piece || f.is_behind != g.is_behind))
+            mixed_[f.parent] = true;
+    }
+}
+
+const BoundaryFacets::Facet* BoundaryFacets::nearest(std::uint32_t parent,
+                                                     const std::array<Point3, 3>& corners) const {
+    const auto first =
+        std::lower_bound(facets_.begin(), facets_.end(), parent,
+                         [](const Facet& f, std::uint32_t p) { return f.parent < p; });
+    if (first == facets_.end() || first->parent != parent) return nullptr;
+    if (!mixed_[parent]) return &*first;
+    const Point3 middle = middle_of(corners);
+    const auto last = std::upper_bound(
+        first, facets_.end(), parent, [](std::uint32_t p, const Facet& f) { return p < f.parent; });
+    const auto same = std::lower_bound(
+        first, last, middle, [](const Facet& f, const Point3& p) { return f.middle < p; });
+    if (same != last && same->middle == middle) return &*same;
+    const auto distance = [&](const Facet& f) {
+        const Point3 d = minus(f.middle, middle);
+        return dot(d, d);
+    };
+    return &*std::min_element(
+        first, last, [&](const Facet& f, const Facet& g) { return distance(f) < distance(g); });
+}
+
+Result<Oriented> oriented(const Mesh& rounded, const BoundaryFacets& facets, const Run& run) {
+    const auto volumes = find_volumes(rounded, run);
+    if (!volumes) return volumes.error();
+    Ballot ballot(rounded, *volumes, facets);
+    const auto inside = ballot.inside();
+    const auto piece = ballot.pieces(inside);
+    Oriented made;
+    Mesh turned = rounded;
+    std::vector<bool> keep;
+    for (std::size_t t = 0; t < rounded.triangles.size(); ++t) {
+        const auto [front, behind] = volumes->of_sides[t];
+        keep.push_back(inside[front] != inside[behind]);
+        if (!keep.back()) continue;
+        if (inside[front]) std::swap(turned.triangles[t][1], turned.triangles[t][2]);
+        made.piece_of.push_back(piece[inside[front] ? front : behind]);
+    }
+    made.mesh = part_of(turned, keep);
+    return made;
+}
+
+Mesh part_of(const Mesh& mesh, const std::vector<bool>& keep) {
+    Mesh part{mesh.surfaces, mesh.vertices, {}, {}, {}, {}, {}};
+    std::vector<Edge> edges;
+    for (std::size_t t = 0; t < keep.size(); ++t) {
+        if (!keep[t]) continue;
+        const Triangle& c = mesh.triangles[t];
+        part.triangles.push_back(c);
+        part.surfaces_of.push_back(mesh.surfaces_of[t]);
+        part.parents_of.push_back(mesh.parents_of[t]);
+        for (unsigned i = 0; i < 3; ++i) {
+            const auto [low, high] = std::minmax(c[i], c[(i + 1) % 3]);
+            edges.push_back({low, high});
+        };
+    }
+    sort_unique(edges);
+    std::set_intersection(mesh.intersection_edges.begin(), mesh.intersection_edges.end(),
+                          edges.begin(), edges.end(), std::back_inserter(part.intersection_edges));
+    const VertexRenumbering numbers(used_vertices(part.vertices.size(), part.triangles));
+    numbers.compact(part.vertices);
+    numbers.rename(part.triangles);
+    numbers.rename(part.intersection_edges);
+    return part;
+}
+
+} // namespace terrane::selection

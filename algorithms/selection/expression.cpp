@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <terrane/algorithms/selection/expression.hpp>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace terrane {
+namespace {
+
+using Action = Expression::Action;
+
+/// Binary operators by strength, the weakest first.
+constexpr std::array<std::pair<char, Action>, 4> binary{{{'|', Action::unite},
+                                                         {'^', Action::exclude},
+                                                         {'&', Action::intersect},
+                                                         {'-', Action::difference}}};
+
+bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+
+bool is_of_name(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '.' || static_cast<unsigned char>(c) >= 0x80;
+}
+
+/// Reads an expression by recursive descent. After the first flaw it reads no further.
+class Parser {
+public:
+    explicit Parser(std::string_view text) : text_(text) {}
+
+    Result<Expression> operator()() {
+        read(0);
+        if (!flaw_ && peek() != '\0') expect("an operator: | ^ & -");
+        if (flaw_) return *flaw_;
+        return std::move(made_);
+    }
+
+private:
+    /// Nested deeper than this, an expression is refused: the stack has an end.
+    static constexpr int most_nested = 1000;
+
+    /// Skips blanks; returns the next character, or 0 at the end.
+    char peek() {
+        while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
+        return at_ < text_.size() ? text_[at_] : '\0';
+    }
+    bool take(char c) {
+        if (peek() != c) return false;
+        ++at_;
+        return true;
+    }
+    void fail(std::string sentence, std::size_t at) {
+        if (!flaw_)
+            flaw_ = Error{ErrorCode::bad_option, std::move(sentence),
+                          "expression, column " + std::to_string(at + 1)};
+    }
+    void expect(std::string_view what) {
+        const char c = peek();
+        const std::string found = c == '\0' ? "the end" : std::string("'") + c + "'";
+        fail("expected " + std::string(what) + ", not " + found, at_);
+    }
+
+    /// Reads operators from this strength on.
+    void read(std::size_t strength) {
+        if (strength == binary.size()) return read_unary();
+        read(strength + 1);
+        while (!flaw_ && take(binary[strength].first)) {
+            read(strength + 1);
+            made_.steps.push_back({binary[strength].second});
+        }
+    }
+
+    void read_unary() {
+        if (flaw_) return;
+        if (++depth_ > most_nested) return fail("is nested more than 1000 times", at_);
+        if (take('~')) {
+            read_unary();
+            made_.steps.push_back({Action::complement});
+        } else if (take('(')) {
+            read_rest_of_brackets();
+        } else {
+            read_name();
+        }
+        --depth_;
+    }
+
+    void read_rest_of_brackets() {
+        read(0);
+        if (!flaw_ && !take(')')) expect("an operator or ')'");
+    }
+
+    void read_name() {
+        const bool is_quoted = peek() == '"';
+        const std::size_t first = at_;
+        std::string name;
+        if (is_quoted) {
+            const std::size_t end = text_.find('"', first + 1);
+            if (end == std::string_view::npos) return fail("this quote has no end", first);
+            name = text_.substr(first + 1, end - first - 1);
+            at_ = end + 1;
+            if (name.empty()) return fail("a name may not be empty", first);
+        } else {
+            while (at_ < text_.size() && is_of_name(text_[at_])) ++at_;
+            name = text_.substr(first, at_ - first);
+        }
+        if (name.empty()) return expect("a name, '(' or '~'");
+        if (!is_quoted && take('(')) {
+            if (name != "inside")
+                return fail("there is no function " + name + "(); there is inside()", first);
+            return read_rest_of_brackets();
+        }
+        const auto known = std::ranges::find(made_.operands, name);
+        made_.steps.push_back(
+            {Action::operand, static_cast<std::uint32_t>(known - made_.operands.begin())});
+        if (known == made_.operands.end()) made_.operands.push_back(std::move(name));
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    int depth_ = 0;
+    std::optional<Error> flaw_;
+    Expression made_;
+};
+
+bool combined(Action action, bool a, bool b) {
+    switch (action) {
+    case Action::difference:
+        return a && !b;
+    case Action::intersect:
+        return a && b;
+    case Action::exclude:
+        return a != b;
+    default:
+        return a || b;
+    }
+}
+
+} // namespace
+
+bool Expression::value(const std::function<bool(std::uint32_t)>& is_inside) const {
+    std::vector<bool> stack;
+    for (const Step& step : steps) {
+        if (step.action == Action::operand) {
+            stack.push_back(is_inside(step.operand));
+        } else if (step.action == Action::complement) {
+            stack.back() = !stack.back();
+        } else {
+            const bool b = stack.back();
+            stack.pop_back();
+            stack.back() = combined(step.action, stack.back(), b);
+        }
+    }
+    return stack.back();
+}
+
+Result<Expression> parse_expression(std::string_view text) {
+    return Parser(text)();
+}
+
+} // namespace terrane

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Selects a region of space by an expression over closed surfaces, such as "(a | b) - c", and returns its
+// boundary: Booleans of any number of solids, in one exact arrangement.
+//
+// (1) Each surface of the expression may cross, touch, overlap and contain itself and others. A point is inside of
+//     it by its winding number, which is exact.
+// (2) The region is a set of volumes of the arrangement; its boundary are the triangles between a volume in it
+//     and one that is not. So it is closed: at each edge, as many triangles run one way as the other. Triangles
+//     face outwards.
+// (3) The same region has the same boundary, to the last byte, however the expression says it, if this names the
+//     same surfaces.
+// (4) The boundary is rounded to doubles by round_to_doubles(), with its guarantee. Volumes are exact.
+// Cost: that of arrange() of the surfaces in the expression, find_volumes(), rounding the boundary, and
+// find_volumes() of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <terrane/algorithms/arrangement/arrangement.hpp>
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
+
+namespace terrane {
+
+/// The winding numbers of points inside of a closed surface.
+enum class InsideRule : std::uint8_t {
+    nonzero,  ///< all but 0
+    positive, ///< 1, 2, ...: a surface that faces inwards has no inside
+    odd,      ///< ..., -1, 1, 3, ...: facing does not matter
+};
+
+/// "nonzero", "positive" or "odd".
+std::string_view name_of(InsideRule rule);
+/// Returns the rule of a name.
+std::optional<InsideRule> inside_rule_named(std::string_view name);
+
+/// Options of select().
+struct SelectOptions {
+    InsideRule rule = InsideRule::nonzero; ///< what is inside of each surface
+    bool fractions = false;                ///< whether volumes are given as fractions as well
+    ArrangeOptions arrange{};              ///< for the arrangement of the surfaces
+    RoundingOptions rounding{};            ///< for the boundary
+};
+
+/// A part of the region that is connected through more than edges and points.
+struct SelectedPiece {
+    double volume = 0;          ///< the double nearest to the exact one, cubic unit of the input
+    std::string exact_volume{}; ///< as a reduced fraction, if asked for
+    std::size_t triangles = 0;  ///< of `mesh` that bound it; 0: it was too thin for doubles
+};
+
+/// A region of space.
+struct Selected {
+    Mesh
+        mesh; ///< its boundary. Surfaces and parents are those of the input, counted through all surfaces
+    std::vector<std::uint32_t> piece_of; ///< per triangle: the piece that it bounds
+    std::vector<SelectedPiece> pieces;   ///< from the one with the least vertex on
+    std::size_t cavities = 0;            ///< bounded parts of space without the region
+    double volume = 0;             ///< the double nearest to the exact one, cubic unit of the input
+    std::string exact_volume{};    ///< as a reduced fraction, if asked for
+    RoundingReport rounding;       ///< of the boundary; `mesh` is conforming if it is clean
+    ArrangeStatistics arrangement; ///< of the surfaces in the expression
+
+    /// Returns the boundary of a piece.
+    [[nodiscard]] Mesh piece(std::uint32_t number) const;
+};
+
+/// Selects a region by an expression over the surfaces, by their names; surfaces with one name are one operand.
+/// expression.hpp describes expressions: a | b (union), a & b (intersection), a - b (difference), a ^ b (symmetric
+/// difference), ~a (complement), brackets, and names in double quotes. A region without points has an empty mesh.
+/// Errors: bad_option with the column (syntax, an unknown name) or if the region has no end; not_closed for a
+/// surface that bounds no solid, with the place; those of arrange(), find_volumes() and round_to_doubles().
+Result<Selected> select(std::span<const Surface> surfaces, std::string_view expression,
+                        const SelectOptions& options = {}, const Run& run = {});
+
+} // namespace terrane
