@@ -10,9 +10,10 @@
 
 namespace terrane {
 
-/// Writes gridpoints, a zone of type T4 per tetrahedron and a face of type T3 per face; gridpoint v + 1 is vertex v, and
-/// so on. Blocks are groups of zones in slot 1, and surfaces groups of faces, of which each has a slot of its own, since a
-/// face has one group per slot: NAME and, where nodes are split, NAME_front and NAME_back (names.hpp, WordNames).
+/// Writes gridpoints, a zone of type T4 per tetrahedron and a face of type T3 per face; gridpoint v + 1 is vertex
+/// v, and so on. Blocks are groups of zones in slot 1, and surfaces groups of faces, of which each has a slot of
+/// its own, since a face has one group per slot: NAME and, where nodes are split, NAME_front and NAME_back
+/// (names.hpp, WordNames).
 std::string to_flac3d(const TetrahedralMesh& mesh, std::span<const std::string> block_names = {});
 
 } // namespace terrane

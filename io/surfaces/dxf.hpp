@@ -25,8 +25,9 @@ namespace terrane {
 Result<std::vector<Surface>> read_dxf(std::string_view contents, std::string_view source,
                                       std::string_view name);
 
-/// Writes a 3DFACE for each triangle, on the layer called after its surface, in text of release 12. A triangle of several
-/// surfaces is there once for each. In names blanks and AutoCAD's special characters become '_'; roles have no place.
+/// Writes a 3DFACE for each triangle, on the layer called after its surface, in text of release 12. A triangle of
+/// several surfaces is there once for each. In names blanks and AutoCAD's special characters become '_'; roles have
+/// no place.
 std::string to_dxf(const Mesh& mesh);
 
 } // namespace terrane

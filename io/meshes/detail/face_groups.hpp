@@ -18,8 +18,8 @@ struct FaceGroup {
     std::vector<std::uint32_t> faces;
 };
 
-/// Returns a group for each surface with faces, called after it and, where its nodes are split, followed by those in front
-/// and behind the cut, NAME_front and NAME_back.
+/// Returns a group for each surface with faces, called after it and, where its nodes are split, followed by those
+/// in front and behind the cut, NAME_front and NAME_back.
 [[nodiscard]] std::vector<FaceGroup> face_groups(const TetrahedralMesh& mesh,
                                                  const NamedParts& parts);
 
