@@ -34,9 +34,11 @@ WITHIN = {
     "create": "write_model_folder",
     "cut_sections": "to_cut_certificate",
     "delaunay": "connect_points",
+    "find_windings": "select",
     "improve_tetrahedra": "fill_blocks",
     "make_tetrahedra": "tetrahedralize",
     "parse_column": "read_column",
+    "parse_expression": "select",
     "parse_project": "read_project",
     "prepare": "Realisations::prepare",
     "publish": "write_model_folder",
@@ -62,6 +64,7 @@ WITHIN = {
     "to_exodus": "write_tetrahedra, exo",
     "to_plines": "format_mesh, pl",
     "to_pylith": "write_tetrahedra, pylith",
+    "to_universal": "format_mesh, unv",
     "to_stl": "format_mesh, stl",
     "to_vtp": "format_mesh, vtp",
     "to_vtu": "write_tetrahedra, vtu",
@@ -80,9 +83,9 @@ PARTS = {"add", "check_steps", "count", "deliver", "filled", "finish", "integer"
          "step_of", "take_messages", "triangulate"}
 # Readers of one format each: parse_surfaces, with the name of the format.
 FORMATS = {
-    "cps3": "cps3", "dxf": "dxf", "esri": "asc", "gocad": "ts", "gocad_points": "vs", "grdecl": "grdecl", "irap": "irap", "leapfrog": "leapfrog",
+    "cps3": "cps3", "dxf": "dxf", "esri": "asc", "gocad": "ts", "gocad_points": "vs", "grdecl": "grdecl", "irap": "irap", "landxml": "landxml", "leapfrog": "leapfrog",
     "msh": "msh", "obj": "obj", "off": "off", "ply": "ply", "points": "xyz", "sticks": "sticks", "stl": "stl",
-    "surfer": "grd", "vtk": "vtk", "vtp": "vtp", "vtu": "vtu", "zmap": "zmap",
+    "surfer": "grd", "vtk": "vtk", "vtp": "vtp", "vts": "vts", "vtu": "vtu", "zmap": "zmap",
 }
 
 

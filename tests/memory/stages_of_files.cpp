@@ -52,6 +52,16 @@ std::vector<std::pair<std::string, std::string>> only_read() {
             {"grdecl", "SPECGRID\n2 1 1 1 F /\nCOORD\n0 0 0 0 0 9\n1 0 0 1 0 9\n2 0 0 2 0 9\n"
                        "0 1 0 0 1 9\n1 1 0 1 1 9\n2 1 0 2 1 9 /\nZCORN\n1 1 1.5 1.5 1 1 1.5 1.5\n"
                        "2 2 2.5 2.5 2 2 2.5 2.5 /\n"},
+            {"vts",
+             "<VTKFile type=\"StructuredGrid\"><StructuredGrid><Piece Extent=\"0 1 0 1 0 0\">"
+             "<PointData><DataArray type=\"Float64\" Name=\"a value\" format=\"ascii\">"
+             "1 2 3 4</DataArray></PointData><Points><DataArray type=\"Float64\" "
+             "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 1 1 0"
+             "</DataArray></Points></Piece></StructuredGrid></VTKFile>"},
+            {"landxml", "<LandXML><Surfaces><Surface name=\"a surface with a long name\">"
+                        "<Definition surfType=\"TIN\"><Pnts><P id=\"1\">0 0 0</P>"
+                        "<P id=\"2\">0 1 0</P><P id=\"3\">1 0 0</P></Pnts>"
+                        "<Faces><F>1 2 3</F></Faces></Definition></Surface></Surfaces></LandXML>"},
             {"sticks", "0 0 0 1\n0 0 1 1\n1 0 0 2\n1 0 1 2\n"}};
 }
 

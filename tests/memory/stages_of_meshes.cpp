@@ -3,8 +3,10 @@
 // Stages from surfaces to a mesh of doubles and its regions, volumes and structure.
 #include "fixture.hpp"
 #include "stage.hpp"
+#include "support/solids.hpp"
 
 #include <terrane/algorithms/arrangement/known_triangles.hpp>
+#include <terrane/algorithms/selection/selection.hpp>
 
 namespace failing {
 namespace {
@@ -53,6 +55,11 @@ std::vector<Stage> arranging() {
     stages.push_back(stage(
         "find_regions", [&f] { return find_regions(*f.mesh); },
         [](const Regions& regions) { return count_of(regions.regions); }));
+    const std::vector<Surface> solids{test_support::box({0, 0, 0}, {2, 2, 2}, "a"),
+                                      test_support::box({1, 1, 1}, {3, 3, 3}, "b")};
+    stages.push_back(stage(
+        "select", [solids] { return select(solids, "a - b", {.fractions = true}); },
+        [](const Selected& selected) { return text_of(selected.mesh) + selected.exact_volume; }));
     stages.push_back(stage(
         "to_exact", [&f] { return to_exact(f.arranged.exact); },
         [](const ExactText& exact) { return to_text(exact); }));
