@@ -164,7 +164,7 @@ std::string flaw_of_number(const std::string& word, bool is_whole) {
 
 /// Tells whether the value of an option is text that people choose: a name, or a file.
 bool is_text(const CLI::Option& option, const std::string& value) {
-    constexpr std::array<std::string_view, 6> texts{"NAME",    "NAME=ROLE", "FORMAT",
+    constexpr std::array<std::string_view, 7> texts{"NAME",    "NAME=ROLE", "TEXT",   "FORMAT",
                                                     "PROGRAM", "UNIT",      "ADDRESS"};
     return names_file(option, value) || is_among(texts, option.get_type_name());
 }

@@ -32,9 +32,12 @@ Json statistics_of(const Inputs& inputs) {
 }
 
 void add_statistics(Json& json, const Arrangement& a) {
-    const ArrangeStatistics& s = a.statistics;
     json["input"]["degenerate"] = a.degenerate.size();
     json["input"]["duplicates"] = a.inputs.duplicates.size();
+    add_statistics(json, a.statistics);
+}
+
+void add_statistics(Json& json, const ArrangeStatistics& s) {
     json["search"] = {{"method", name_of(s.search)},
                       {"candidates", s.candidates},
                       {"tests", s.candidates - s.known},

@@ -19,6 +19,8 @@ using Json = detail::Json;
 /// Starts the document with the version, the input's counts, and the constants of reading. add_statistics adds the keys of the stages that were run.
 Json statistics_of(const Inputs& inputs);
 /// Adds the keys search, arrangement and predicates.
+void add_statistics(Json& json, const ArrangeStatistics& statistics);
+/// Does the same, and counts triangles that were set aside.
 void add_statistics(Json& json, const Arrangement& arrangement);
 /// Adds the keys output and rounding, with the constants of rounding.
 void add_statistics(Json& json, const RoundedMesh& rounded);

@@ -72,7 +72,14 @@ std::string_view at_least(bool may_be_more) {
     return may_be_more ? "at least " : "";
 }
 
-std::string rounding_text(const RoundingReport& r, const Quantities& quantities) {
+Point3 narrowed(const Point3& p) {
+    const auto narrow = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+    return {narrow(p.x), narrow(p.y), narrow(p.z)};
+}
+
+} // namespace
+
+std::string text_of(const RoundingReport& r, const Quantities& quantities) {
     std::string text = "doubles: every vertex is at its exact place";
     if (r.max_move > 0)
         text = fmt::format("doubles: no vertex is more than {} from its exact place",
@@ -119,13 +126,6 @@ std::string rounding_text(const RoundingReport& r, const Quantities& quantities)
     return text + text_of(r.pairs);
 }
 
-Point3 narrowed(const Point3& p) {
-    const auto narrow = [](double x) { return static_cast<double>(static_cast<float>(x)); };
-    return {narrow(p.x), narrow(p.y), narrow(p.z)};
-}
-
-} // namespace
-
 void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& inputs) {
     if (arranged.extended) {
         add_statistics(statistics, *arranged.extended);
@@ -169,7 +169,7 @@ std::string summary(const Inputs& inputs, const Arranged& arranged) {
     if (arranged.sealed) text += text_of(*arranged.sealed, inputs);
     if (arranged.cut) text += text_of(*arranged.cut, inputs);
     if (arranged.merged) text += text_of(*arranged.merged, inputs);
-    text += rounding_text(arranged.rounded.report, inputs.quantities());
+    text += text_of(arranged.rounded.report, inputs.quantities());
     return text;
 }
 

@@ -19,6 +19,9 @@ void add_statistics(Json& statistics, const Arranged& arranged, const Inputs& in
 /// rounding.
 std::string summary(const Inputs& inputs, const Arranged& arranged);
 
+/// Reports the rounding of a mesh, and whether its doubles are verified.
+std::string text_of(const RoundingReport& rounding, const Quantities& quantities);
+
 /// Lists the pairs of triangles that the rounding left in improper contact, by name; 20 at most.
 std::string offending_pairs(const Inputs& inputs, const Arranged& arranged);
 

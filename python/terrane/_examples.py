@@ -26,6 +26,12 @@ _LINES: Dict[str, Tuple[Tuple[str, ...], str]] = {
 >>> short = terrane.Surface([[1.1, 1, 1], [3, 1, 1], [3, 3, 1], [1.1, 3, 1]], [[0, 1, 2],
 ...     [0, 2, 3]], "short", "horizon")'''),
     "sealed": (("wall", "short"), ">>> sealed = terrane.seal([wall, short], 0.2)"),
+    "a": ((), '''\
+>>> corners = [(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)]
+>>> sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+>>> triangles = [t for p, q, r, s in sides for t in ((p, q, r), (p, r, s))]
+>>> a = terrane.Surface(corners, triangles, "a")'''),
+    "b": ((), '''>>> b = terrane.Surface([(x + 1, y + 1, z + 1) for x, y, z in corners], triangles, "b")'''),
     "stack": ((), '''\
 >>> top = terrane.Surface([[0, 0, 1], [4, 0, 1], [4, 4, -1], [0, 4, -1]], [[0, 1, 2], [0, 2, 3]], "top")
 >>> flat = terrane.Surface([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]], [[0, 1, 2], [0, 2, 3]], "flat")

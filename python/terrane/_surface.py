@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Mapping as MappingOf
 from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Sequence, Tuple
@@ -194,6 +195,63 @@ class Surface:
         left_out = _core.write_surfaces([self._core], path, as_format(format), how(1, None))
         if left_out:
             warnings.warn(f"{path!s}: the format has no place for these values: {', '.join(left_out)}", stacklevel=2)
+
+    def __or__(self, other: Any) -> "Surface":
+        """Return the boundary of what is inside of one of two closed surfaces.
+
+        Such operators are `terrane.select` of two operands, and raise its errors; ``improper_contact`` if the doubles
+        are not conforming. The name of the result is the expression.
+
+        Examples
+        --------
+        >>> a, b = ...
+        >>> a | b
+        <Surface 'a | b': unknown, 20 vertices, 36 triangles>
+        """
+        return self._selected("|", other)
+
+    def __and__(self, other: Any) -> "Surface":
+        """Return the boundary of what is inside of both; see ``a | b``.
+
+        Examples
+        --------
+        >>> a, b = ...
+        >>> (a & b).bounds
+        ((1.0, 1.0, 1.0), (2.0, 2.0, 2.0))
+        """
+        return self._selected("&", other)
+
+    def __xor__(self, other: Any) -> "Surface":
+        """Return the boundary of what is inside of one but not of both; see ``a | b``.
+
+        Examples
+        --------
+        >>> a, b = ...
+        >>> (a ^ b).name
+        'a ^ b'
+        """
+        return self._selected("^", other)
+
+    def __sub__(self, other: Any) -> "Surface":
+        """Return the boundary of what is inside of this surface and outside of the other; see ``a | b``.
+
+        Examples
+        --------
+        >>> a, b = ...
+        >>> (a | b) - b
+        <Surface '(a | b) - b': unknown, 14 vertices, 24 triangles>
+        """
+        return self._selected("-", other)
+
+    def _selected(self, operator: str, other: Any) -> "Surface":
+        if not isinstance(other, Surface):
+            return NotImplemented
+        names = [s.name if re.fullmatch(r"[\w.]+", s.name) else f"({s.name})" for s in (self, other)]
+        operands = [s.replace(name=name)._core for s, name in ((self, "a"), (other, "b"))]
+        made, _, report = _core.select(operands, f"a {operator} b", "nonzero", False, None, how(None, None))
+        if not report["rounding"]["clean"]:
+            raise Error("improper_contact", "the boundary is not conforming in doubles; terrane.select() tells where")
+        return Surface(made.vertices, made.triangles, f"{names[0]} {operator} {names[1]}", self.role)
 
     def to_pyvista(self) -> Any:
         """Return a ``pyvista.PolyData`` with the values. Needs PyVista.

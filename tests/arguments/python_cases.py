@@ -82,6 +82,11 @@ class Fixtures:
         return terrane.fill(self.holed)
 
     @functools.cached_property
+    def doubled(self):
+        """A closed surface that goes round everything twice."""
+        return [s.replace(name="body") for s in 2 * terrane.box(*BOX)]
+
+    @functools.cached_property
     def layered(self):
         return terrane.layers(self.crossing, [("low", 1.0), ("high", 0.5)])
 
@@ -153,6 +158,8 @@ FUNCTIONS = {
         "method": None, "holes": [], "model": "spherical", "max_area": 0.1, "mesh_size": 0.2, "rings": None, "gap_slope": None,
         "isotropic": None, "bridge_faults": None, "smoothing": (0.5, {"method": "rbf"})}),
     "layers": (lambda f: dict(surfaces=f.crossing, order=[("low", 1.0), ("high", 0.5)]), {"min_thickness": 0.1, "max_move": None}),
+    "select": (lambda f: dict(surfaces=f.doubled, expression="body"), {
+        "rule": "odd", "fractions": True, "max_move": None}),
     "model": (lambda f: dict(surfaces=f.surfaces, box=BOX), {
         "seal": None, "tolerance": None, "extend": None, "min_volume": 15.0,
         "column": [{"unit": "upper", "surface": "top"}, {"unit": "middle", "surface": "base"}, {"unit": "lower"}], "max_rounds": None,
@@ -205,6 +212,8 @@ METHODS = {
         "exact": (lambda f: {}, {}), "points": (lambda f: {}, {}), "locate": (lambda f: dict(points=[(1, 1, 0)]), {})}),
     "Filled": (lambda f: f.filled, {"save": (lambda f: dict(path="f.obj"), {"format": "off"}),
                                     "report": (lambda f: dict(path="f.html"), {})}),
+    "Selected": (lambda f: terrane.select(f.doubled, "body"), {
+        "save": (lambda f: dict(path="b.vtp"), {"format": "obj", "compress": False, "ascii": None})}),
     "Layered": (lambda f: f.layered, {"save": (lambda f: dict(path="l.vtp"), {"format": "obj", "compress": False, "ascii": None})}),
     "Model": (lambda f: f.model, {
         "block_of": (lambda f: dict(points=[(1, 1, 0)]), {}), "names_of": (lambda f: dict(points=[(1, 1, 0)]), {}),
@@ -224,6 +233,6 @@ METHODS = {
 }
 
 #: Classes that functions return, made of the module's own objects: their constructors are nobody's.
-RETURNED = {"Arrangement", "RoundedMesh", "Mesh", "Regions", "CheckReport", "Volumes", "Structure", "Filled", "Layered", "Model",
+RETURNED = {"Arrangement", "RoundedMesh", "Mesh", "Regions", "CheckReport", "Volumes", "Structure", "Filled", "Layered", "Selected", "Model",
             "Block", "Blocks", "Interface", "Tetrahedra", "Built", "Improved", "Sealed", "VolumeOfInterest", "Ensemble",
             "OutOfMemory", "Doubt"}

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/mesh/carry.hpp>
+#include <terrane/algorithms/selection/selection.hpp>
+#include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/choices.hpp>
+#include <terrane/cli/options/files.hpp>
+#include <terrane/cli/options/max_move.hpp>
+#include <terrane/cli/options/statistics.hpp>
+#include <terrane/cli/reports/arranged_report.hpp>
+#include <terrane/cli/stages/outputs.hpp>
+#include <terrane/cli/stages/plausibility.hpp>
+#include <terrane/io/report_members.hpp>
+
+namespace terrane::cli {
+namespace {
+
+struct SelectCommand {
+    FileOptions files;
+    std::string expression;
+    std::string rule = "nonzero";
+    SelectOptions settings;
+};
+
+constexpr auto select_footer =
+    R"(Operands are closed surfaces by their names in the files; a name with other characters than letters,
+digits, _ and . stands in double quotes. Operators as in Python, from the strongest: ~ complement,
+- difference, & intersection, ^ symmetric difference, | union. Surfaces may cross themselves and each other,
+touch and overlap. Triangles face outwards. The boundary is written only if its doubles are conforming, by an
+exact check; if they are not, or the region is empty, the exit status is 1.
+
+Examples:
+  terrane select "(a | b) - c" a.stl b.stl c.stl -o region.obj
+  terrane select "reservoir - salt" model.ts -o rest.vtp --fractions
+  terrane select "scan" scan.ply -o outside.ply --rule positive)";
+
+std::string volume_text(double volume, const std::string& exact, const Quantities& quantities) {
+    return "volume " + quantities.volume(volume) + (exact.empty() ? "" : ", exactly " + exact);
+}
+
+std::string region_text(const Selected& made, const Quantities& quantities) {
+    constexpr std::size_t most_pieces = 20; // printed
+    if (made.pieces.empty()) return "region: empty\n";
+    std::size_t number = 0;
+    auto text =
+        fmt::format("region: {}, {}, {}, {}\n", counted(made.mesh.triangles.size(), "triangle"),
+                    counted(made.pieces.size(), "piece"),
+                    made.cavities == 1 ? "1 cavity" : fmt::format("{} cavities", made.cavities),
+                    volume_text(made.volume, made.exact_volume, quantities));
+    if (made.pieces.size() > 1)
+        text += listed(made.pieces, most_pieces, [&](const SelectedPiece& piece) {
+            return fmt::format("  piece {}: {}, {}{}\n", ++number,
+                               counted(piece.triangles, "triangle"),
+                               volume_text(piece.volume, piece.exact_volume, quantities),
+                               piece.triangles == 0 ? ", too thin for doubles" : "");
+        });
+    return text + text_of(made.rounding, quantities);
+}
+
+/// Lists the places where doubles are not conforming.
+std::string places_of(const RoundingReport& rounding, const Quantities& quantities) {
+    constexpr std::size_t most_places = 20; // printed
+    return listed(rounding.contacts, most_places, [&](const ImproperContact& c) {
+        return fmt::format("  {} at {}\n", name_of(c.kind), quantities.place(c.place));
+    });
+}
+
+void add_region(Json& json, const Selected& made, const SelectCommand& command) {
+    add_statistics(json, made.arrangement);
+    const auto with_exact = [](Json one, const std::string& exact) {
+        if (!exact.empty()) one["exact_volume"] = exact;
+        return one;
+    };
+    Json region = with_exact({{"expression", command.expression},
+                              {"rule", command.rule},
+                              {"triangles", made.mesh.triangles.size()},
+                              {"volume", made.volume},
+                              {"cavities", made.cavities},
+                              {"pieces", Json::array()}},
+                             made.exact_volume);
+    for (const SelectedPiece& piece : made.pieces)
+        region["pieces"].push_back(with_exact(
+            {{"triangles", piece.triangles}, {"volume", piece.volume}}, piece.exact_volume));
+    json["region"] = std::move(region);
+    json["rounding"] = made.rounding;
+    add_constants(json, "round", rounding_constants());
+}
+
+ExitStatus select_files(SelectCommand& command, Session& session) {
+    const FileOptions& files = command.files;
+    const auto outputs = plan_outputs(files, OutputKind::surfaces);
+    command.settings.rule = *inside_rule_named(command.rule);
+    const auto inputs = read_inputs(files, session);
+    Json statistics = statistics_of(inputs);
+    examine(inputs.surfaces, {}, inputs, session, statistics);
+    const auto made = session.timed("select", [&] {
+        return must(select(inputs.surfaces, command.expression, command.settings, session.run()));
+    });
+    add_region(statistics, made, command);
+    std::FILE* const told = summary_stream(files);
+    say(told, region_text(made, inputs.quantities()));
+    if (!made.rounding.clean) print(stderr, places_of(made.rounding, inputs.quantities()));
+    const bool writes = made.rounding.clean && !made.mesh.triangles.empty() &&
+                        stl_is_conforming(made.mesh, files, outputs, session);
+    if (!writes) print(stderr, complaint("nothing written"));
+    const auto values =
+        carry_values({.given = inputs.surfaces, .parents = inputs.surfaces}, made.mesh);
+    for (const Output& output : outputs) {
+        if (!writes) break;
+        write_output(made.mesh, output, {.ascii = files.ascii, .values = values}, session);
+        tell_when_written(told, wrote(output));
+    }
+    write_statistics(std::move(statistics), files.stats, session);
+    return writes ? ExitStatus::done : ExitStatus::negative;
+}
+
+} // namespace
+
+Command select_command(CLI::App& program) {
+    auto command = std::make_shared<SelectCommand>();
+    auto* app = program.add_subcommand("select", "Unite, intersect and subtract closed surfaces");
+    add_value(*app, "EXPRESSION", command->expression, "TEXT",
+              "The region, by names of surfaces: \"(a | b) - c\"")
+        ->required();
+    add_inputs(*app, command->files);
+    add_output(*app, command->files, "File for the boundary; - is standard output");
+    add_value(*app, "--rule", command->rule, "RULE",
+              "Winding numbers of points inside of a surface: nonzero, positive or odd "
+              "(default: nonzero)")
+        ->check(one_of({"nonzero", "positive", "odd"}));
+    app->add_flag("--fractions", command->settings.fractions, "Give volumes as fractions, too");
+    add_max_move(*app, command->settings.rounding.max_move);
+    app->add_flag("--ascii", command->files.ascii, "STL as text, with doubles, not float32");
+    add_msh(*app, command->files);
+    add_threads(*app, command->files);
+    add_stats(*app, command->files);
+    app->footer(select_footer);
+    return {app, [command] {
+                Session session(command->files.threads);
+                return select_files(*command, session);
+            }};
+}
+
+} // namespace terrane::cli

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Tests `terrane select`.
+#include <array>
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "program.hpp"
+
+using namespace program_test;
+
+namespace {
+
+/// Returns a box from (low, low, low) to (high, high, high) that faces outwards.
+std::string box(const std::string& name, int low, int high) {
+    std::string text = "o " + name + "\n";
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        text += "v";
+        for (unsigned axis = 0; axis < 3; ++axis)
+            text += " " + std::to_string((corner >> axis & 1U) != 0 ? high : low);
+        text += "\n";
+    }
+    return text + "f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\n"
+                  "f -8 -4 -2 -6\nf -7 -5 -1 -3\n";
+}
+
+/// Two boxes that overlap in a unit cube.
+std::string two_boxes() {
+    return box("a", 0, 2) + box("b", 1, 4);
+}
+
+/// Returns the volume within the triangles of an OBJ; it is positive if they face outwards.
+double volume_in(const std::string& obj) {
+    std::vector<std::array<double, 3>> points;
+    std::istringstream in(obj);
+    double sum = 0;
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream words(line.substr(1));
+        if (std::array<double, 3> p{}; line[0] == 'v' && words >> p[0] >> p[1] >> p[2])
+            points.push_back(p);
+        std::size_t i = 0, j = 0, k = 0;
+        if (line[0] != 'f' || !(words >> i >> j >> k)) continue;
+        const auto &a = points[i - 1], &b = points[j - 1], &c = points[k - 1];
+        for (unsigned x = 0; x < 3; ++x) {
+            const unsigned y = (x + 1) % 3, z = (x + 2) % 3;
+            sum += a[x] * (b[y] * c[z] - b[z] * c[y]);
+        }
+    }
+    return sum / 6;
+}
+
+} // namespace
+
+TEST_CASE("cli: select gives the volumes of two boxes", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("two.obj", two_boxes());
+    struct Case {
+        std::string expression, volume;
+        std::size_t pieces, cavities;
+    };
+    for (const Case& c :
+         {Case{"a | b", "34", 1, 0}, Case{"a & b", "1", 1, 0}, Case{"a - b", "7", 1, 0},
+          Case{"b - a", "26", 1, 0}, Case{"a ^ b", "33", 2, 1}, Case{"(a | b) - b", "7", 1, 0}}) {
+        INFO(c.expression);
+        const auto r = folder.run("select '" + c.expression + "' " + in +
+                                  " -o out.obj --fractions --stats s.json");
+        INFO(r.err);
+        REQUIRE(r.status == 0);
+        CHECK(contains(r.out, "volume " + c.volume + ", exactly " + c.volume + "\n"));
+        CHECK(contains(r.out, "verified: "));
+        CHECK(contains(r.out, "wrote out.obj\n"));
+        const auto region = Json::parse(folder.read("s.json"))["region"];
+        CHECK(region["exact_volume"] == c.volume);
+        CHECK(region["volume"] == std::stod(c.volume));
+        CHECK(region["pieces"].size() == c.pieces);
+        CHECK(region["cavities"] == c.cavities);
+        CHECK(folder.run("check out.obj").status == 0);
+        CHECK(volume_in(folder.read("out.obj")) == std::stod(c.volume));
+    }
+}
+
+TEST_CASE("cli: select lists pieces, and writes to standard output", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("two.obj", box("a", 0, 1) + box("b", 2, 4));
+    const auto r = folder.run("select 'a | b' " + in + " -o - --output-format obj --quiet");
+    CHECK(r.status == 0);
+    CHECK(contains(r.out, "g a\n"));
+    CHECK(r.err.empty());
+    const auto told = folder.run("select 'a | b' " + in + " -o out.vtp");
+    CHECK(contains(told.out, "region: 24 triangles, 2 pieces, 0 cavities, volume 9\n"
+                             "  piece 1: 12 triangles, volume 1\n"
+                             "  piece 2: 12 triangles, volume 8\n"));
+}
+
+TEST_CASE("cli: select takes --rule for what is inside", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("shells.obj", box("a", 0, 4) + box("a", 1, 3));
+    const auto volume = [&](const std::string& rule) {
+        return folder.run("select a " + in + " -o out.obj --rule " + rule).out;
+    };
+    CHECK(contains(volume("nonzero"), "0 cavities, volume 64\n"));
+    CHECK(contains(volume("odd"), "1 cavity, volume 56\n"));
+    CHECK(folder.run("select a " + in + " -o out.obj --rule even").status == 2);
+}
+
+TEST_CASE("cli: select names mistakes with their places", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("two.obj", two_boxes());
+    const auto open = folder.input("open.obj", polygon("open", "9 9 9, 10 9 9, 9 10 9"));
+    const auto refused = [&](const std::string& arguments, const std::string& why, int status = 2) {
+        const auto r = folder.run("select " + arguments + " -o out.obj");
+        INFO(r.err);
+        CHECK(r.status == status);
+        CHECK(contains(r.err, why));
+        CHECK(folder.left().empty());
+    };
+    refused("'a + b' " + in, "expression, column 3: expected an operator");
+    refused("'a - c' " + in, "no surface is called c");
+    refused("'~a' " + in, "the region has no end");
+    refused("'a - open' " + in + " " + open,
+            "open: bounds no solid: it is not closed along 3 edges, first at (9, 9, 9)", 1);
+    refused("'' " + in, "EXPRESSION: the value is empty");
+    refused("nan " + in, "no surface is called nan");
+}
+
+TEST_CASE("cli: select writes nothing of an empty region", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("two.obj", two_boxes());
+    const auto r = folder.run("select 'a - (a | b)' " + in + " -o out.obj");
+    CHECK(r.status == 1);
+    CHECK(r.out == "region: empty\n");
+    CHECK(contains(r.err, "nothing written"));
+    CHECK(folder.left().empty());
+}
