@@ -72,10 +72,14 @@ Result<Question> question_of(std::span<const Surface> surfaces, std::string_view
             question.operand_of[s] = k;
         }
     }
+    if (question.expression.value([](std::uint32_t) { return false; }))
+        return Error{ErrorCode::bad_option,
+                     "the region has no end: all that is outside of the surfaces is in it",
+                     "expression"};
     return question;
 }
 
-/// Tells for each volume whether it is in the region. Errors: not_closed; bad_option (the outside is).
+/// Tells for each volume whether it is in the region. Errors: not_closed.
 Result<std::vector<bool>> volumes_inside(const Arrangement& exact, const Volumes& volumes,
                                          const Question& question) {
     const auto windings =
@@ -85,10 +89,6 @@ Result<std::vector<bool>> volumes_inside(const Arrangement& exact, const Volumes
     for (std::size_t v = 0; v < volumes.measures.size(); ++v)
         inside.push_back(question.expression.value(
             [&](std::uint32_t k) { return is_inside((*windings)[v][k], question.rule); }));
-    if (inside[0])
-        return Error{ErrorCode::bad_option,
-                     "the region has no end: all that is outside of the surfaces is in it",
-                     "expression"};
     return inside;
 }
 

@@ -58,6 +58,7 @@ JudgeOptions options_of(const JudgeCommand& command, const Inputs& inputs) {
 }
 
 void check_usage(const JudgeCommand& command) {
+    plan_outputs(command.inputs, OutputKind::surfaces); // refuses unknown formats
     const bool alone = command.inputs.inputs.empty();
     if (command.soup && !alone) refuse(ErrorCode::bad_option, "judges one file alone", "--soup");
     if (command.soup && !command.operation.empty())

@@ -12,6 +12,7 @@
 #include <terrane/cli/options/max_move.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/reports/arranged_report.hpp>
+#include <terrane/cli/stages/model_run.hpp>
 #include <terrane/cli/stages/outputs.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/report_members.hpp>
@@ -45,18 +46,22 @@ std::string volume_text(double volume, const std::string& exact, const Quantitie
 std::string region_text(const Selected& made, const Quantities& quantities) {
     constexpr std::size_t most_pieces = 20; // printed
     if (made.pieces.empty()) return "region: empty\n";
+    const auto triangles =
+        [&](std::size_t count) { // there are none if the doubles are not conforming
+            return made.rounding.clean ? counted(count, "triangle") + ", " : "";
+        };
     std::size_t number = 0;
     auto text =
-        fmt::format("region: {}, {}, {}, {}\n", counted(made.mesh.triangles.size(), "triangle"),
+        fmt::format("region: {}{}, {}, {}\n", triangles(made.mesh.triangles.size()),
                     counted(made.pieces.size(), "piece"),
                     made.cavities == 1 ? "1 cavity" : fmt::format("{} cavities", made.cavities),
                     volume_text(made.volume, made.exact_volume, quantities));
     if (made.pieces.size() > 1)
         text += listed(made.pieces, most_pieces, [&](const SelectedPiece& piece) {
-            return fmt::format("  piece {}: {}, {}{}\n", ++number,
-                               counted(piece.triangles, "triangle"),
-                               volume_text(piece.volume, piece.exact_volume, quantities),
-                               piece.triangles == 0 ? ", too thin for doubles" : "");
+            return fmt::format(
+                "  piece {}: {}{}{}\n", ++number, triangles(piece.triangles),
+                volume_text(piece.volume, piece.exact_volume, quantities),
+                made.rounding.clean && piece.triangles == 0 ? ", too thin for doubles" : "");
         });
     return text + text_of(made.rounding, quantities);
 }
@@ -90,16 +95,18 @@ void add_region(Json& json, const Selected& made, const SelectCommand& command) 
     add_constants(json, "round", rounding_constants());
 }
 
-ExitStatus select_files(SelectCommand& command, Session& session) {
+ExitStatus select_files(SelectCommand& command, const CLI::App& app, Session& session) {
     const FileOptions& files = command.files;
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
     command.settings.rule = *inside_rule_named(command.rule);
     const auto inputs = read_inputs(files, session);
     Json statistics = statistics_of(inputs);
     examine(inputs.surfaces, {}, inputs, session, statistics);
-    const auto made = session.timed("select", [&] {
-        return must(select(inputs.surfaces, command.expression, command.settings, session.run()));
+    const auto selected = session.timed("select", [&] {
+        return select(inputs.surfaces, command.expression, command.settings, session.run());
     });
+    if (!selected) throw Failure{at_option(selected.error(), app)};
+    const Selected& made = *selected;
     add_region(statistics, made, command);
     std::FILE* const told = summary_stream(files);
     say(told, region_text(made, inputs.quantities()));
@@ -139,9 +146,9 @@ Command select_command(CLI::App& program) {
     add_threads(*app, command->files);
     add_stats(*app, command->files);
     app->footer(select_footer);
-    return {app, [command] {
+    return {app, [app, command] {
                 Session session(command->files.threads);
-                return select_files(*command, session);
+                return select_files(*command, *app, session);
             }};
 }
 

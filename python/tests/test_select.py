@@ -94,3 +94,11 @@ def test_file_is_that_of_the_program():
     assert status == 0, text
     terrane.select(terrane.read("in.ts"), "b - a").save("python.vtp")
     assert pathlib.Path("python.vtp").read_bytes() == pathlib.Path("program.vtp").read_bytes()
+
+
+def test_program_carries_values():
+    for number, surface in enumerate((A, B)):
+        surface.replace(cell_data={"rock": [number] * 12}).save(f"{surface.name}.vtp")
+    status, _, text = run_program("select", "a - b", "a.vtp", "b.vtp", "-o", "out.vtp")
+    assert status == 0, text
+    assert {s.name: set(s.cell_data["rock"]) for s in terrane.read("out.vtp")} == {"a": {0}, "b": {1}}

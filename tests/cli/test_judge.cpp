@@ -113,6 +113,7 @@ TEST_CASE("judge: bad usage has the status 2, and limits 3") {
     const auto in = folder.input("sheets.obj", sheets);
     CHECK(folder.run("judge " + in).status == 2);
     CHECK(folder.run("judge none.obj " + in).status == 2);
+    CHECK(folder.run("judge " + in + " " + in + " --input-format none").status == 2);
     CHECK(folder.run("judge --soup " + in + " " + in).status == 2);
     CHECK(folder.run("judge --soup " + in + " --operation union").status == 2);
     CHECK(folder.run("judge " + in + " " + in + " --operation merge").status == 2);

@@ -3,6 +3,8 @@
 // Tests `terrane select`.
 #include <array>
 #include <cstddef>
+#include <cstdio>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -31,6 +33,31 @@ std::string box(const std::string& name, int low, int high) {
 /// Two boxes that overlap in a unit cube.
 std::string two_boxes() {
     return box("a", 0, 2) + box("b", 1, 4);
+}
+
+/// Returns tetrahedra of the surfaces a and b, so small, compared with their coordinates, that the nearest doubles
+/// of their crossings are no conforming mesh.
+std::string tiny_tetrahedra() {
+    std::string text;
+    unsigned state = 7;
+    const auto next = [&] {
+        state = state * 1103515245U + 12345U;
+        return static_cast<int>((state >> 16U) % 64U);
+    };
+    for (unsigned k = 0; k < 8; ++k) {
+        text += k % 2 == 0 ? "o a\n" : "o b\n";
+        for (unsigned v = 0; v < 4; ++v) {
+            text += "v";
+            for (unsigned axis = 0; axis < 3; ++axis) {
+                char word[64];
+                std::snprintf(word, sizeof word, " %.17g", 70368744177664 + next() / 64.0);
+                text += word;
+            }
+            text += "\n";
+        }
+        text += "f -4 -2 -3\nf -4 -3 -1\nf -3 -2 -1\nf -4 -1 -2\n";
+    }
+    return text;
 }
 
 /// Returns the volume within the triangles of an OBJ; it is positive if they face outwards.
@@ -125,6 +152,27 @@ TEST_CASE("cli: select names mistakes with their places", "[cli]") {
             "open: bounds no solid: it is not closed along 3 edges, first at (9, 9, 9)", 1);
     refused("'' " + in, "EXPRESSION: the value is empty");
     refused("nan " + in, "no surface is called nan");
+}
+
+TEST_CASE("cli: select writes nothing that is not conforming in doubles", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("tiny.obj", tiny_tetrahedra());
+    const auto select = [&](const std::string& options) {
+        return folder.run("select 'a | b' " + in + " -o out.obj " + options);
+    };
+    const auto short_of = select("--max-move 1e-9");
+    CHECK(short_of.status == 2);
+    CHECK(contains(short_of.err, "terrane: --max-move: "));
+    const auto r = select("--max-move 0.02 --stats s.json");
+    INFO(r.out << r.err);
+    CHECK(r.status == 1);
+    CHECK(contains(r.out, "region: 1 piece, "));
+    CHECK(contains(r.out, "NOT verified: "));
+    CHECK(contains(r.err, "  crossing at (70368744177664."));
+    CHECK(contains(r.err, "nothing written"));
+    CHECK(folder.left() == std::set<std::string>{"s.json"});
+    CHECK(Json::parse(folder.read("s.json"))["region"]["volume"].get<double>() > 0);
+    CHECK(select("").status == 0);
 }
 
 TEST_CASE("cli: select writes nothing of an empty region", "[cli]") {

@@ -279,6 +279,12 @@ TEST_CASE("select: what is wrong with an operand is named with its place") {
     CHECK(wrong.error().message() ==
           "b: bounds no solid: triangles face different ways at 5 edges, first at (1, 1, 1)");
 
+    const auto endless = select(open, "a | ~b"); // said before any work
+    REQUIRE(!endless);
+    CHECK(endless.error().message() ==
+          "expression: the region has no end: all that is outside of the surfaces is in it");
+    CHECK(select(good, "~(~a | b)"));
+
     const auto unknown = select(good, "a - bb");
     REQUIRE(!unknown);
     CHECK(unknown.error().code == ErrorCode::bad_option);
