@@ -115,7 +115,7 @@ private:
         if (section == "triangle_strips") return read_cells(strips_.emplace_back());
         if (section == "vertices" || section == "lines") {
             LegacyCells unused;
-            const auto trouble = read_cells(unused);
+            auto trouble = read_cells(unused);
             other_polydata_ += unused.ends.size();
             return trouble;
         }

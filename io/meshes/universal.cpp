@@ -36,7 +36,8 @@ std::vector<ElementGroup> with_short_names(std::vector<ElementGroup> groups) {
         const auto ending = fmt::format("~{}", g + 1); // no word has a '~'
         std::size_t end = most_name - ending.size();   // not within a character of several bytes
         while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
-        name = name.substr(0, end) + ending;
+        name.resize(end);
+        name += ending;
     }
     return groups;
 }
