@@ -132,15 +132,14 @@ void set_texts(std::span<const std::string> texts, ValueArray& array) {
     }
 }
 
-void describe_arrays(const ArrayDescriptions& descriptions, std::vector<ValueArray>& arrays) {
-    const auto& [names, units, no_data] = descriptions;
-    if (names.size() != arrays.size() || units.size() != names.size() ||
-        no_data.size() != names.size() ||
-        !std::ranges::equal(names, arrays, {}, {}, &ValueArray::name))
+void describe_arrays(const ArrayDescriptions& given, std::vector<ValueArray>& arrays) {
+    if (given.names.size() != arrays.size() || given.units.size() != given.names.size() ||
+        given.no_data.size() != given.names.size() ||
+        !std::ranges::equal(given.names, arrays, {}, {}, &ValueArray::name))
         return;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        arrays[i].unit = units[i];
-        if (!std::isnan(no_data[i])) arrays[i].no_data = no_data[i];
+    for (std::size_t i = 0; i < given.names.size(); ++i) {
+        arrays[i].unit = given.units[i];
+        if (!std::isnan(given.no_data[i])) arrays[i].no_data = given.no_data[i];
     }
 }
 
