@@ -62,6 +62,24 @@ enum class NumberType : std::uint8_t {
 /// Returns the name of a type: "float64", "int8", ...
 std::string_view name_of(NumberType type);
 
+/// Numbers of a floating-point type, or of an integer type. Where memory ends during a copy, std::variant of libstdc++ 12
+/// would destroy what is not there yet: here a vector is copied first, and moved.
+struct ValueNumbers : std::variant<std::vector<double>, std::vector<std::int64_t>> {
+    using variant::variant;
+    ValueNumbers() = default;
+    ValueNumbers(const ValueNumbers& other) : variant(copy_of(other)) {}
+    ValueNumbers(ValueNumbers&&) noexcept = default;
+    ValueNumbers& operator=(const ValueNumbers& other) { return *this = ValueNumbers(other); }
+    ValueNumbers& operator=(ValueNumbers&&) noexcept = default;
+    ~ValueNumbers() = default;
+
+private:
+    static variant copy_of(const variant& other) {
+        if (other.index() == 0) return {std::vector(std::get<0>(other))};
+        return {std::vector(std::get<1>(other))};
+    }
+};
+
 /// A named array with a value on each vertex, or on each triangle, of a surface or mesh.
 struct ValueArray {
     std::string name;                      ///< as in the file
@@ -70,7 +88,7 @@ struct ValueArray {
     NumberType type = NumberType::float64; ///< the type in the file
     /// All components of the first value, then of the next. Floating-point types are doubles, others
     /// integers of 64 bits: of uint64 these have the same bits.
-    std::variant<std::vector<double>, std::vector<std::int64_t>> numbers{};
+    ValueNumbers numbers{};
     std::string unit{};               ///< as in the file; empty: not stated
     std::optional<double> no_data{};  ///< the number that stands for no value, as NaN always does
     std::vector<std::string> texts{}; ///< if there are any, the numbers are indices of these
