@@ -31,13 +31,13 @@ inline std::optional<StructuredSize> structured_surface(const std::array<std::si
     return StructuredSize{points[0], points[flat == points.begin() + 1 ? 2 : 1]};
 }
 
-/// Whether a surface of this size has so many points.
+/// Returns whether a surface of this size has this number of points.
 inline bool is_of(const StructuredSize& size, std::size_t points) {
     return size[0] != 0 && points % size[0] == 0 && points / size[0] == size[1];
 }
 
-/// Reads the numbers of points along i, j and k from an extent, "0 4 0 2 0 0". Returns nothing if it is none of
-/// `points` points.
+/// Reads the numbers of points along i, j and k from an extent, "0 4 0 2 0 0". Fails where their product is not
+/// `points`.
 inline std::optional<std::array<std::size_t, 3>> points_of_extent(std::string_view extent,
                                                                   std::size_t points) {
     std::array<std::size_t, 3> counts{};
