@@ -309,7 +309,7 @@ std::vector<Stage> formatting() {
         "read_grid", [path] { return read_grid(path); },
         [](const Grid& read) { return std::to_string(read.values.size()); }));
     stages.push_back(stage(
-        "write_grid", [path] { return write_grid(small_grid(), path); },
+        "write_grid", [path, grid = small_grid()] { return write_grid(grid, path); },
         [path](Done) { return contents_of(path); }));
     stages.push_back(stage(
         "lines_to_gocad", [&f] { return lines_to_gocad(*f.mesh, f.model.structure); }, as_it_is));
