@@ -11,6 +11,7 @@
 #include <terrane/algorithms/intersection/contact_kind.hpp>
 #include <terrane/algorithms/judge/judge.hpp>
 #include <terrane/algorithms/layers/layers.hpp>
+#include <terrane/algorithms/maps/maps.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/optimisation/optimise.hpp>

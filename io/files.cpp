@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/files.hpp>
 
-#include <array>
 #include <utility>
 
 #include <terrane/algorithms/core/guarded.hpp>
@@ -16,6 +15,7 @@
 #include <terrane/io/grids/esri.hpp>
 #include <terrane/io/grids/grdecl.hpp>
 #include <terrane/io/grids/grid_text.hpp>
+#include <terrane/io/grids/grid_writers.hpp>
 #include <terrane/io/grids/irap.hpp>
 #include <terrane/io/grids/surfer.hpp>
 #include <terrane/io/grids/zmap.hpp>
@@ -36,6 +36,7 @@
 #include <terrane/io/meshes/poly.hpp>
 #include <terrane/io/meshes/pylith.hpp>
 #include <terrane/io/meshes/universal.hpp>
+#include <terrane/io/meshes/vti.hpp>
 #include <terrane/io/meshes/vtk.hpp>
 #include <terrane/io/meshes/vtp_reader.hpp>
 #include <terrane/io/points/points.hpp>
@@ -62,26 +63,6 @@ namespace {
 /// The largest file that is read. It has at least 3 bytes per vertex, so 32-bit indices suffice.
 constexpr std::uint64_t max_bytes = 3 * (std::uint64_t(1) << 32) - 3;
 
-constexpr std::array<std::pair<std::string_view, Format>, 50> names{{
-    {"ts", Format::gocad},    {"ml", Format::gocad},        {"gp", Format::gocad},
-    {"mx", Format::gocad},    {"gm", Format::gocad},        {"obj", Format::obj},
-    {"off", Format::off},     {"stl", Format::stl},         {"ply", Format::ply},
-    {"vtp", Format::vtp},     {"vtu", Format::vtu},         {"msh", Format::msh},
-    {"msh22", Format::msh22}, {"inp", Format::inp},         {"mesh", Format::medit},
-    {"poly", Format::poly},   {"smesh", Format::smesh},     {"irap", Format::irap},
-    {"gri", Format::irap},    {"fgr", Format::irap},        {"zmap", Format::zmap},
-    {"zycor", Format::zmap},  {"cps3", Format::cps3},       {"cps", Format::cps3},
-    {"asc", Format::esri},    {"agr", Format::esri},        {"grd", Format::surfer},
-    {"xyz", Format::xyz},     {"csv", Format::xyz},         {"txt", Format::xyz},
-    {"dat", Format::xyz},     {"poi", Format::xyz},         {"pol", Format::xyz},
-    {"vs", Format::vset},     {"pl", Format::pline},        {"vtk", Format::vtk},
-    {"dxf", Format::dxf},     {"grdecl", Format::grdecl},   {"sticks", Format::sticks},
-    {"exo", Format::exodus},  {"e", Format::exodus},        {"ugi", Format::ugi},
-    {"ogs", Format::ogs},     {"geos", Format::geos},       {"pylith", Format::pylith},
-    {"vts", Format::vts},     {"unv", Format::unv},         {"f3grid", Format::f3grid},
-    {"xml", Format::landxml}, {"landxml", Format::landxml},
-}};
-
 /// Reads a file, and what was compressed.
 Result<std::string> plain_file(const fs::path& path, const std::string& place) {
     auto contents = read_file(path);
@@ -97,8 +78,8 @@ std::string place_of(const fs::path& path, bool reading) {
 /// Returns the extensions of formats that are read: "ts, ml, ...".
 std::string extensions_read() {
     std::string list;
-    for (const auto& [name, format] : names)
-        if (is_read(format)) list += (list.empty() ? "" : ", ") + std::string(name);
+    for (const std::string_view name : format_names())
+        if (is_read(*format_named(name))) list += (list.empty() ? "" : ", ") + std::string(name);
     return list;
 }
 
@@ -115,6 +96,24 @@ Result<Format> choose_format(const fs::path& path, std::optional<Format> wanted,
     const auto format = wanted ? wanted : reading ? format_to_read(path) : format_of(path);
     if (!format) return unknown_format(path, reading);
     return *format;
+}
+
+Result<Grid> parse_grid(std::string_view contents, std::string_view source, std::string_view name,
+                        Format format) {
+    switch (format) {
+    case Format::irap:
+        return read_irap(contents, source, name);
+    case Format::zmap:
+        return read_zmap(contents, source, name);
+    case Format::cps3:
+        return read_cps3(contents, source, name);
+    case Format::esri:
+        return read_esri(contents, source, name);
+    case Format::surfer:
+        return read_surfer(contents, source, name);
+    default:
+        return Error{ErrorCode::nothing_to_do, "the file has no grid", std::string(source)};
+    }
 }
 
 Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::string_view source,
@@ -152,15 +151,11 @@ Result<std::vector<Surface>> parse_as_stated(std::string_view contents, std::str
     case Format::grdecl:
         return read_grdecl(contents, source);
     case Format::irap:
-        return surfaces_of(read_irap(contents, source, name), source, options);
     case Format::zmap:
-        return surfaces_of(read_zmap(contents, source, name), source, options);
     case Format::cps3:
-        return surfaces_of(read_cps3(contents, source, name), source, options);
     case Format::esri:
-        return surfaces_of(read_esri(contents, source, name), source, options);
     case Format::surfer:
-        return surfaces_of(read_surfer(contents, source, name), source, options);
+        return surfaces_of(parse_grid(contents, source, name, format), source, options);
     case Format::xyz:
         if (const auto seen = format_seen_in(contents))
             return parse_as_stated(contents, source, *seen, options);
@@ -333,78 +328,6 @@ Error at(const std::string& place, Error error) {
 
 } // namespace
 
-std::vector<std::string_view> format_names() {
-    std::vector<std::string_view> all;
-    for (const auto& [name, format] : names) all.push_back(name);
-    return all;
-}
-
-bool is_read(Format format) {
-    switch (format) {
-    case Format::gocad:
-    case Format::obj:
-    case Format::off:
-    case Format::stl:
-    case Format::ply:
-    case Format::vtp:
-    case Format::vtu:
-    case Format::msh:
-    case Format::vtk:
-    case Format::dxf:
-        return true;
-    default:
-        return format >= Format::irap;
-    }
-}
-
-bool holds_surfaces(Format format) {
-    return format != Format::vtu && format < Format::exodus;
-}
-
-bool holds_outlines(Format format) {
-    return format == Format::vset || format == Format::pline;
-}
-
-bool holds_tetrahedra(Format format) {
-    return format == Format::vtu || format == Format::msh || format == Format::msh22 ||
-           format == Format::inp || format == Format::medit || format == Format::unv ||
-           (format >= Format::exodus && format < Format::irap);
-}
-
-bool holds_second_order(Format format) {
-    return format == Format::vtu || format == Format::msh || format == Format::msh22 ||
-           format == Format::inp || format == Format::exodus || format == Format::ogs;
-}
-
-bool has_several_files(Format format) {
-    return format == Format::ugi || format == Format::ogs || format == Format::geos;
-}
-
-bool may_be_beside(Format format, const fs::path& first, const fs::path& other) {
-    if (!has_several_files(format)) return false;
-    const auto extension = other.extension();
-    const bool fits =
-        format == Format::ugi ? extension == ".txt" || extension == ".ss" : extension == ".vtu";
-    const auto folder_of = [](const fs::path& file) { return fs::absolute(file).parent_path(); };
-    return fits && other.filename().string().starts_with(first.stem().string() + "_") &&
-           are_same(folder_of(first), folder_of(other));
-}
-
-std::optional<Format> format_named(std::string_view name) {
-    for (const auto& [known, format] : names)
-        if (same_ignoring_case(name, known)) return format;
-    return std::nullopt;
-}
-
-std::optional<Format> format_of(const fs::path& path) {
-    const auto extension = path.extension().string();
-    return extension.empty() ? std::nullopt : format_named(std::string_view(extension).substr(1));
-}
-
-std::optional<Format> format_to_read(const fs::path& path) {
-    return format_of(without_compression(path));
-}
-
 Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::string_view source,
                                             Format format, const ReadOptions& options) {
     return guard_memory(source, [&] { return parse(contents, source, format, options); });
@@ -418,6 +341,19 @@ Result<std::vector<Surface>> read_surfaces(const fs::path& path, std::optional<F
         const auto contents = read_file(path);
         if (!contents) return contents.error();
         return parse(contents.value(), place, chosen.value(), options);
+    });
+}
+
+Result<Grid> read_grid(const fs::path& path, std::optional<Format> format) {
+    return guard_file(path, true, [&](const std::string& place) -> Result<Grid> {
+        auto chosen = choose_format(path, format, true);
+        if (!chosen) return chosen.error();
+        const auto contents = plain_file(path, place);
+        if (!contents) return contents.error();
+        const std::string utf8 = utf8_of_utf16(*contents);
+        const std::string_view text = utf8.empty() ? *contents : utf8;
+        if (*chosen == Format::xyz) chosen = format_seen_in(text).value_or(Format::xyz);
+        return parse_grid(text, place, without_compression(path).stem().string(), *chosen);
     });
 }
 
@@ -475,6 +411,36 @@ Status write_mesh(const Mesh& mesh, const fs::path& path, const WriteOptions& op
         const auto contents = contents_of(mesh, format.value(), options);
         if (!contents) return at(place, contents.error());
         return write_file(path, contents.value());
+    });
+}
+
+Result<std::string> format_grid(const Grid& grid, Format format) {
+    return guard_memory("", [&]() -> Result<std::string> {
+        switch (format) {
+        case Format::irap:
+            return to_irap(grid);
+        case Format::zmap:
+            return to_zmap(grid);
+        case Format::esri:
+            return to_esri(grid);
+        case Format::surfer:
+            return to_surfer(grid);
+        case Format::vti:
+            return to_vti(grid);
+        default:
+            return Error{ErrorCode::unsupported,
+                         "grids are written as .asc, .zmap, .irap, .grd or .vti", ""};
+        }
+    });
+}
+
+Status write_grid(const Grid& grid, const fs::path& path, std::optional<Format> wanted) {
+    return guard_file(path, false, [&](const std::string& place) -> Status {
+        const auto format = choose_format(path, wanted, false);
+        if (!format) return format.error();
+        const auto contents = format_grid(grid, *format);
+        if (!contents) return at(place, contents.error());
+        return write_file(path, *contents);
     });
 }
 

@@ -43,11 +43,12 @@ enum class Format {
     geos,    ///< written only: GEOS, a .vtm with tetrahedra and fractures; by its name
     pylith,  ///< written only: PyLith, MSH 4.1 of tetrahedra with edges of faults; by its name
     f3grid,  ///< .f3grid, written only: FLAC3D, tetrahedra
-    irap,    ///< .irap .gri .fgr, read only: a grid, text or binary
-    zmap,    ///< .zmap .zycor, read only: a grid
+    vti,     ///< .vti, written only: a grid, VTK's ImageData
+    irap,    ///< .irap .gri .fgr: a grid, text or binary; written as text
+    zmap,    ///< .zmap .zycor: a grid
     cps3,    ///< .cps3 .cps, read only: a grid
-    esri,    ///< .asc .agr, read only: a grid
-    surfer,  ///< .grd, read only: a grid, text or binary
+    esri,    ///< .asc .agr: a grid
+    surfer,  ///< .grd: a grid, text or binary; written as text
     xyz,     ///< .xyz .csv .txt .dat .poi .pol, read only: points
     vset,    ///< .vs: points of GOCAD's VSet and PLine; written: the vertices of surfaces
     pline,   ///< .pl: the same points; written: borders of surfaces and intersection curves
@@ -75,6 +76,9 @@ bool may_be_beside(Format format, const std::filesystem::path& first,
                    const std::filesystem::path& other);
 /// Whether the vertices or lines of surfaces, but not their triangles, can be written in the format.
 bool holds_outlines(Format format);
+/// Whether a grid can be read from the format, and whether one can be written.
+bool is_grid(Format format);
+bool holds_grids(Format format);
 
 /// Returns the names of the values that a file in this format would not have: on vertices or on triangles the
 /// format has none, or not of this shape.
@@ -106,6 +110,11 @@ Result<std::vector<Surface>> read_surfaces(const std::filesystem::path& path,
 /// read_surfaces.
 Result<std::vector<Surface>> parse_surfaces(std::string_view contents, std::string_view source,
                                             Format format, const ReadOptions& options = {});
+
+/// Reads a grid, with its heights as the file has them: unlike read_surfaces(), it leaves depths alone. Errors: those
+/// of read_surfaces(); nothing_to_do for a format of anything else.
+Result<Grid> read_grid(const std::filesystem::path& path,
+                       std::optional<Format> format = std::nullopt);
 
 /// Reads the tetrahedra of a file with their labels: VTU, legacy VTK and MSH. Errors: those of
 /// read_surfaces; nothing_to_do if there is none, also in other formats.
@@ -147,6 +156,16 @@ Result<std::string> format_mesh(const Mesh& mesh, Format format, const WriteOpti
 /// coordinate beyond float32 in STL), bad_option (a cell array of the wrong length), out_of_memory.
 Status write_mesh(const Mesh& mesh, const std::filesystem::path& path,
                   const WriteOptions& options = {});
+
+/// Returns the contents of a file with a grid. Errors: those of write_grid() that do not concern files, with an empty
+/// place.
+Result<std::string> format_grid(const Grid& grid, Format format);
+
+/// Writes a grid to a file; if this fails, no file is written. Rows and columns run along growing coordinates. Errors:
+/// cannot_open, write_failed, unknown_format; unsupported (another format; a rotated grid, but in .irap and .vti);
+/// bad_number for a value that the format takes for none; bad_option for a grid without steps.
+Status write_grid(const Grid& grid, const std::filesystem::path& path,
+                  std::optional<Format> format = std::nullopt);
 
 /// Writes tetrahedra in a format that holds them. If this fails, no file is written, also in formats of
 /// several files: the others are in the folder of `path`, and their names begin with its stem. Errors: those

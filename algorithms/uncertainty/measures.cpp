@@ -6,44 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include <terrane/algorithms/maps/verticals.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
-#include <terrane/kernel/predicates.hpp>
 
 namespace terrane {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// A point in which a vertical line meets a triangle.
-struct ColumnCrossing {
-    std::size_t cell = 0;
-    double z = 0;
-    std::uint32_t triangle = 0;
-    std::uint32_t above = 0; ///< volume
-
-    friend bool operator<(const ColumnCrossing& a, const ColumnCrossing& b) {
-        if (a.cell != b.cell) return a.cell < b.cell;
-        return a.z != b.z ? a.z < b.z : a.triangle < b.triangle;
-    }
-};
-
-/// Returns on which side of the line from a to b the point is, moved as column_maps() says.
-Sign side_of(const Point3& a, const Point3& b, const Point3& p) {
-    if (const Sign sign = orient2d(Axis::z, a, b, p); sign != Sign::Zero) return sign;
-    if (a.y != b.y) return a.y > b.y ? Sign::Positive : Sign::Negative;
-    if (a.x == b.x) return Sign::Zero;
-    return b.x > a.x ? Sign::Positive : Sign::Negative;
-}
-
-/// Returns the height of the plane of a triangle at a place, within the heights of its corners.
-double height_at(const Point3& a, const Point3& b, const Point3& c, const Point3& p) {
-    const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-    const double to_b = ((p.x - a.x) * (c.y - a.y) - (c.x - a.x) * (p.y - a.y)) / area;
-    const double to_c = ((b.x - a.x) * (p.y - a.y) - (p.x - a.x) * (b.y - a.y)) / area;
-    const auto [low, high] = std::minmax({a.z, b.z, c.z});
-    const double z = a.z + to_b * (b.z - a.z) + to_c * (c.z - a.z);
-    return std::isfinite(z) ? std::clamp(z, low, high) : (low + high) / 2;
-}
 
 /// Returns the first and one past the last cell whose centres may be in [low, high].
 std::array<std::size_t, 2> cells_between(double low, double high, double start, double size,
@@ -55,43 +24,22 @@ std::array<std::size_t, 2> cells_between(double low, double high, double start, 
             index(std::floor((high - start) / size - 0.5) + 2)};
 }
 
-class ColumnSearch {
-public:
-    ColumnSearch(const Mesh& mesh, const Volumes& volumes, const MapGrid& grid) :
-        mesh_(mesh), volumes_(volumes), grid_(grid) {}
+/// Calls visit(cell, centre) for the cells whose centres may lie in a triangle in the map.
+struct CellsNear {
+    const MapGrid& grid;
 
-    std::vector<ColumnCrossing> operator()() {
-        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) add(t);
-        std::sort(found_.begin(), found_.end());
-        return std::move(found_);
-    }
-
-private:
-    void add(std::uint32_t t) {
-        const auto& [i, j, k] = mesh_.triangles[t];
-        const Point3 &a = mesh_.vertices[i], &b = mesh_.vertices[j], &c = mesh_.vertices[k];
-        const Sign turn = orient2d(Axis::z, a, b, c);
-        if (turn == Sign::Zero) return;
+    template <class Visit>
+    void operator()(const std::array<Point3, 3>& corners, const Visit& visit) const {
+        const auto& [a, b, c] = corners;
         const auto x = std::minmax({a.x, b.x, c.x}), y = std::minmax({a.y, b.y, c.y});
-        const auto columns = cells_between(x.first, x.second, grid_.x, grid_.width, grid_.columns);
-        const auto rows = cells_between(y.first, y.second, grid_.y, grid_.height, grid_.rows);
-        const auto& sides = volumes_.of_sides[t];
+        const auto columns = cells_between(x.first, x.second, grid.x, grid.width, grid.columns);
+        const auto rows = cells_between(y.first, y.second, grid.y, grid.height, grid.rows);
         for (std::size_t row = rows[0]; row < rows[1]; ++row)
-            for (std::size_t column = columns[0]; column < columns[1]; ++column) {
-                const Point3 p{grid_.x + (static_cast<double>(column) + 0.5) * grid_.width,
-                               grid_.y + (static_cast<double>(row) + 0.5) * grid_.height, 0};
-                if (side_of(a, b, p) != turn || side_of(b, c, p) != turn ||
-                    side_of(c, a, p) != turn)
-                    continue;
-                found_.push_back({row * grid_.columns + column, height_at(a, b, c, p), t,
-                                  sides[turn == Sign::Positive ? 0 : 1]});
-            }
+            for (std::size_t column = columns[0]; column < columns[1]; ++column)
+                visit(row * grid.columns + column,
+                      Point3{grid.x + (static_cast<double>(column) + 0.5) * grid.width,
+                             grid.y + (static_cast<double>(row) + 0.5) * grid.height, 0});
     }
-
-    const Mesh& mesh_;
-    const Volumes& volumes_;
-    const MapGrid& grid_;
-    std::vector<ColumnCrossing> found_;
 };
 
 /// Returns the mean of max(d, 0) over a triangle whose corners have the values d.
@@ -107,17 +55,17 @@ double mean_above(std::array<double, 3> d) {
 } // namespace
 
 ColumnMaps column_maps(const Mesh& mesh, const Volumes& volumes, const MapGrid& grid) {
-    const auto crossings = ColumnSearch(mesh, volumes, grid)();
+    const auto crossings = vertical_crossings(mesh, volumes, CellsNear{grid});
     const std::size_t cells = grid.columns * grid.rows;
     ColumnMaps maps{std::vector<double>(mesh.surfaces.size() * cells, nan),
                     std::vector<double>(volumes.measures.size() * cells)};
     for (std::size_t i = 0; i < crossings.size(); ++i) {
-        const ColumnCrossing& at = crossings[i];
+        const VerticalCrossing& at = crossings[i];
         for (const std::uint32_t s : mesh.surfaces_of[at.triangle])
-            maps.heights[s * cells + at.cell] = at.z; // the last one is the highest
-        if (i + 1 == crossings.size() || crossings[i + 1].cell != at.cell || at.above == 0)
+            maps.heights[s * cells + at.node] = at.z; // the last one is the highest
+        if (i + 1 == crossings.size() || crossings[i + 1].node != at.node || at.above == 0)
             continue;
-        maps.thicknesses[at.above * cells + at.cell] += crossings[i + 1].z - at.z;
+        maps.thicknesses[at.above * cells + at.node] += crossings[i + 1].z - at.z;
     }
     return maps;
 }

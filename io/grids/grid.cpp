@@ -1,44 +1,23 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/grids/grid.hpp>
 
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
+#include <terrane/algorithms/maps/grid_frame.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 
 namespace terrane {
 namespace {
 
-/// The cosine and sine of an angle; they are exact for multiples of 90 degrees.
-struct Turn {
-    double cosine = 1, sine = 0;
-
-    explicit Turn(double degrees) {
-        const double quarter = std::remainder(degrees, 360.0) / 90;
-        if (quarter == std::round(quarter)) {
-            constexpr std::array<double, 5> sines{0, -1, 0, 1, 0}; // -2 .. 2 quarters
-            constexpr std::array<double, 5> cosines{-1, 0, 1, 0, -1};
-            const auto i = static_cast<std::size_t>(quarter + 2);
-            cosine = cosines[i];
-            sine = sines[i];
-            return;
-        }
-        const double angle = degrees * std::numbers::pi / 180;
-        cosine = std::cos(angle);
-        sine = std::sin(angle);
-    }
-};
-
 /// Builds the surface of a grid: vertices in the order of the nodes, triangles in that of the
 /// cells.
 class GridSurface {
 public:
-    GridSurface(const Grid& grid, bool depth) : grid_(grid), turn_(grid.rotation), depth_(depth) {}
+    GridSurface(const Grid& grid, bool depth) : grid_(grid), frame_(grid), depth_(depth) {}
 
     Result<Surface> make() {
         surface_.name = grid_.name;
@@ -60,11 +39,8 @@ private:
             const double value = grid_.values[k];
             if (std::isnan(value)) continue;
             const std::size_t column = k % grid_.nx, row = k / grid_.nx;
-            const double u = static_cast<double>(column) * grid_.dx;
-            const double v = static_cast<double>(row) * grid_.dy;
-            const Point3 p{grid_.x + u * turn_.cosine - v * turn_.sine,
-                           grid_.y + u * turn_.sine + v * turn_.cosine,
-                           depth_ && value != 0 ? -value : value};
+            const Point3 p = frame_.node(static_cast<double>(column), static_cast<double>(row),
+                                         depth_ && value != 0 ? -value : value);
             if (!is_finite(p))
                 return Error{ErrorCode::bad_number, "a node of the grid is beyond all doubles", ""};
             vertex_of_[k] = static_cast<std::uint32_t>(surface_.vertices.size());
@@ -105,7 +81,7 @@ private:
     }
 
     const Grid& grid_;
-    Turn turn_;
+    GridFrame frame_;
     bool depth_;
     bool mirrored_ = false;
     std::vector<std::uint32_t> vertex_of_;
@@ -127,9 +103,7 @@ Result<Surface> surface_of_grid(const Grid& grid, bool depth) {
 double height_at(const Grid& grid, double x, double y) {
     const StandardArithmetic guard;
     constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-    const Turn turn(grid.rotation);
-    const double u = ((x - grid.x) * turn.cosine + (y - grid.y) * turn.sine) / grid.dx;
-    const double v = ((y - grid.y) * turn.cosine - (x - grid.x) * turn.sine) / grid.dy;
+    const auto [u, v, _] = GridFrame(grid).steps(x, y);
     if (!(u >= 0 && v >= 0 && u <= grid.nx - 1.0 && v <= grid.ny - 1.0)) return missing;
     if (grid.nx < 2 || grid.ny < 2) return missing;
     const double i = std::min(std::floor(u), grid.nx - 2.0);

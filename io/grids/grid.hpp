@@ -3,29 +3,13 @@
 // Horizons given as regular grids of heights, and their conversion to surfaces.
 #pragma once
 
-#include <cstdint>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/maps/maps.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 
 namespace terrane {
-
-/// Heights over a regular grid, which may be rotated by an angle r. Node (i, j) is at
-/// (x, y) + i dx (cos r, sin r) + j dy (-sin r, cos r).
-struct Grid {
-    std::string name;           ///< of the surface
-    double x = 0;               ///< position of node (0, 0)
-    double y = 0;               ///< position of node (0, 0)
-    std::uint32_t nx = 0;       ///< nodes along i, >= 1
-    std::uint32_t ny = 0;       ///< nodes along j, >= 1
-    double dx = 0;              ///< step along i, not 0
-    double dy = 0;              ///< step along j, not 0; < 0: rows run down the y axis (y flip)
-    double rotation = 0;        ///< degrees, counterclockwise from x
-    std::vector<double> values; ///< nx ny heights; node (i, j) at j nx + i; NaN: no height
-};
 
 /// Options of reading.
 struct ReadOptions {

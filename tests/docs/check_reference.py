@@ -375,7 +375,7 @@ def check_names(findings):
                  for code, status in statuses(codes).items() if documented.get(code, status) != status]
     rules = {r.split("_")[0] for r in enumerators(source("verdict.hpp"), "Rule")}
     findings.compare("certificate.md, rules", first_cells("certificate.md", "rules"), rules)
-    listed = set(re.findall(r'{"(\w+)", Format::\w+}', source("files.cpp")))
+    listed = set(re.findall(r'{"(\w+)", Format::\w+}', source("formats.cpp")))
     table = rows_of(sections_of((REFERENCE / "formats.md").read_text())["file-formats"])
     documented = {code.lstrip(".") for row in table for code in CODE.findall(row[1])}
     findings.compare("formats.md", documented, listed)

@@ -284,6 +284,10 @@ std::vector<Stage> reading_json() {
     return stages;
 }
 
+Grid small_grid() {
+    return {"a grid with a name that needs memory", 0, 0, 2, 2, 4, 4, 0, {1, 2, 3, 4}};
+}
+
 std::vector<Stage> formatting() {
     const Fixture& f = Fixture::get();
     std::vector<Stage> stages;
@@ -294,7 +298,19 @@ std::vector<Stage> formatting() {
             stages.push_back(stage(
                 "format_mesh, " + std::string(name),
                 [&f, format] { return format_mesh(*f.mesh, format); }, as_it_is));
+        if (holds_grids(format) && is_first_name(name))
+            stages.push_back(stage(
+                "format_grid, " + std::string(name),
+                [grid = small_grid(), format] { return format_grid(grid, format); }, as_it_is));
     }
+    const auto path = scratch() / "a grid with a long name.asc";
+    needed(write_grid(small_grid(), path));
+    stages.push_back(stage(
+        "read_grid", [path] { return read_grid(path); },
+        [](const Grid& read) { return std::to_string(read.values.size()); }));
+    stages.push_back(stage(
+        "write_grid", [path, grid = small_grid()] { return write_grid(grid, path); },
+        [path](Done) { return contents_of(path); }));
     stages.push_back(stage(
         "lines_to_gocad", [&f] { return lines_to_gocad(*f.mesh, f.model.structure); }, as_it_is));
     stages.push_back(stage(

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <terrane/algorithms/maps/maps.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/tiles/local_supersteps.hpp>
 #include <terrane/algorithms/tiles/names_in_tiles.hpp>
@@ -183,6 +184,24 @@ std::vector<Stage> drawing() {
                                {.x = 0, .y = 0, .width = 2, .height = 2, .columns = 4, .rows = 4});
         },
         [](const ColumnMaps& made) { return shown(made.thicknesses.back()); }));
+    stages.push_back(stage(
+        "grid_over", [&f] { return grid_over(f.surfaces, 2); },
+        [](const Grid& made) { return std::to_string(made.nx); }));
+    static const Grid grid = needed(grid_over(f.surfaces, 2));
+    stages.push_back(stage(
+        "map_surface",
+        [&f] {
+            const std::span surfaces(f.surfaces);
+            return map_surface(surfaces.first(1), MapKind::distance, grid, surfaces.subspan(1));
+        },
+        [](const SurfaceMap& made) { return std::to_string(made.nodes); }));
+    stages.push_back(stage(
+        "map_blocks",
+        [&f] {
+            const BlockId block(1);
+            return map_blocks(*f.mesh, f.volumes, std::span(&block, 1), grid);
+        },
+        [](const Grid& made) { return shown(made.values.back()); }));
     static constexpr double contact = 4;
     stages.push_back(stage(
         "measure_blocks",

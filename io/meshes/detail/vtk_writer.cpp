@@ -84,11 +84,12 @@ std::vector<To> as(const std::vector<From>& values) {
 
 } // namespace
 
-void VtkWriter::begin_file(std::string_view type) {
+void VtkWriter::begin_file(std::string_view type, std::string_view attributes) {
     has_strings_ = type == "PolyData";
     out_ += fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"1.0\" "
-                        "byte_order=\"LittleEndian\" header_type=\"UInt64\"{}>\n<{}>\n",
-                        type, compress_ ? " compressor=\"vtkZLibDataCompressor\"" : "", type);
+                        "byte_order=\"LittleEndian\" header_type=\"UInt64\"{}>\n<{}{}>\n",
+                        type, compress_ ? " compressor=\"vtkZLibDataCompressor\"" : "", type,
+                        attributes);
 }
 
 void VtkWriter::comment(std::string_view lines) {

@@ -24,7 +24,8 @@ class VtkWriter {
 public:
     explicit VtkWriter(bool compress) : compress_(compress) {}
 
-    void begin_file(std::string_view type);
+    /// `attributes` of the data set, each after a blank.
+    void begin_file(std::string_view type, std::string_view attributes = "");
     void text(std::string_view line) { out_.append(line).append("\n"); }
     /// Writes lines that programs pass over.
     void comment(std::string_view lines);
