@@ -7,7 +7,6 @@
 #include <terrane/algorithms/core/fields.hpp>
 #include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>
-#include <terrane/algorithms/core/process_memory.hpp>
 #include <terrane/algorithms/intersection/contact_kind.hpp>
 #include <terrane/algorithms/judge/judge.hpp>
 #include <terrane/algorithms/layers/layers.hpp>
@@ -34,7 +33,6 @@
 #include <terrane/algorithms/verify/verdict.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
-#include <terrane/io/certificate.hpp>
 #include <terrane/io/grids/grid.hpp>
 #include <terrane/kernel/point.hpp>
 #include <terrane/kernel/predicate_counts.hpp>

@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include <terrane/algorithms/core/process_memory.hpp>
+#include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/intersection/contact_kind.hpp>
 #include <terrane/capi/detail/call.hpp>
 #include <terrane/capi/detail/handles.hpp>

@@ -18,6 +18,7 @@
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/io/block_certificate.hpp>
 #include <terrane/io/certificate.hpp>
+#include <terrane/io/certify.hpp>
 #include <terrane/io/files.hpp>
 #include <terrane/io/meshes/gmsh.hpp>
 #include <terrane/io/meshes/vtk.hpp>

@@ -10,6 +10,7 @@
 #include <terrane/algorithms/core/sha256.hpp>
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/certify.hpp>
 #include <terrane/io/detail/certificate_writer.hpp>
 
 namespace terrane {

@@ -98,10 +98,6 @@ OutputRecord record_output(std::string_view contents, std::string name, std::str
 std::string certified_name(const std::filesystem::path& path,
                            const std::filesystem::path& certificate);
 
-/// Returns the name of an output's format in certificates, "stl-ascii" for an STL file in text;
-/// empty: the verifier does not read the format.
-std::string certified_format(Format format, bool ascii = false);
-
 /// A volume of interest, as it was asked for.
 struct VolumeRecord {
     std::string shape = "prism"; ///< "prism", "hexahedron" or "surface": see verify.hpp
@@ -187,14 +183,7 @@ Result<CutSections> cut_sections(const Certified& cut, const CutRecord& record,
 Result<std::string> to_cut_certificate(const Certified& cut, const CutRecord& record,
                                        const ArrangeOptions& options, const Run& run = {});
 
-/// A surface whose holes were filled.
-struct FilledRecord {
-    const Surface* filled = nullptr;              ///< given ones, then new ones
-    std::size_t given_vertices = 0;               ///< its first ones
-    std::size_t given_triangles = 0;              ///< its first ones
-    std::span<const std::int32_t> interpolated{}; ///< per triangle: the number of its hole, or 0
-    std::span<const double> deviation{};          ///< per vertex: its expected error; NaN: unknown
-};
+struct FilledRecord; // certify.hpp
 
 /// Returns the text of a certificate of the kind "filled". It has the keys "format" to "outputs" of
 /// a certificate of an arrangement, and

@@ -10,7 +10,7 @@
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/block_certificate.hpp>
-#include <terrane/io/files.hpp>
+#include <terrane/io/certificate.hpp>
 #include <terrane/io/results.hpp>
 #include <terrane/io/text/utf8.hpp>
 

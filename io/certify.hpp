@@ -6,18 +6,26 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
+#include <terrane/algorithms/layers/layers.hpp>
+#include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/mesh/surface.hpp>
+#include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/pipeline/project.hpp>
+#include <terrane/algorithms/quality/improve.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/search/method.hpp>
-#include <terrane/io/certificate.hpp>
+#include <terrane/io/files.hpp>
 
 namespace terrane {
 
@@ -32,6 +40,19 @@ struct ResultFile {
     std::filesystem::path file;            ///< "-": standard output
     std::string format;                    ///< see certified_format()
     std::optional<std::string> contents{}; ///< none: those of the file
+};
+
+/// Returns the name of an output's format in certificates, "stl-ascii" for an STL file in text;
+/// empty: the verifier does not read the format.
+std::string certified_format(Format format, bool ascii = false);
+
+/// A surface whose holes were filled.
+struct FilledRecord {
+    const Surface* filled = nullptr;              ///< given ones, then new ones
+    std::size_t given_vertices = 0;               ///< its first ones
+    std::size_t given_triangles = 0;              ///< its first ones
+    std::span<const std::int32_t> interpolated{}; ///< per triangle: the number of its hole, or 0
+    std::span<const double> deviation{};          ///< per vertex: its expected error; NaN: unknown
 };
 
 /// A result and what it was made of, by reference: the values must outlive it. Members that are not
@@ -56,7 +77,7 @@ struct CertifiedResult {
     std::span<const Layer> order{};              ///< of the stack, from the top down
     ProjectVolume volume{};                      ///< the volume of interest
     std::size_t boundary_count = 0; ///< number of the last surfaces, which bound the volume
-    std::span<const SurfaceGrowth> growth{}; ///< see CutRecord
+    std::span<const SurfaceGrowth> growth{}; ///< per surface before these; empty: unchanged
     Search search = Search::automatic;       ///< for arranging the left-out part again
 };
 

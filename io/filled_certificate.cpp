@@ -9,6 +9,7 @@
 #include <terrane/algorithms/core/standard_arithmetic.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/io/certificate.hpp>
+#include <terrane/io/certify.hpp>
 #include <terrane/io/detail/certificate_writer.hpp>
 
 namespace terrane {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/core/process_memory.hpp>
+#include <terrane/algorithms/core/run.hpp>
 
 #include <cstddef>
 #include <cstdlib>
 #include <new>
 
 #include <gmp.h>
+
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
 
 namespace terrane {
 namespace {
@@ -49,6 +53,15 @@ void release(void* memory, std::size_t) {
 }
 
 } // namespace
+
+void keep_freed_memory() {
+#if defined(__GLIBC__)
+    constexpr int never = 1 << 30;
+    mallopt(M_MMAP_THRESHOLD, never);
+    mallopt(M_TRIM_THRESHOLD, never);
+    mallopt(M_ARENA_MAX, 1);
+#endif
+}
 
 bool throw_on_gmp_out_of_memory() {
     const Functions before = current(), throwing{allocate, reallocate, release};

@@ -42,14 +42,23 @@ struct CellsNear {
     }
 };
 
-/// Returns the mean of max(d, 0) over a triangle whose corners have the values d.
-double mean_above(std::array<double, 3> d) {
+/// Of a linear function over a triangle: the share of the area where it is above 0, and the mean of max(d, 0).
+struct Above {
+    double share = 0, mean = 0;
+};
+
+/// `d`: the values at the corners.
+Above above_zero(std::array<double, 3> d) {
     std::sort(d.begin(), d.end());
-    if (d[2] <= 0) return 0;
+    if (d[2] <= 0) return {};
     const double mean = (d[0] + d[1] + d[2]) / 3;
-    if (d[0] >= 0) return mean;
-    if (d[1] <= 0) return d[2] / 3 * (d[2] / (d[2] - d[0])) * (d[2] / (d[2] - d[1]));
-    return mean - d[0] / 3 * (d[0] / (d[0] - d[1])) * (d[0] / (d[0] - d[2]));
+    if (d[0] >= 0) return {1, mean};
+    if (d[1] <= 0) {
+        const double corner = d[2] / (d[2] - d[0]) * (d[2] / (d[2] - d[1]));
+        return {corner, d[2] / 3 * corner};
+    }
+    const double corner = d[0] / (d[0] - d[1]) * (d[0] / (d[0] - d[2])); // it is below
+    return {1 - corner, mean - d[0] / 3 * corner};
 }
 
 } // namespace
@@ -74,7 +83,8 @@ std::vector<BlockMeasure> measure_blocks(const Mesh& mesh, const Volumes& volume
                                          std::span<const double> contacts) {
     std::vector<BlockMeasure> all(volumes.measures.size());
     std::vector<double> area(all.size());
-    for (BlockMeasure& m : all) m = {HUGE_VAL, -HUGE_VAL, {}, std::vector<double>(contacts.size())};
+    for (BlockMeasure& m : all)
+        m = {HUGE_VAL, -HUGE_VAL, {}, std::vector<PartAbove>(contacts.size())};
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (volumes.dangles(t)) continue;
         const auto& [i, j, k] = mesh.triangles[t];
@@ -92,19 +102,27 @@ std::vector<BlockMeasure> measure_blocks(const Mesh& mesh, const Volumes& volume
             m.middle = {m.middle.x + size * (a.x + b.x + c.x) / 3,
                         m.middle.y + size * (a.y + b.y + c.y) / 3,
                         m.middle.z + size * (a.z + b.z + c.z) / 3};
-            // The divergence of (0, 0, max(z - contact, 0)) is 1 above the contact, and 0 below. The
-            // normal points into the volume in front, out of the one behind.
+            // The divergence of (0, 0, max(z - contact, 0)) is 1 above the contact, and 0 below. (0, 0, 1) flows
+            // out of the part above as much as it flows in through the section. The normal points into the volume
+            // in front, out of the one behind.
             const double outward = (side == 1 ? n.z : -n.z) / 2;
-            for (std::size_t l = 0; l < contacts.size(); ++l)
-                m.above[l] +=
-                    outward * mean_above({a.z - contacts[l], b.z - contacts[l], c.z - contacts[l]});
+            for (std::size_t l = 0; l < contacts.size(); ++l) {
+                const Above above =
+                    above_zero({a.z - contacts[l], b.z - contacts[l], c.z - contacts[l]});
+                m.above[l].volume += outward * above.mean;
+                m.above[l].area += outward * above.share;
+            }
         }
     }
     for (std::size_t v = 0; v < all.size(); ++v) {
         BlockMeasure& m = all[v];
         if (!(area[v] > 0)) {
-            m = {0, 0, {}, std::vector<double>(contacts.size())};
+            m = {0, 0, {}, std::vector<PartAbove>(contacts.size())};
             continue;
+        }
+        for (std::size_t l = 0; l < contacts.size(); ++l) {
+            m.above[l].column = std::max(0.0, m.high - contacts[l]);
+            if (m.low > contacts[l]) m.above[l].area = 0; // but for rounding
         }
         m.middle = {m.middle.x / area[v], m.middle.y / area[v], m.middle.z / area[v]};
     }

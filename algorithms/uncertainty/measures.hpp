@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Measures of the blocks of a model that ensembles keep: along vertical lines through the cells of a map, and
-// above the depth of a contact.
+// Measures of the blocks of a model: along vertical lines through the cells of a map, and above the depth of a
+// contact.
 #pragma once
 
 #include <cstddef>
@@ -35,11 +35,18 @@ struct ColumnMaps {
 /// the cells that their boxes cover.
 ColumnMaps column_maps(const Mesh& mesh, const Volumes& volumes, const MapGrid& grid);
 
+/// The part of a block above a contact, a level plane.
+struct PartAbove {
+    double volume = 0; ///< cubic unit
+    double area = 0;   ///< of the block's section by the contact, squared unit
+    double column = 0; ///< height of the highest point above the contact; 0: the block is below it
+};
+
 /// Measures of a block.
 struct BlockMeasure {
-    double low = 0, high = 0;    ///< least and greatest z
-    Point3 middle{};             ///< centre of area of its boundary
-    std::vector<double> above{}; ///< per contact: the volume above that z, cubic unit
+    double low = 0, high = 0;       ///< least and greatest z
+    Point3 middle{};                ///< centre of area of its boundary
+    std::vector<PartAbove> above{}; ///< per contact
 };
 
 /// Measures each volume of a mesh; [0], the outside, is empty, as is one without triangles. `contacts`: z of each. In

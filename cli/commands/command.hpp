@@ -31,6 +31,7 @@ Command manual_command(CLI::App& program);
 Command minimise_command(CLI::App& program);
 Command report_command(CLI::App& program);
 Command select_command(CLI::App& program);
+Command map_command(CLI::App& program);
 Command tetrahedralize_command(CLI::App& program);
 Command verify_command(CLI::App& program);
 Command view_command(CLI::App& program);

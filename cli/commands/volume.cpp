@@ -2,13 +2,16 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/reports/relation_report.hpp>
 #include <terrane/cli/reports/seal_plot.hpp>
 #include <terrane/cli/reports/seal_report.hpp>
+#include <terrane/cli/stages/blocks.hpp>
 #include <terrane/cli/stages/cells.hpp>
 #include <terrane/cli/stages/model_run.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
@@ -23,13 +26,14 @@ struct VolumeCommand {
     ModelCommand model;
     std::string folder;
     std::string part_format = automatic_parts;
-    std::string relations;     ///< file for the table of relations; here and below, empty: none
-    std::string juxtaposition; ///< file for the table of areas between blocks
-    std::string seal_plot;     ///< file for the plot of it; empty: none
-    std::string gocad;         ///< file for the model with its regions
-    std::string lines;         ///< file for the lines of the model
-    CellOptions cells;         ///< of a grid
-    bool suggests = false;     ///< whether distances for sealing are tried, and nothing is written
+    std::string relations;        ///< file for the table of relations; here and below, empty: none
+    std::string juxtaposition;    ///< file for the table of areas between blocks
+    std::string seal_plot;        ///< file for the plot of it; empty: none
+    std::string gocad;            ///< file for the model with its regions
+    std::string lines;            ///< file for the lines of the model
+    CellOptions cells;            ///< of a grid
+    std::vector<double> contacts; ///< levels of z
+    bool suggests = false; ///< whether distances for sealing are tried, and nothing is written
 };
 
 constexpr auto volume_footer =
@@ -71,6 +75,9 @@ surface, and the area.
 blocks as regions of a Model3d; --lines FILE.pl writes its lines. --grid GRID.grdecl --cells FILE.grdecl
 says in which block each cell of a corner-point grid lies: ACTNUM and FIPNUM.
 
+--contact Z lists the volume of each block above that level, the area of its section there, and the height
+of the column from there to its highest point.
+
 --certificate FILE writes all that it takes to check the files in DIR from the input files alone.
 
 Examples:
@@ -108,6 +115,8 @@ void check_output(const VolumeCommand& command) {
         must(check_new_folder(command.folder));
         return;
     }
+    if (!command.contacts.empty())
+        refuse("needs a model, and --suggest-seal makes none", "--contact");
     const std::array<std::pair<const char*, const std::string*>, 8> of_models{
         {{"--output", &command.folder},
          {"--certificate", &certificate},
@@ -179,6 +188,7 @@ ExitStatus find_blocks(const VolumeCommand& command, Session& session) {
     const auto values = run.values_on(model.mesh);
     write_folder(command, {model, run.built().arranged.sealed, run.leaks(), values}, session);
     say_written(run.told(), command.folder);
+    say(run.told(), contacts_text(run.inputs(), model, command.contacts, run.statistics()));
     write_tables(command, run, session);
     if (grid)
         tell_when_written(run.told(),
@@ -215,6 +225,9 @@ Command volume_command(CLI::App& program) {
     add_value(*app, "--lines", command->lines, "FILE.pl",
               "The lines of the model as PLine of GOCAD: cutoffs, free borders, ...");
     add_cells(*app, command->cells);
+    add_value(*app, "--contact", command->contacts, "Z",
+              "z of a contact, above which volumes, areas and columns are measured; repeated")
+        ->allow_extra_args(false);
     add_certificate(*app, command->model.proof.certificate);
     add_arranging(*app, command->model);
     add_run(*app, command->model.files);

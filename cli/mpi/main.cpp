@@ -15,7 +15,7 @@
 #include <CLI/CLI.hpp>
 #include <mpi.h>
 
-#include <terrane/algorithms/core/process_memory.hpp>
+#include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/tiles/tiled_arrangement.hpp>
 #include <terrane/cli/mpi/agreement.hpp>
 #include <terrane/cli/mpi/mpi_supersteps.hpp>

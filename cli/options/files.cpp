@@ -39,6 +39,7 @@ Format format_of_output(const FileOptions& options, const std::string& path) {
 
 bool fits(Format format, OutputKind kind) {
     if (kind == OutputKind::tetrahedra) return holds_tetrahedra(format);
+    if (kind == OutputKind::grids) return holds_grids(format);
     return holds_surfaces(format) || holds_outlines(format);
 }
 
@@ -56,6 +57,17 @@ void check_streams(const FileOptions& options) {
         refuse(ErrorCode::unknown_format, "unknown format " + options.format, "");
     if (!options.input_format.empty() && !format_named(options.input_format))
         refuse(ErrorCode::unknown_format, "unknown format " + options.input_format, "");
+}
+
+/// Says why an output that can't hold a kind of output is refused.
+std::string refusal(Format format, OutputKind kind) {
+    if (kind == OutputKind::tetrahedra)
+        return "tetrahedra are written as .vtu, .msh, .inp, .mesh, .exo or .ugi, "
+               "and by --output-format as ogs, geos or pylith";
+    if (kind == OutputKind::grids) return "grids are written as .asc, .zmap, .irap, .grd or .vti";
+    if (holds_tetrahedra(format)) return "this format is for tetrahedra, not for surfaces";
+    return holds_grids(format) ? "this format is for grids, which terrane map writes"
+                               : "this format is read, not written";
 }
 
 /// Refuses what writing would refuse, before any work is done.
@@ -217,15 +229,7 @@ std::vector<Output> plan_outputs(const FileOptions& options, OutputKind kind) {
     std::vector<Output> outputs;
     for (const auto& path : options.outputs) {
         const auto format = format_of_output(options, path);
-        if (!fits(format, kind))
-            refuse(ErrorCode::unsupported,
-                   kind == OutputKind::surfaces
-                       ? holds_tetrahedra(format)
-                             ? "this format is for tetrahedra, not for surfaces"
-                             : "this format is read, not written"
-                       : "tetrahedra are written as .vtu, .msh, .inp, .mesh, .exo or .ugi, "
-                         "and by --output-format as ogs, geos or pylith",
-                   path);
+        if (!fits(format, kind)) refuse(ErrorCode::unsupported, refusal(format, kind), path);
         if (kind == OutputKind::tetrahedra) check_tetrahedra(options, path, format);
         check_folder(path);
         outputs.push_back({path, format});
@@ -289,6 +293,14 @@ std::vector<fs::path> write_output(const TetrahedralMesh& mesh, const Output& ou
                                    WriteOptions options, Session& session) {
     warn_of_values(output, options);
     return write_with(mesh, output, options, session, write_tetrahedra_files);
+}
+
+void write_output(const Grid& grid, const Output& output, Session& session) {
+    const auto write = [](const Grid& values, const std::string& path,
+                          const WriteOptions& options) {
+        return write_grid(values, path, options.format);
+    };
+    write_with(grid, output, {}, session, write);
 }
 
 std::string left_out_of(const Output& output) {

@@ -59,11 +59,11 @@ struct Output {
     Format format{};
 };
 
-enum class OutputKind { surfaces, tetrahedra };
+enum class OutputKind { surfaces, tetrahedra, grids };
 
 /// Checks the output names before any work is done and finds the format of each. Errors: bad_option
 /// for a standard stream used twice or without a format; unknown_format; unsupported for a format
-/// that can't hold the kind of mesh, or its order; cannot_open for a missing folder.
+/// that can't hold the kind of output, or its order; cannot_open for a missing folder.
 std::vector<Output> plan_outputs(const FileOptions& options, OutputKind kind);
 
 /// Returns cannot_open if the file can't be written: its folder is missing or not writable, or it
@@ -98,10 +98,12 @@ void describe(std::span<const Surface> surfaces, Inputs& inputs);
 std::string name_of_inputs(const FileOptions& options);
 
 /// Writes the mesh with `options`, but in the format of `output`; of tetrahedra it returns the files.
-/// Errors: those of write_mesh and write_tetrahedra.
+/// Errors: those of write_mesh, write_tetrahedra and write_grid.
 void write_output(const Mesh& mesh, const Output& output, WriteOptions options, Session& session);
 std::vector<std::filesystem::path> write_output(const TetrahedralMesh& mesh, const Output& output,
                                                 WriteOptions options, Session& session);
+
+void write_output(const Grid& grid, const Output& output, Session& session);
 
 /// Returns a clause that names what an output lacks although its format could hold it: the regions
 /// of a model in a .ml file. It is empty for an output that lacks nothing.

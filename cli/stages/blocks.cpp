@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/uncertainty/measures.hpp>
 #include <terrane/cli/session/console.hpp>
 #include <terrane/cli/session/quantities.hpp>
 
@@ -144,6 +145,43 @@ void add_statistics(Json& json, const Model& model) {
                        {"lines", s.lines.size()},
                        {"corners", s.corners.size()},
                        {"free_borders", model.borders.size()}};
+}
+
+std::string contacts_text(const Inputs& inputs, const Model& model,
+                          const std::vector<double>& contacts, Json& statistics) {
+    if (contacts.empty()) return {};
+    const Quantities quantities = inputs.quantities();
+    const auto measures = measure_blocks(model.mesh, model.volumes, contacts);
+    const auto& blocks = model.structure.blocks;
+    std::string text;
+    Json all = Json::array();
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+        std::size_t count = 0;
+        double volume = 0;
+        std::string lines;
+        Json parts = Json::array();
+        for (std::size_t b = 1; b < measures.size(); ++b) {
+            const PartAbove& part = measures[b].above[c];
+            if (!(part.column > 0)) continue;
+            volume += part.volume;
+            parts.push_back({{"block", b},
+                             {"volume", part.volume},
+                             {"area", part.area},
+                             {"column", part.column}});
+            if (++count > most_listed_blocks) continue;
+            lines += fmt::format("  block {:<4} volume {:<16} area {:<14} column {:<10} {}\n", b,
+                                 quantities.volume(part.volume), quantities.area(part.area),
+                                 quantities.length(part.column), blocks[b].name);
+        }
+        if (count > most_listed_blocks)
+            lines += fmt::format("  and {} more\n", count - most_listed_blocks);
+        text += fmt::format("above {}: volume {} in {}\n", quantities.length(contacts[c], 6),
+                            quantities.volume(volume), counted(count, "block")) +
+                lines;
+        all.push_back({{"contact", contacts[c]}, {"volume", volume}, {"blocks", parts}});
+    }
+    statistics["contacts"] = std::move(all);
+    return text;
 }
 
 std::optional<LeakAdvice> judge_leaks(const Arranged& arranged, const Model& model,

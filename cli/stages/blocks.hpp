@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/cli/options/statistics.hpp>
@@ -14,6 +15,10 @@ namespace terrane::cli {
 
 /// Adds the model's counts, volumes and times to the statistics.
 void add_statistics(Json& statistics, const Model& model);
+
+/// Reports the parts of blocks above contacts, levels of z, and adds them to the statistics.
+std::string contacts_text(const Inputs& inputs, const Model& model,
+                          const std::vector<double>& contacts, Json& statistics);
 
 /// Judges the leaks of an arrangement. Returns none if it was sealed, if no surface ends, or on an error.
 std::optional<LeakAdvice> judge_leaks(const Arranged& arranged, const Model& model,

@@ -70,11 +70,12 @@ py::tuple maps_of(const ModelPointer& m, std::array<double, 4> frame,
     return py::make_tuple(shaped(std::move(maps.heights)), shaped(std::move(maps.thicknesses)));
 }
 
-/// (low, high, middle, above) of each volume
+/// (low, high, middle, [(volume, area, column) above each contact]) of each volume
 py::list measures_of(const ModelPointer& m, const std::vector<double>& contacts) {
     return rows(measure_blocks(m->model.mesh, m->model.volumes, contacts), &BlockMeasure::low,
-                &BlockMeasure::high, &BlockMeasure::middle,
-                [](const BlockMeasure& b) { return py::cast(b.above); });
+                &BlockMeasure::high, &BlockMeasure::middle, [](const BlockMeasure& b) {
+                    return rows(b.above, &PartAbove::volume, &PartAbove::area, &PartAbove::column);
+                });
 }
 
 } // namespace

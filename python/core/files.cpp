@@ -16,14 +16,14 @@ namespace terrane::python {
 
 using namespace py::literals;
 
-namespace {
-
 std::optional<Format> to_format(const std::optional<std::string>& name) {
     if (!name) return std::nullopt;
     const auto format = format_named(*name);
     if (!format) refuse(ErrorCode::unknown_format, "no format is called so", "format=" + *name);
     return format;
 }
+
+namespace {
 
 py::list read(const py::object& path, const std::optional<std::string>& format, bool depth,
               double max_edge, const std::string& unit, const std::string& columns,

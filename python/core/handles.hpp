@@ -15,6 +15,7 @@
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
+#include <terrane/io/files.hpp>
 
 #include "arrays.hpp"
 #include "stage.hpp"
@@ -45,6 +46,9 @@ inline void require_below(std::uint32_t number, std::size_t count, const char* w
                "there is no " + std::string(what) + " " + std::to_string(number), "");
 }
 
+/// Returns the format of a name; none for None. Raises unknown_format.
+std::optional<Format> to_format(const std::optional<std::string>& name);
+
 /// The numbers of a report on rounding.
 py::dict to_dict(const RoundingReport& report);
 /// (triangles, kind, place) of each contact.
@@ -62,6 +66,7 @@ void bind_improve(py::module_& module);
 void bind_fill(py::module_& module);
 void bind_layers(py::module_& module);
 void bind_selection(py::module_& module);
+void bind_maps(py::module_& module);
 void bind_tetrahedra(py::module_& module);
 void bind_verify(py::module_& module);
 void bind_judge(py::module_& module);

@@ -5,7 +5,7 @@
 #include <pybind11/pybind11.h>
 
 #include <terrane/algorithms/core/figure.hpp>
-#include <terrane/algorithms/core/process_memory.hpp>
+#include <terrane/algorithms/core/run.hpp>
 
 #include "handles.hpp"
 #include "surfaces.hpp"
@@ -37,6 +37,7 @@ PYBIND11_MODULE(_core, module) {
     bind_fill(module);
     bind_layers(module);
     bind_selection(module);
+    bind_maps(module);
     bind_tetrahedra(module);
     bind_verify(module);
     bind_judge(module);

@@ -28,10 +28,11 @@ from ._files import read, save
 from ._holes import BorderLoop, Filled, FilledHole, FillReport, fill, holes
 from ._judgement import JudgedProperty, MeshJudgement, PropertyFlaw, judge
 from ._layers import Layered, LayerReport, OutOfOrder, layers
+from ._maps import Map, map_surface
 from ._memory import keep_freed_memory
 from ._mesh import CheckReport, Contact, Mesh, Region, Regions, mesh
 from ._model import Model, model
-from ._parts import Block, Blocks, Interface
+from ._parts import Block, Blocks, Interface, PartAbove
 from ._project import Built, build
 from ._quality import Improved, distance, improve
 from ._relations import Juxtaposition, Leak, Relation
@@ -58,12 +59,12 @@ __all__ = [
     "Arrangement", "Block", "BlockOutcome", "BlockParts", "BlockVolume", "Blocks", "BorderLoop", "Built", "CheckReport", "ClosedGap",
     "Contact", "Corner", "Doubt", "ERROR_CODES", "Ensemble", "Error", "Failure", "FillReport", "Filled", "FilledHole", "Frame",
     "HAS_REPORTS", "Improved", "IndexLists", "Interface", "InterfaceParts", "JudgedProperty", "Juxtaposed", "Juxtaposition", "LayerReport", "Layered",
-    "Leak", "Line", "Mesh", "MeshJudgement", "Model", "NO_INDEX", "OpenBorder", "OpenGap", "OutOfMemory", "OutOfOrder",
-    "Patch", "PropertyFlaw", "ROLES", "Region", "Regions", "Relation", "RoundedMesh", "RoundingReport",
+    "Leak", "Line", "Map", "Mesh", "MeshJudgement", "Model", "NO_INDEX", "OpenBorder", "OpenGap", "OutOfMemory", "OutOfOrder",
+    "PartAbove", "Patch", "PropertyFlaw", "ROLES", "Region", "Regions", "Relation", "RoundedMesh", "RoundingReport",
     "RuleViolation", "SealAdvice", "SealChange", "SealTrial", "Sealed", "Selected", "SelectedPiece", "Structure", "Surface",
     "SurfaceCut", "SurfaceInfo", "Tetrahedra", "Verdict", "VerifiedFile", "Violation",
     "VolumeOfInterest", "Volumes", "arrange", "as_surface", "as_surfaces", "box", "build", "check",
-    "closed", "distance", "ensemble", "extend", "fill", "holes", "improve", "judge", "keep_freed_memory", "layers", "mesh", "model", "polygon",
+    "closed", "distance", "ensemble", "extend", "fill", "holes", "improve", "judge", "keep_freed_memory", "layers", "map_surface", "mesh", "model", "polygon",
     "read", "regions", "rotated_box", "round", "save", "seal", "select", "structure", "suggest_seal",
     "tetrahedralize", "verify", "volume_of_interest", "volumes",
 ]

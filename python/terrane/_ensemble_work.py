@@ -205,7 +205,7 @@ def _blocks(model: Model, kept: List[int], thicknesses: Float64Array, contacts: 
             if number < len(model._core.exact_volumes) else parts.volume,
             "area": parts.area, "sides": sides, "middle": list(middle), "low": low, "high": high,
             "thickness": [float(inside.mean()), float(inside.min()), float(inside.max())] if inside.size else None,
-            "above": list(above), "height": [max(0.0, high - c) for c in contacts]})
+            "above": [volume for volume, _, _ in above], "height": [column for _, _, column in above]})
     return blocks
 
 

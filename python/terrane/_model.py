@@ -14,6 +14,7 @@ from ._arrangement import as_move
 from ._arrays import Path, as_count, as_flag, as_list, as_number, as_pair, as_text, as_word
 from ._errors import Doubt, bad_option, doubts_of
 from ._interop import meshio_mesh, package
+from ._maps import Map, nodes_of
 from ._parts import Parts
 from ._picture import apart, card, unlike_neighbours
 from ._quality import improve_options
@@ -218,6 +219,35 @@ class Model(Parts):
         for name, block in self.blocks.items():
             blocks[name] = block.mesh.to_pyvista()
         return blocks
+
+    def map_thickness(self, blocks: Any, *, step: Optional[float] = None, like: Any = None,
+                      threads: Optional[int] = None, progress: Any = None) -> Map:
+        """Map the thickness of blocks: the length of each vertical within them, 0 where it meets none.
+
+        Parameters
+        ----------
+        blocks : str, int, or list of these
+            Blocks by name or number, which count as one.
+        step, like : as in `map_surface`
+
+        Raises
+        ------
+        KeyError
+            For a name of no block.
+        terrane.Error
+            As `map_surface`.
+
+        Examples
+        --------
+        >>> m = ...
+        >>> m.map_thickness("above flat", step=2).values.max()
+        2.0
+        """
+        given = [blocks] if isinstance(blocks, (str, int)) else as_list(blocks, "blocks")
+        chosen = [self.blocks[block] for block in given]
+        nodes = nodes_of(parts_of_surfaces(self.mesh.split()), ", ".join(b.name for b in chosen), step, like)
+        return Map(nodes, _core.map_thickness(self._core.mesh, self._core.volumes, [b.number for b in chosen], nodes,
+                                              how(threads, progress)))
 
     def to_meshio(self) -> Any:
         """Return a ``meshio.Mesh`` of the surfaces, with the blocks on both sides. Needs meshio.

@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple
+from typing import Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Tuple
 
 from . import _core
-from ._arrays import Path, UInt32Array, as_count
+from ._arrays import Path, UInt32Array, as_count, as_number
 from ._blocks import BlockParts, InterfaceParts, Structure, Volumes
 from ._errors import Error
 from ._mesh import Mesh
@@ -105,6 +105,30 @@ class _Numbered:
         return self.number == other.number and (self._model is other._model or self._model == other._model)
 
 
+class PartAbove(NamedTuple):
+    """The part of a block above a contact, a level plane.
+
+    Attributes
+    ----------
+    volume : float
+        Cubic unit of the input.
+    area : float
+        Of the block's section by the contact, squared unit.
+    column : float
+        The height of the block's highest point above the contact; 0: the block is below it.
+
+    Examples
+    --------
+    >>> m = ...
+    >>> m.blocks["above flat"].above_contact(1)
+    PartAbove(volume=16.0, area=16.0, column=1.0)
+    """
+
+    volume: float
+    area: float
+    column: float
+
+
 class Block(_Numbered):
     """A block of a model.
 
@@ -163,6 +187,23 @@ class Block(_Numbered):
         """Names of the blocks next to it, with "outside"."""
         blocks = self._model.structure.blocks
         return tuple(blocks[b].name for b in self._said.neighbours)
+
+    def above_contact(self, contact: float) -> PartAbove:
+        """Measure the part above a level, in floating point.
+
+        Parameters
+        ----------
+        contact : float
+            z of the level.
+
+        Examples
+        --------
+        >>> m = ...
+        >>> m.blocks["above flat"].above_contact(-1).volume
+        32.0
+        """
+        measures = _core.measure_blocks(self._model._core, [as_number(contact, "contact")])
+        return PartAbove(*measures[self.number][3][0])
 
     @property
     def mesh(self) -> Mesh:

@@ -49,7 +49,7 @@ NONSENSE = {
     "type": int, "infinite": (math.inf, -math.inf), "set": {1}, "path": pathlib.Path("/dev/null/nothing"),
     "own": terrane.IndexLists([0, 1], [0])}
 #: Values that have a meaning, with which the fixtures happen to give the same.
-SAME = {"zero": {"max_rounds"}, "set": {"holes"}, "true": {"isotropic", "bridge_faults", "keep_unverified"}}
+SAME = {"zero": {"max_rounds"}, "set": {"holes", "blocks"}, "true": {"isotropic", "bridge_faults", "keep_unverified"}}
 #: Limits that such a large number does not reach.
 LIMITS = {"extend", "time", "memory", "tolerance", "min_volume", "distance", "max_move", "max_area", "max_deviation", "max_change", "time_limit", "max_triangles", "max_volume_change", "growth",
           "crease_angle", "curve_angle", "max_edge", "max_volume", "retries", "quality", "turn", "mesh_size", "rings",

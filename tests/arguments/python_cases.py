@@ -160,6 +160,8 @@ FUNCTIONS = {
     "layers": (lambda f: dict(surfaces=f.crossing, order=[("low", 1.0), ("high", 0.5)]), {"min_thickness": 0.1, "max_move": None}),
     "select": (lambda f: dict(surfaces=f.doubled, expression="body"), {
         "rule": "odd", "fractions": True, "max_move": None}),
+    "map_surface": (lambda f: dict(surfaces=f.surfaces, number="height", step=0.5), {
+        "number": "dip", "to": lambda f: (f.surfaces[1], {"number": "thickness"}), "step": 0.25, "like": None}),
     "model": (lambda f: dict(surfaces=f.surfaces, box=BOX), {
         "seal": None, "tolerance": None, "extend": None, "min_volume": 15.0,
         "column": [{"unit": "upper", "surface": "top"}, {"unit": "middle", "surface": "base"}, {"unit": "lower"}], "max_rounds": None,
@@ -214,11 +216,14 @@ METHODS = {
                                     "report": (lambda f: dict(path="f.html"), {})}),
     "Selected": (lambda f: terrane.select(f.doubled, "body"), {
         "save": (lambda f: dict(path="b.vtp"), {"format": "obj", "compress": False, "ascii": None})}),
+    "Map": (lambda f: terrane.map_surface(f.surfaces, "height", step=0.5), {
+        "save": (lambda f: dict(path="m.irap"), {"format": "vti"})}),
     "Layered": (lambda f: f.layered, {"save": (lambda f: dict(path="l.vtp"), {"format": "obj", "compress": False, "ascii": None})}),
     "Model": (lambda f: f.model, {
         "block_of": (lambda f: dict(points=[(1, 1, 0)]), {}), "names_of": (lambda f: dict(points=[(1, 1, 0)]), {}),
         "improved": (lambda f: {}, {"edge_length": 2, "passes": 1, "max_deviation": 1e-3}),
         "tetrahedra": (lambda f: {}, {"edge_length": 2, "improve": None, "quality": 1.8}),
+        "map_thickness": (lambda f: dict(blocks=[1], step=0.5), {"step": 0.25, "like": None}),
         "save": (lambda f: dict(folder="m"), {"format": "obj"}), "report": (lambda f: dict(path="m.html"), {})}),
     "Blocks": (lambda f: f.model.blocks, {"get": (lambda f: dict(key=1), {"default": None})}),
     "Tetrahedra": (lambda f: f.cells, {
@@ -233,6 +238,6 @@ METHODS = {
 }
 
 #: Classes that functions return, made of the module's own objects: their constructors are nobody's.
-RETURNED = {"Arrangement", "RoundedMesh", "Mesh", "Regions", "CheckReport", "Volumes", "Structure", "Filled", "Layered", "Selected", "Model",
+RETURNED = {"Arrangement", "RoundedMesh", "Mesh", "Regions", "CheckReport", "Volumes", "Structure", "Filled", "Layered", "Selected", "Map", "Model",
             "Block", "Blocks", "Interface", "Tetrahedra", "Built", "Improved", "Sealed", "VolumeOfInterest", "Ensemble",
             "OutOfMemory", "Doubt"}

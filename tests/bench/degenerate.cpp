@@ -26,7 +26,7 @@
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/core/process_memory.hpp>
+#include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 
 #include "degenerate_families.hpp"

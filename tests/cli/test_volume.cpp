@@ -204,3 +204,32 @@ TEST_CASE("cli: tables of relations and juxtapositions", "[cli]") {
     CHECK(contains(areas, "\"a,b 'quoted'\",1,"));
     CHECK(contains(areas, ",32\n"));
 }
+
+TEST_CASE("cli: volume: parts above contacts", "[cli]") {
+    const Folder folder;
+    const auto in =
+        folder.input("cube.obj", cube) + " " + folder.input("level.obj", level("level", "3"));
+    const auto made = folder.run("volume " + in +
+                                 " -o model --contact 2 --contact 7.5 --contact 8 --stats s.json");
+    CHECK(made.err == "");
+    REQUIRE(made.status == 0);
+    CHECK(contains(made.out, "above 2: volume 384 in 2 blocks\n"));
+    CHECK(contains(made.out, "above 7.5: volume 32 in 1 block\n"));
+    CHECK(contains(made.out, "above 8: volume 0 in 0 blocks\n"));
+    const auto contacts = Json::parse(folder.read("s.json"))["contacts"];
+    REQUIRE(contacts.size() == 3);
+    REQUIRE(contacts[0]["blocks"].size() == 2); // one from 0 to 3, one from 3 to 8
+    for (const auto& part : contacts[0]["blocks"]) {
+        const bool lower = part["column"] == 1.0;
+        CHECK(part["volume"] == (lower ? 64.0 : 320.0));
+        CHECK(part["area"] == (lower ? 64.0 : 0.0));
+        CHECK(part["column"] == (lower ? 1.0 : 6.0));
+    }
+    REQUIRE(contacts[1]["blocks"].size() == 1);
+    CHECK(contacts[1]["blocks"][0]["area"] == 64.0);
+    CHECK(contacts[1]["blocks"][0]["column"] == 0.5);
+    CHECK(contacts[2]["blocks"].empty());
+    const auto refused = folder.run("volume " + in + " --suggest-seal --contact 2");
+    CHECK(refused.status == 2);
+    CHECK(contains(refused.err, "--contact: needs a model, and --suggest-seal makes none"));
+}

@@ -193,7 +193,7 @@ def write_json_files(program, folder):
     run("build", "project.json")
     run("improve", *model, *box, "-o", "i.vtp", "--stats", "improve.json")
     (folder / "column.json").write_text('{"column": [{"unit": "A", "surface": "top", "age": 1}]}')
-    run("volume", *model, *box, "-o", "open", "--column", "column.json", "--stats", "open.json")
+    run("volume", *model, *box, "-o", "open", "--column", "column.json", "--contact", "-1000", "--stats", "open.json")
     run("volume", *model, *box, "-o", "sealed", "--seal", "200", "--seal", "top/fault=10",
         "--stats", "sealed_statistics.json")
     run("volume", "units.obj", "-o", "joined", "--tolerance", "0.2", "--stats", "joined_statistics.json")
@@ -204,6 +204,7 @@ def write_json_files(program, folder):
     run("fill", "fold.ts", "-o", "f.vtp", "--stats", "fill.json")
     run("fill", "fold.ts", "-o", "r.vtp", "--method", "rbf", "--stats", "rbf.json")
     run("select", "west - body", "units.obj", "body.ts", "-o", "rest.vtp", "--fractions", "--stats", "select.json")
+    run("map", "depth", "top.ts", "--step", "100", "-o", "depth.asc", "--stats", "map.json")
     run("info", "top.ts", "fault.ts", "--json", out="info.json")
     run("check", "twice.obj", "--json", out="check.json")
     run("arrange", *model, "-o", "a.vtp", "--certificate", "certificate.json", "--stats", "arrange.json")
@@ -229,7 +230,7 @@ def write_json_files(program, folder):
     with (folder / "top.ts").open("a") as changed:
         changed.write("\n")
     run("verify", "certificate.json", "--json", out="refuted.json")
-    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "joined_statistics.json", "fill.json", "rbf.json", "select.json",
+    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "joined_statistics.json", "fill.json", "rbf.json", "select.json", "map.json",
                   "in_tiles.json", "resolution.json", "open.json", "arrange.json", "stl.json"]
     if has_tetgen(program):
         run("tetrahedralize", *model, *box, "-o", "t.vtu", "--stats", "tetrahedra.json")
@@ -382,6 +383,22 @@ def check_names(findings):
     return len(codes) + len(rules) + len(listed)
 
 
+def check_headers(findings):
+    """The stages, headers and functions that library.md lists."""
+    table = rows_of(sections_of((ROOT / "docs" / "how-to" / "library.md").read_text())["stages-and-their-headers"])
+    for stage, headers, functions in table:
+        texts = []
+        for name in CODE.findall(headers):
+            header = ROOT / (name.removeprefix("terrane/") if name.startswith("terrane/") else f"algorithms/{name}")
+            if header.is_file():
+                texts.append(header.read_text())
+            else:
+                findings.append(f"library.md: {stage}: there is no header {name}")
+        findings += [f"library.md: {stage}: no header of it declares {function}" for function in CODE.findall(functions)
+                     if not any(re.search(rf"\b{function}\(", text) for text in texts)]
+    return len(table)
+
+
 def has_tetgen(program):
     """Whether the program finds TetGen's helper: it looks for that before it reads anything."""
     said = subprocess.run([program, "tetrahedralize", "no.ts", "-o", "no.vtu"], capture_output=True,
@@ -395,7 +412,7 @@ def main():
     options = check_options(program, findings)
     keys = check_json(program, findings)
     project = check_project(findings)
-    names = check_names(findings)
+    names = check_names(findings) + check_headers(findings)
     for finding in findings:
         print(finding)
     print(f"{options} options, {keys} keys of JSON, {project} keys of projects, {names} names,"

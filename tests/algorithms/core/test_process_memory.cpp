@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/core/process_memory.hpp>
+#include <terrane/algorithms/core/run.hpp>
 
 #include <array>
 #include <csignal>

@@ -84,7 +84,15 @@ TEST_CASE("measures: volumes above a contact are those of the cut solid", "[unce
         const double pyramid = 16 * share * share * share;
         const double box = 64 * std::clamp(8 - contacts[c], 0.0, 8.0);
         CAPTURE(contacts[c]);
-        CHECK(measures[inner].above[c] == Approx(pyramid).margin(1e-12));
-        CHECK(measures[outer].above[c] == Approx(box - pyramid).margin(1e-12));
+        CHECK(measures[inner].above[c].volume == Approx(pyramid).margin(1e-12));
+        CHECK(measures[outer].above[c].volume == Approx(box - pyramid).margin(1e-12));
+        // So is its section; level faces at the contact, as that of z = 1, bound what is above it.
+        const double base = contacts[c] < 1 ? 0 : 16 * share * share;
+        const double side = contacts[c] < 0 || contacts[c] >= 8 ? 0 : 64;
+        CHECK(measures[inner].above[c].area == Approx(base).margin(1e-12));
+        CHECK(measures[outer].above[c].area == Approx(side - base).margin(1e-12));
+        if (contacts[c] < 1) CHECK(measures[inner].above[c].area == 0);
+        CHECK(measures[inner].above[c].column == std::max(0.0, 4 - contacts[c]));
+        CHECK(measures[outer].above[c].column == std::max(0.0, 8 - contacts[c]));
     }
 }

@@ -9,6 +9,7 @@
 
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/reconstruction/fill.hpp>
+#include <terrane/io/certify.hpp>
 
 namespace {
 
