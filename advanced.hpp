@@ -24,6 +24,7 @@
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
 #include <terrane/algorithms/search/method.hpp>
+#include <terrane/algorithms/sections/sections.hpp>
 #include <terrane/algorithms/selection/selection.hpp>
 #include <terrane/algorithms/simplification/simplify.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>

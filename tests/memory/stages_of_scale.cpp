@@ -9,6 +9,7 @@
 
 #include <terrane/algorithms/maps/maps.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
+#include <terrane/algorithms/sections/sections.hpp>
 #include <terrane/algorithms/tiles/local_supersteps.hpp>
 #include <terrane/algorithms/tiles/names_in_tiles.hpp>
 #include <terrane/algorithms/tiles/tiled_arrangement.hpp>
@@ -210,11 +211,42 @@ std::vector<Stage> drawing() {
     return stages;
 }
 
+std::string text_of(const SectionSurface& made) {
+    return made.surface.name + " " + std::to_string(made.sheets.size());
+}
+
+std::vector<Stage> cutting() {
+    static const Fixture& f = Fixture::get();
+    const auto text = [](const SectionSurface& made) { return text_of(made); };
+    static const std::vector<std::array<double, 2>> line{{0, 0}, {4, 2}, {8, 0}};
+    static const std::vector<double> heights{2, 4};
+    static const SectionSurface fence = needed(section_fence(*f.mesh, line));
+    std::vector<Stage> stages;
+    stages.push_back(stage(
+        "section_plane",
+        [] {
+            return section_plane(*f.mesh, {1, 1, 1}, {1, 0, 1});
+        },
+        text));
+    stages.push_back(stage(
+        "section_levels", [] { return section_levels(*f.mesh, heights); }, text));
+    stages.push_back(stage(
+        "section_fence", [] { return section_fence(*f.mesh, line); }, text));
+    stages.push_back(stage(
+        "section_along", [] { return section_along(f.surfaces[0]); }, text));
+    stages.push_back(stage(
+        "cut_section", [] { return cut_section(*f.mesh, f.volumes, fence); },
+        [](const Section& made) {
+            return std::to_string(made.polygons.size()) + " " + std::to_string(made.lines.size());
+        }));
+    return stages;
+}
+
 } // namespace
 
 std::vector<Stage> stages_of_scale() {
     std::vector<Stage> stages;
-    for (const auto& part : {simplifying(), dividing(), drawing()})
+    for (const auto& part : {simplifying(), dividing(), drawing(), cutting()})
         stages.insert(stages.end(), part.begin(), part.end());
     return stages;
 }
