@@ -49,7 +49,6 @@ private:
         const auto blocks_of = [&](const CutRegion& region) {
             return cut_.triangles[region.triangles[0]].blocks;
         };
-        std::erase_if(regions, [&](const CutRegion& r) { return blocks_of(r)[0] == 0; });
         std::stable_sort(
             regions.begin(), regions.end(),
             [&](const CutRegion& r, const CutRegion& s) { return blocks_of(r) < blocks_of(s); });

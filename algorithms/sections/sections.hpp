@@ -6,7 +6,7 @@
 // The section surface is one more surface in an exact arrangement of the model's triangles. So
 // (1) the block of each part of the section, and where it ends, are decided without an epsilon, also where the
 //     section passes through vertices and edges or lies upon triangles;
-// (2) polygons cover the section within all blocks, and do not overlap;
+// (2) polygons cover the section within blocks and upon their boundaries, and do not overlap;
 // (3) polygons and lines share vertices: the doubles nearest to the exact points. They have the topology of the
 //     exact ones; a part that is thinner than doubles can tell may fold over.
 // Cost: that of arrange() and find_volumes() of the model's triangles and the section.
@@ -67,8 +67,8 @@ Result<SectionSurface> section_along(const Surface& surface, const Run& run = {}
 
 /// A part of a block in the section, connected through more than points.
 struct SectionPolygon {
-    BlockId block{};  ///< in front of the section; not 0
-    BlockId behind{}; ///< behind it: another one only where the section lies upon surfaces
+    BlockId block{};  ///< in front of the section
+    BlockId behind{}; ///< behind it: another one only where the section lies upon surfaces. Not both are 0
     /// Its borders, by their vertices: the outer one first, counterclockwise as seen from the front, then holes,
     /// clockwise. A ring meets no vertex twice.
     std::vector<std::vector<std::uint32_t>> rings;
@@ -86,7 +86,7 @@ struct SectionLine {
 struct Section {
     std::vector<Point3> vertices;            ///< of polygons, lines and triangles
     std::vector<std::array<double, 2>> flat; ///< per vertex: {along, up}
-    std::vector<SectionPolygon> polygons;    ///< by block, without the outside
+    std::vector<SectionPolygon> polygons;    ///< by block
     std::vector<SectionLine> lines;          ///< by surface
     std::vector<Triangle> triangles;         ///< that the polygons consist of
     std::vector<std::uint32_t> polygon_of;   ///< per triangle

@@ -164,7 +164,7 @@ int compare_points(const SectionModel& model, const Section& section, const Plan
             CHECK(p.block == *expected[0]);
             CHECK(p.behind == *expected[1]);
         }
-        CHECK(found == (*expected[0] == 0 ? 0 : 1));
+        CHECK(found == (*expected[0] == 0 && *expected[1] == 0 ? 0 : 1));
         if (++compared == 12) break;
     }
     return compared;

@@ -95,8 +95,12 @@ TEST_CASE("sections: planes upon surfaces, through edges and through corners") {
         CHECK(area_of(below) == 16);
     }
     SECTION("on the top of the model") {
-        CHECK(section_at(model, {0, 0, 4}, {0, 0, 1}).polygons.empty());
-        CHECK(area_of(section_at(model, {0, 0, 4}, {0, 0, -1})) == 16);
+        const Section above = section_at(model, {0, 0, 4}, {0, 0, 1});
+        const Section below = section_at(model, {0, 0, 4}, {0, 0, -1});
+        CHECK(area_of(above) == 16);
+        CHECK(area_of(below) == 16);
+        for (const SectionPolygon& p : above.polygons) CHECK((p.block == 0 && p.behind != 0));
+        for (const SectionPolygon& p : below.polygons) CHECK((p.block != 0 && p.behind == 0));
     }
     SECTION("on the fault, partly") {
         const Section section = section_at(model, {1, 0, 0}, {-1, 0, 0});
