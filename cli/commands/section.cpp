@@ -129,6 +129,7 @@ SectionNames names_of(const SectionCommand& command, const SectionSurface& along
     names.title = fmt::format("{}: {} {}", name_of_inputs(command.model.files), option, value);
     names.length_unit = run.inputs().unit;
     names.exaggeration = command.exaggeration;
+    names.shows_heights = command.contours != 0;
     const SectionSheet& sheet = along.sheets[0];
     names.shows_behind = !command.by.empty() && sheet.right.z == 0 && sheet.up.z == 0;
     return names;
@@ -142,6 +143,8 @@ double area_of(const Section& section) {
 
 std::string text_of(const Section& section, const SectionNames& names,
                     const Quantities& quantities) {
+    if (names.shows_heights && section.polygons.empty())
+        return fmt::format("contours: {}\n", counted(section.lines.size(), "line"));
     std::set<std::uint32_t> blocks, surfaces;
     for (const SectionPolygon& p : section.polygons) blocks.insert(names.shown(p));
     for (const SectionLine& line : section.lines) surfaces.insert(line.surface);
@@ -163,19 +166,26 @@ struct SectionOutput {
 
 std::vector<SectionOutput> plan_section_outputs(const FileOptions& files) {
     std::vector<SectionOutput> outputs;
-    FileOptions one = files;
+    FileOptions meshes = files;
+    meshes.outputs.clear();
     for (const std::string& path : files.outputs) {
-        const std::string named = !files.output_format.empty() ? "." + files.output_format
-                                  : path == "-"                ? "." + files.format
-                                                : std::filesystem::path(path).extension().string();
-        outputs.push_back({path, section_format(named)});
-        one.outputs = {path};
+        const auto extension = files.output_format.empty()
+                                   ? std::filesystem::path(path).extension().string()
+                                   : "." + files.output_format;
+        outputs.push_back({path, section_format(extension)});
         if (outputs.back().format)
             check_folder(path);
         else
-            outputs.back().mesh = plan_outputs(one, OutputKind::surfaces);
+            meshes.outputs.push_back(path);
     }
-    if (!files.stats.empty()) check_folder(files.stats);
+    if (std::ranges::count(files.outputs, "-") > 1 ||
+        (std::ranges::count(files.outputs, "-") == 1 &&
+         (files.stats == "-" || files.report == "-")))
+        refuse("standard output can take only one file");
+    const auto planned = plan_outputs(meshes, OutputKind::surfaces);
+    auto next = planned.begin();
+    for (SectionOutput& output : outputs)
+        if (!output.format) output.mesh = {*next++};
     return outputs;
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -160,34 +161,47 @@ private:
         return out;
     }
 
-    /// Names each surface at the middle of its longest line, but for boundaries.
+    /// The length of a line in the drawing, and the place in its middle.
+    [[nodiscard]] std::pair<double, std::array<double, 2>>
+    middle_of(std::span<const std::uint32_t> v) const {
+        const auto at = [&](std::size_t i) {
+            return std::array{x(section_.flat[v[i]][0]), y(section_.flat[v[i]][1])};
+        };
+        std::vector<double> way{0};
+        for (std::size_t i = 1; i < v.size(); ++i)
+            way.push_back(way.back() +
+                          std::hypot(at(i)[0] - at(i - 1)[0], at(i)[1] - at(i - 1)[1]));
+        const double half = way.back() / 2;
+        const auto after = std::lower_bound(way.begin() + 1, way.end(), half);
+        const auto i = static_cast<std::size_t>(after - way.begin());
+        const double share = way[i] > way[i - 1] ? (half - way[i - 1]) / (way[i] - way[i - 1]) : 0;
+        return {way.back(),
+                {at(i - 1)[0] + share * (at(i)[0] - at(i - 1)[0]),
+                 at(i - 1)[1] + share * (at(i)[1] - at(i - 1)[1])}};
+    }
+
+    /// Names each surface at the middle of its longest line, but for boundaries; or each line by its height.
     [[nodiscard]] std::string labels() const {
+        constexpr double least_named = 60; // pixels
         std::map<std::uint32_t, std::pair<double, std::array<double, 2>>> places;
-        for (const SectionLine& line : section_.lines) {
-            if (names_.surfaces[line.surface].role == Role::boundary) continue;
-            const auto& v = line.vertices;
-            const auto at = [&](std::size_t i) {
-                return std::array{x(section_.flat[v[i]][0]), y(section_.flat[v[i]][1])};
-            };
-            std::vector<double> way{0};
-            for (std::size_t i = 1; i < v.size(); ++i)
-                way.push_back(way.back() +
-                              std::hypot(at(i)[0] - at(i - 1)[0], at(i)[1] - at(i - 1)[1]));
-            auto& best = places[line.surface];
-            if (way.back() <= best.first) continue;
-            const std::size_t i = static_cast<std::size_t>(
-                std::lower_bound(way.begin() + 1, way.end(), way.back() / 2) - way.begin());
-            const double share = (way.back() / 2 - way[i - 1]) / (way[i] - way[i - 1]);
-            best = {way.back(),
-                    {at(i - 1)[0] + share * (at(i)[0] - at(i - 1)[0]),
-                     at(i - 1)[1] + share * (at(i)[1] - at(i - 1)[1])}};
-        }
         std::string out;
-        for (const auto& [surface, place] : places)
-            out += text_at(place.second[0], place.second[1] - 4,
+        const auto label = [&](const std::array<double, 2>& place, const std::string& text) {
+            out += text_at(place[0], place[1] - 4,
                            " text-anchor=\"middle\" stroke=\"white\" stroke-width=\"3\" "
                            "paint-order=\"stroke\" stroke-linejoin=\"round\"",
-                           names_.surfaces[surface].name);
+                           text);
+        };
+        for (const SectionLine& line : section_.lines) {
+            if (names_.surfaces[line.surface].role == Role::boundary) continue;
+            const auto middle = middle_of(line.vertices);
+            if (names_.shows_heights && middle.first >= least_named)
+                label(middle.second, figure(section_.vertices[line.vertices[0]].z));
+            auto& best = places[line.surface];
+            if (middle.first > best.first) best = middle;
+        }
+        if (!names_.shows_heights)
+            for (const auto& [surface, place] : places)
+                label(place.second, names_.surfaces[surface].name);
         return out;
     }
 
