@@ -58,7 +58,7 @@ std::vector<double> numbers_of(const std::string& text, const char* option, cons
 
 /// Returns the levels at multiples of a step between the heights of a mesh. Errors: bad_option.
 std::vector<double> levels_of(const Mesh& mesh, double step) {
-    constexpr double most = 10000;
+    constexpr int most = 10000;
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (const Point3& p : mesh.vertices) {
         low = std::min(low, p.z);
@@ -67,7 +67,9 @@ std::vector<double> levels_of(const Mesh& mesh, double step) {
     if (!((high - low) / step <= most))
         refuse("makes more than 10000 contours of each surface; take a larger step", "--contours");
     std::vector<double> levels;
-    for (double k = std::ceil(low / step); k * step <= high; ++k) levels.push_back(k * step);
+    const double first = std::ceil(low / step);
+    for (int k = 0; k <= most && (first + k) * step <= high; ++k)
+        levels.push_back((first + k) * step);
     if (levels.empty()) refuse("has no multiple between the heights of the surfaces", "--contours");
     return levels;
 }

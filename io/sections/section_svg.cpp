@@ -212,7 +212,8 @@ private:
                                       left, top, width(), height());
         const auto each = [](double low, double high, double pixels, const auto& tick) {
             const double step = step_for(high - low, std::max(2.0, pixels / 90));
-            for (double k = std::ceil(low / step); k * step <= high; ++k) tick(k * step);
+            const double first = std::ceil(low / step) * step;
+            for (int k = 0; k < 100 && first + k * step <= high; ++k) tick(first + k * step);
         };
         each(low_[0], high_[0], width(), [&](double at) {
             out += fmt::format("<path d=\"M{:.1f} {:.1f}v5\" stroke=\"black\"/>\n", x(at), bottom);

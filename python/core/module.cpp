@@ -37,6 +37,7 @@ PYBIND11_MODULE(_core, module) {
     bind_fill(module);
     bind_layers(module);
     bind_selection(module);
+    bind_sections(module);
     bind_tetrahedra(module);
     bind_verify(module);
     bind_judge(module);

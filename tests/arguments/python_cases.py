@@ -160,6 +160,9 @@ FUNCTIONS = {
     "layers": (lambda f: dict(surfaces=f.crossing, order=[("low", 1.0), ("high", 0.5)]), {"min_thickness": 0.1, "max_move": None}),
     "select": (lambda f: dict(surfaces=f.doubled, expression="body"), {
         "rule": "odd", "fractions": True, "max_move": None}),
+    "section": (lambda f: dict(model=f.model, level=0), {
+        "plane": ([(1, 1, 0), (0, 1, 0)], {"level": None}), "fence": ([(0, 1), (2, 1)], {"level": None}),
+        "level": 0.25, "by": ("base", {"level": None})}),
     "model": (lambda f: dict(surfaces=f.surfaces, box=BOX), {
         "seal": None, "tolerance": None, "extend": None, "min_volume": 15.0,
         "column": [{"unit": "upper", "surface": "top"}, {"unit": "middle", "surface": "base"}, {"unit": "lower"}], "max_rounds": None,
@@ -214,6 +217,8 @@ METHODS = {
                                     "report": (lambda f: dict(path="f.html"), {})}),
     "Selected": (lambda f: terrane.select(f.doubled, "body"), {
         "save": (lambda f: dict(path="b.vtp"), {"format": "obj", "compress": False, "ascii": None})}),
+    "Section": (lambda f: terrane.section(f.model, level=0), {
+        "save": (lambda f: dict(path="s.svg"), {"title": "a title", "exaggeration": 2.0})}),
     "Layered": (lambda f: f.layered, {"save": (lambda f: dict(path="l.vtp"), {"format": "obj", "compress": False, "ascii": None})}),
     "Model": (lambda f: f.model, {
         "block_of": (lambda f: dict(points=[(1, 1, 0)]), {}), "names_of": (lambda f: dict(points=[(1, 1, 0)]), {}),
@@ -233,6 +238,6 @@ METHODS = {
 }
 
 #: Classes that functions return, made of the module's own objects: their constructors are nobody's.
-RETURNED = {"Arrangement", "RoundedMesh", "Mesh", "Regions", "CheckReport", "Volumes", "Structure", "Filled", "Layered", "Selected", "Model",
+RETURNED = {"Arrangement", "RoundedMesh", "Mesh", "Regions", "CheckReport", "Volumes", "Structure", "Filled", "Layered", "Selected", "Section", "Model",
             "Block", "Blocks", "Interface", "Tetrahedra", "Built", "Improved", "Sealed", "VolumeOfInterest", "Ensemble",
             "OutOfMemory", "Doubt"}
