@@ -67,8 +67,9 @@ Result<SectionSurface> section_along(const Surface& surface, const Run& run = {}
 
 /// A part of a block in the section, connected through more than points.
 struct SectionPolygon {
-    BlockId block{};  ///< in front of the section
-    BlockId behind{}; ///< behind it: another one only where the section lies upon surfaces. Not both are 0
+    BlockId block{}; ///< in front of the section
+    BlockId
+        behind{}; ///< behind it: another one only where the section lies upon surfaces. Not both are 0
     /// Its borders, by their vertices: the outer one first, counterclockwise as seen from the front, then holes,
     /// clockwise. A ring meets no vertex twice.
     std::vector<std::vector<std::uint32_t>> rings;

@@ -16,7 +16,6 @@
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/roles.hpp>
 #include <terrane/cli/stages/model_run.hpp>
-#include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/sections/section_text.hpp>
 
 namespace terrane::cli {
@@ -33,7 +32,7 @@ constexpr auto section_footer =
     R"(The surfaces are arranged, cut by a volume of interest and rounded as `terrane volume` does, and its options and
 names of blocks are the same. The model is then cut exactly: polygons of blocks, lines of surfaces.
 
-OUT is a drawing (.svg), a map or table (.geojson, .dxf, .csv), or the triangles of the section by block in any
+OUT is a drawing (.svg), a map or table (.geojson, .shp, .dxf, .csv), or the triangles of the section by block in any
 format of surfaces (.vtp, .obj, .ts, ...). Coordinates of a drawing are the distance along the section and the height;
 those of levels, and of a surface that folds over nowhere in the map, are x and y.
 
@@ -191,19 +190,19 @@ std::vector<SectionOutput> plan_section_outputs(const FileOptions& files) {
     return outputs;
 }
 
-void write_section(const Section& section, const SectionNames& names, const SectionOutput& output,
-                   const ModelRun& run, Session& session) {
-    session.begin("write", Phase::writing);
-    if (output.format)
-        must(write_file(output.path, format_section(section, names, *output.format)));
-    session.end_stage();
+void write_output(const Section& section, const SectionNames& names, const SectionOutput& output,
+                  const ModelRun& run, Session& session) {
     if (!output.format) {
         if (section.triangles.empty())
             refuse("the section has no polygon, and this format has no lines", output.path);
         write_output(section_mesh(section, names), output.mesh[0], {.ascii = run.files().ascii},
                      session);
+        return say_written(run.told(), output.path);
     }
-    say_written(run.told(), output.path);
+    session.begin("write", Phase::writing);
+    const auto paths = must(write_section(section, names, *output.format, output.path));
+    session.end_stage();
+    for (const auto& path : paths) say_written(run.told(), path.string());
 }
 
 ExitStatus draw_section(const SectionCommand& command, Session& session) {
@@ -231,7 +230,7 @@ ExitStatus draw_section(const SectionCommand& command, Session& session) {
     if (is_empty) print(stderr, complaint("nothing written: the section does not meet the model"));
     if (!is_empty)
         for (const SectionOutput& output : outputs)
-            write_section(*section, names, output, run, session);
+            write_output(*section, names, output, run, session);
     return run.end(!is_empty);
 }
 

@@ -7,7 +7,11 @@
 
 #include <fmt/format.h>
 
+#include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/io/atomic/atomic_file.hpp>
+#include <terrane/io/atomic/file_set.hpp>
+#include <terrane/io/sections/section_shapes.hpp>
 #include <terrane/io/text/json.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
@@ -18,19 +22,12 @@ using namespace detail;
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, SectionFormat>, 4> formats{
+constexpr std::array<std::pair<std::string_view, SectionFormat>, 5> formats{
     {{".svg", SectionFormat::svg},
      {".geojson", SectionFormat::geojson},
      {".dxf", SectionFormat::dxf},
-     {".csv", SectionFormat::csv}}};
-
-/// Whether coordinates of the section are those of the map.
-bool is_map(const Section& section) {
-    for (std::size_t v = 0; v < section.vertices.size(); ++v)
-        if (section.flat[v] != std::array{section.vertices[v].x, section.vertices[v].y})
-            return false;
-    return true;
-}
+     {".csv", SectionFormat::csv},
+     {".shp", SectionFormat::shp}}};
 
 Json position(const Section& section, std::uint32_t v, bool map) {
     const auto& [along, up] = section.flat[v];
@@ -95,18 +92,56 @@ std::optional<SectionFormat> section_format(std::string_view extension) {
     return std::nullopt;
 }
 
-std::string format_section(const Section& section, const SectionNames& names,
-                           SectionFormat format) {
+bool is_map(const Section& section) {
+    for (std::size_t v = 0; v < section.vertices.size(); ++v)
+        if (section.flat[v] != std::array{section.vertices[v].x, section.vertices[v].y})
+            return false;
+    return true;
+}
+
+Result<std::vector<SectionFile>> section_files(const Section& section, const SectionNames& names,
+                                               SectionFormat format) {
+    using Files = std::vector<SectionFile>;
     switch (format) {
     case SectionFormat::geojson:
-        return section_geojson(section, names);
+        return Files{{".geojson", section_geojson(section, names)}};
     case SectionFormat::dxf:
-        return section_dxf(section, names);
+        return Files{{".dxf", section_dxf(section, names)}};
     case SectionFormat::csv:
-        return section_csv(section, names);
+        return Files{{".csv", section_csv(section, names)}};
+    case SectionFormat::shp:
+        return section_shapes(section, names);
     default:
-        return section_svg(section, names);
+        return Files{{".svg", section_svg(section, names)}};
     }
+}
+
+Result<std::vector<std::filesystem::path>> write_section(const Section& section,
+                                                         const SectionNames& names,
+                                                         SectionFormat format,
+                                                         const std::filesystem::path& path) {
+    using Paths = std::vector<std::filesystem::path>;
+    return guard_memory("", [&]() -> Result<Paths> {
+        const auto files = section_files(section, names, format);
+        if (!files) return files.error();
+        if (files->size() > 1 && path == "-")
+            return Error{ErrorCode::bad_option,
+                         "in this format a section is several files: name the first",
+                         "standard output"};
+        std::optional<FileSet> together;
+        if (files->size() > 1 && !FileSet::current()) together.emplace();
+        Paths paths;
+        for (const SectionFile& file : *files) {
+            paths.push_back(files->size() == 1
+                                ? path
+                                : path.parent_path() / (path.stem().string() + file.ending));
+            if (auto written = write_file(paths.back(), file.contents); !written)
+                return written.error();
+        }
+        if (together)
+            if (auto published = together->publish(); !published) return published.error();
+        return paths;
+    });
 }
 
 std::string section_geojson(const Section& section, const SectionNames& names) {

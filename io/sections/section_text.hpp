@@ -3,11 +3,14 @@
 // Sections as files for drawings, maps and tables.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/sections/sections.hpp>
 
@@ -35,13 +38,30 @@ struct SectionNames {
 };
 
 /// The formats of sections that are no formats of meshes.
-enum class SectionFormat : std::uint8_t { svg, geojson, dxf, csv };
+enum class SectionFormat : std::uint8_t { svg, geojson, dxf, csv, shp };
 
 /// Returns the format of an extension, ".svg"; nothing for others.
 std::optional<SectionFormat> section_format(std::string_view extension);
 
-/// Writes a section in a format.
-std::string format_section(const Section& section, const SectionNames& names, SectionFormat format);
+/// A file of a section.
+struct SectionFile {
+    std::string ending;   ///< of its name, after the stem: ".svg", "_lines.dbf"
+    std::string contents; ///< all bytes
+};
+
+/// Returns the files of a section in a format; the first is called like the format. Errors: those of section_shapes().
+Result<std::vector<SectionFile>> section_files(const Section& section, const SectionNames& names,
+                                               SectionFormat format);
+
+/// Writes them next to each other, all or none; a single one has this path, "-" is standard output. Returns their paths.
+/// Errors: bad_option for several files on standard output; those of section_files() and write_file().
+Result<std::vector<std::filesystem::path>> write_section(const Section& section,
+                                                         const SectionNames& names,
+                                                         SectionFormat format,
+                                                         const std::filesystem::path& path);
+
+/// Whether coordinates of the section are those of the map.
+bool is_map(const Section& section);
 
 /// Draws a section in SVG 1.1: polygons coloured by unit, or by block where there is no unit, and hatched from the
 /// thirteenth one on; lines, thick for faults; names, scale and legend. Vertical and horizontal scale are the same, but

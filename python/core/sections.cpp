@@ -11,7 +11,6 @@
 
 #include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
-#include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/sections/section_text.hpp>
 
 #include "handles.hpp"
@@ -167,7 +166,7 @@ bool save_section(const py::dict& given, const py::object& file, const py::str& 
     names.exaggeration = exaggeration;
     const Section section = to_section(given);
     require_indices(section, names);
-    must(write_file(path, format_section(section, names, *format)));
+    must(write_section(section, names, *format, path));
     return true;
 }
 

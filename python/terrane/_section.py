@@ -116,7 +116,7 @@ class Section(Result):
         return Mesh(_core.section_mesh(self._values))
 
     def save(self, path: Path, *, title: str = "", exaggeration: float = 1) -> None:
-        """Write a drawing (.svg), a map or table (.geojson, .dxf, .csv), or the triangles in any format of `Mesh.save`.
+        """Write a drawing (.svg), a map or table (.geojson, .shp, .dxf, .csv), or the triangles in any format of `Mesh.save`.
 
         Parameters
         ----------

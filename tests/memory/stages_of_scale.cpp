@@ -16,6 +16,7 @@
 #include <terrane/algorithms/tiles/volumes_in_tiles.hpp>
 #include <terrane/algorithms/uncertainty/measures.hpp>
 #include <terrane/algorithms/uncertainty/realisations.hpp>
+#include <terrane/io/sections/section_text.hpp>
 
 #include "fixture.hpp"
 #include "scratch.hpp"
@@ -239,6 +240,24 @@ std::vector<Stage> cutting() {
         [](const Section& made) {
             return std::to_string(made.polygons.size()) + " " + std::to_string(made.lines.size());
         }));
+    static const Section section = needed(cut_section(*f.mesh, f.volumes, fence));
+    static const SectionNames names = [] {
+        SectionNames made{{}, {}, f.mesh->surfaces, "a fence with a long title"};
+        for (const ModelBlock& block : f.model.structure.blocks) {
+            made.blocks.push_back(block.name);
+            made.units.push_back(block.unit);
+        }
+        return made;
+    }();
+    for (const std::string extension : {".svg", ".geojson", ".dxf", ".csv", ".shp"}) {
+        const auto format = *section_format(extension);
+        if (!section_files(section, names, format)) continue; // without shapelib
+        stages.push_back(writing_stage("write_section, " + extension.substr(1),
+                                       "section" + extension, true,
+                                       [format](const std::filesystem::path& path) {
+                                           return write_section(section, names, format, path);
+                                       }));
+    }
     return stages;
 }
 
