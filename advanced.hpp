@@ -23,6 +23,7 @@
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
 #include <terrane/algorithms/search/method.hpp>
+#include <terrane/algorithms/sections/sections.hpp>
 #include <terrane/algorithms/selection/selection.hpp>
 #include <terrane/algorithms/simplification/simplify.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>
@@ -30,7 +31,6 @@
 #include <terrane/algorithms/tetrahedra/split_nodes.hpp>
 #include <terrane/algorithms/tolerance/tolerance.hpp>
 #include <terrane/algorithms/verify/certificate.hpp>
-#include <terrane/algorithms/verify/verdict.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/io/grids/grid.hpp>

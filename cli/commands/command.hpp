@@ -30,6 +30,7 @@ Command layer_command(CLI::App& program);
 Command manual_command(CLI::App& program);
 Command minimise_command(CLI::App& program);
 Command report_command(CLI::App& program);
+Command section_command(CLI::App& program);
 Command select_command(CLI::App& program);
 Command map_command(CLI::App& program);
 Command tetrahedralize_command(CLI::App& program);

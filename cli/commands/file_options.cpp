@@ -67,7 +67,10 @@ bool names_file(const CLI::Option& option) {
 }
 
 bool names_file(const CLI::Option& option, const std::string& value) {
-    return names_file(option) || (option.get_type_name() == "POLYGON" && is_polygon_file(value));
+    const std::string type = option.get_type_name();
+    return names_file(option) ||
+           ((type == "POLYGON" || type == "LINE") && is_polygon_file(value)) ||
+           (type == "SURFACE" && option.get_lnames()[0] == "by" && fs::exists(value));
 }
 
 /// Tells whether a path names the file that is open as this standard stream. The null device does not

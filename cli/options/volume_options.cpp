@@ -24,25 +24,6 @@ namespace {
 constexpr std::size_t most_surfaces_cut = 40; ///< printed
 constexpr std::size_t most_borders = 20;
 
-std::vector<Point2> read_polygon(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
-        refuse(ErrorCode::cannot_open, "is neither numbers x,y,x,y,... nor a file: " + path,
-               "--polygon");
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    return must(read_outline(text, path));
-}
-
-std::vector<Point2> polygon_of(const std::string& text) {
-    const auto numbers = numbers_in(text);
-    if (!numbers) return read_polygon(text);
-    if (numbers->size() % 2 != 0) refuse("needs pairs of numbers: x,y,x,y,...", "--polygon");
-    std::vector<Point2> corners;
-    for (std::size_t i = 0; i < numbers->size(); i += 2)
-        corners.push_back({(*numbers)[i], (*numbers)[i + 1]});
-    return corners;
-}
-
 ProjectVolume box_of(const std::string& text) {
     const auto n = numbers_in(text);
     if (!n || n->size() != 6) refuse("needs six numbers: x0,y0,z0,x1,y1,z1", "--box");
@@ -69,7 +50,7 @@ ProjectVolume rotated_box_of(const VolumeOptions& options) {
 ProjectVolume prism_of(const VolumeOptions& options) {
     const auto depths = numbers_in(options.between);
     if (!depths || depths->size() != 2) refuse("needs two numbers: z0,z1", "--between");
-    return ProjectPolygon{polygon_of(options.polygon), {(*depths)[0], (*depths)[1]}};
+    return ProjectPolygon{corners_of(options.polygon, "--polygon"), {(*depths)[0], (*depths)[1]}};
 }
 
 } // namespace
@@ -102,6 +83,22 @@ void add_volume_options(CLI::App& command, VolumeOptions& options) {
               "Extend surfaces that end inside, other than faults, along their tangent plane to "
               "the boundary where it is no farther than this (default: they end inside)")
         ->group(group);
+}
+
+std::vector<Point2> corners_of(const std::string& text, const char* option) {
+    const auto numbers = numbers_in(text);
+    if (!numbers) {
+        std::ifstream file(text, std::ios::binary);
+        if (!file)
+            refuse(ErrorCode::cannot_open, "is neither numbers x,y,x,y,... nor a file: " + text,
+                   option);
+        return must(read_outline(std::string{std::istreambuf_iterator<char>(file), {}}, text));
+    }
+    if (numbers->size() % 2 != 0) refuse("needs pairs of numbers: x,y,x,y,...", option);
+    std::vector<Point2> corners;
+    for (std::size_t i = 0; i < numbers->size(); i += 2)
+        corners.push_back({(*numbers)[i], (*numbers)[i + 1]});
+    return corners;
 }
 
 bool is_polygon_file(const std::string& value) {

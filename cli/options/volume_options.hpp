@@ -37,6 +37,10 @@ void add_volume_options(CLI::App& command, VolumeOptions& options);
 /// Tells whether a value of --polygon is the name of a file, as it is no list of numbers.
 bool is_polygon_file(const std::string& value);
 
+/// Returns the corners that a value states, x,y,x,y,..., or that the file of this name has. Errors: bad_option,
+/// cannot_open, with the option; those of read_outline().
+std::vector<Point2> corners_of(const std::string& text, const char* option);
+
 /// Checks, before any work is done, that the options fit together. Errors: bad_option.
 void check_volume_options(const VolumeOptions& options);
 

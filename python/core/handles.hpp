@@ -67,6 +67,7 @@ void bind_fill(py::module_& module);
 void bind_layers(py::module_& module);
 void bind_selection(py::module_& module);
 void bind_maps(py::module_& module);
+void bind_sections(py::module_& module);
 void bind_tetrahedra(py::module_& module);
 void bind_verify(py::module_& module);
 void bind_judge(py::module_& module);

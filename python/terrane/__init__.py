@@ -40,6 +40,7 @@ from ._report import HAS_REPORTS
 from ._rounding import RoundingReport
 from ._sealing import (ClosedGap, OpenGap, SealAdvice, SealChange, Sealed, SealTrial, seal,
                        suggest_seal)
+from ._section import Section, SectionLine, SectionPolygon, section
 from ._selection import Selected, SelectedPiece, select
 from ._surface import ROLES, Frame, Surface, as_surface, as_surfaces
 from ._tetrahedra import BlockVolume, Tetrahedra, Violation, tetrahedralize
@@ -61,11 +62,11 @@ __all__ = [
     "HAS_REPORTS", "Improved", "IndexLists", "Interface", "InterfaceParts", "JudgedProperty", "Juxtaposed", "Juxtaposition", "LayerReport", "Layered",
     "Leak", "Line", "Map", "Mesh", "MeshJudgement", "Model", "NO_INDEX", "OpenBorder", "OpenGap", "OutOfMemory", "OutOfOrder",
     "PartAbove", "Patch", "PropertyFlaw", "ROLES", "Region", "Regions", "Relation", "RoundedMesh", "RoundingReport",
-    "RuleViolation", "SealAdvice", "SealChange", "SealTrial", "Sealed", "Selected", "SelectedPiece", "Structure", "Surface",
+    "RuleViolation", "SealAdvice", "SealChange", "SealTrial", "Sealed", "Section", "SectionLine", "SectionPolygon", "Selected", "SelectedPiece", "Structure", "Surface",
     "SurfaceCut", "SurfaceInfo", "Tetrahedra", "Verdict", "VerifiedFile", "Violation",
     "VolumeOfInterest", "Volumes", "arrange", "as_surface", "as_surfaces", "box", "build", "check",
     "closed", "distance", "ensemble", "extend", "fill", "holes", "improve", "judge", "keep_freed_memory", "layers", "map_surface", "mesh", "model", "polygon",
-    "read", "regions", "rotated_box", "round", "save", "seal", "select", "structure", "suggest_seal",
+    "read", "regions", "rotated_box", "round", "save", "seal", "section", "select", "structure", "suggest_seal",
     "tetrahedralize", "verify", "volume_of_interest", "volumes",
 ]
 

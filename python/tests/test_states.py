@@ -181,6 +181,8 @@ def instances():
                   "BorderLoop": made["Filled"].holes[0].border, "FilledHole": made["Filled"].holes[0],
                   "FillReport": made["Filled"].holes[0].report, "LayerReport": made["Layered"].reports[0],
                   "SelectedPiece": made["Selected"].pieces[0],
+                  "SectionPolygon": made["Section"].polygons[0],
+                  "SectionLine": made["Section"].lines[0],
                   "Leak": terrane.Leak("a", "b", 1.0, 2.0, 3.0, (0.0, 1.0, 2.0), "wide"), "Relation": made["Model"].relations[0],
                   "Juxtaposition": made["Model"].juxtapositions[0], "SurfaceCut": made["VolumeOfInterest"].surfaces[0],
                   "SealAdvice": terrane.suggest_seal(stack()),

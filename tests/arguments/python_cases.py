@@ -162,6 +162,9 @@ FUNCTIONS = {
         "rule": "odd", "fractions": True, "max_move": None}),
     "map_surface": (lambda f: dict(surfaces=f.surfaces, number="height", step=0.5), {
         "number": "dip", "to": lambda f: (f.surfaces[1], {"number": "thickness"}), "step": 0.25, "like": None}),
+    "section": (lambda f: dict(model=f.model, level=0), {
+        "plane": ([(1, 1, 0), (0, 1, 0)], {"level": None}), "fence": ([(0, 1), (2, 1)], {"level": None}),
+        "level": 0.25, "by": ("base", {"level": None})}),
     "model": (lambda f: dict(surfaces=f.surfaces, box=BOX), {
         "seal": None, "tolerance": None, "extend": None, "min_volume": 15.0,
         "column": [{"unit": "upper", "surface": "top"}, {"unit": "middle", "surface": "base"}, {"unit": "lower"}], "max_rounds": None,
@@ -218,6 +221,8 @@ METHODS = {
         "save": (lambda f: dict(path="b.vtp"), {"format": "obj", "compress": False, "ascii": None})}),
     "Map": (lambda f: terrane.map_surface(f.surfaces, "height", step=0.5), {
         "save": (lambda f: dict(path="m.irap"), {"format": "vti"})}),
+    "Section": (lambda f: terrane.section(f.model, level=0), {
+        "save": (lambda f: dict(path="s.svg"), {"title": "a title", "exaggeration": 2.0})}),
     "Layered": (lambda f: f.layered, {"save": (lambda f: dict(path="l.vtp"), {"format": "obj", "compress": False, "ascii": None})}),
     "Model": (lambda f: f.model, {
         "block_of": (lambda f: dict(points=[(1, 1, 0)]), {}), "names_of": (lambda f: dict(points=[(1, 1, 0)]), {}),
@@ -238,6 +243,6 @@ METHODS = {
 }
 
 #: Classes that functions return, made of the module's own objects: their constructors are nobody's.
-RETURNED = {"Arrangement", "RoundedMesh", "Mesh", "Regions", "CheckReport", "Volumes", "Structure", "Filled", "Layered", "Selected", "Map", "Model",
+RETURNED = {"Arrangement", "RoundedMesh", "Mesh", "Regions", "CheckReport", "Volumes", "Structure", "Filled", "Layered", "Selected", "Map", "Section", "Model",
             "Block", "Blocks", "Interface", "Tetrahedra", "Built", "Improved", "Sealed", "VolumeOfInterest", "Ensemble",
             "OutOfMemory", "Doubt"}

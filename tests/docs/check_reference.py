@@ -205,6 +205,7 @@ def write_json_files(program, folder):
     run("fill", "fold.ts", "-o", "r.vtp", "--method", "rbf", "--stats", "rbf.json")
     run("select", "west - body", "units.obj", "body.ts", "-o", "rest.vtp", "--fractions", "--stats", "select.json")
     run("map", "depth", "top.ts", "--step", "100", "-o", "depth.asc", "--stats", "map.json")
+    run("section", *model, *box, "-o", "s.svg", "--level", "-1000", "--stats", "section.json")
     run("info", "top.ts", "fault.ts", "--json", out="info.json")
     run("check", "twice.obj", "--json", out="check.json")
     run("arrange", *model, "-o", "a.vtp", "--certificate", "certificate.json", "--stats", "arrange.json")
@@ -230,7 +231,7 @@ def write_json_files(program, folder):
     with (folder / "top.ts").open("a") as changed:
         changed.write("\n")
     run("verify", "certificate.json", "--json", out="refuted.json")
-    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "joined_statistics.json", "fill.json", "rbf.json", "select.json", "map.json",
+    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "joined_statistics.json", "fill.json", "rbf.json", "select.json", "map.json", "section.json",
                   "in_tiles.json", "resolution.json", "open.json", "arrange.json", "stl.json"]
     if has_tetgen(program):
         run("tetrahedralize", *model, *box, "-o", "t.vtu", "--stats", "tetrahedra.json")
@@ -374,7 +375,7 @@ def check_names(findings):
     findings.compare("errors.md", set(documented), codes)
     findings += [f"errors.md: the status of {code} is {status}"
                  for code, status in statuses(codes).items() if documented.get(code, status) != status]
-    rules = {r.split("_")[0] for r in enumerators(source("verdict.hpp"), "Rule")}
+    rules = {r.split("_")[0] for r in enumerators(source("verify.hpp"), "Rule")}
     findings.compare("certificate.md, rules", first_cells("certificate.md", "rules"), rules)
     listed = set(re.findall(r'{"(\w+)", Format::\w+}', source("formats.cpp")))
     table = rows_of(sections_of((REFERENCE / "formats.md").read_text())["file-formats"])

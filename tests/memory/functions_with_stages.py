@@ -56,6 +56,8 @@ WITHIN = {
     "step": "arrange_in_tiles",
     "validate_options": "fill_by_rbf",
     "visit": "arrange_in_tiles",
+    "section_files": "write_section, svg",
+    "section_shapes": "write_section, shp",
     "size_of_file": "judge",
     "simplify_for": "simplify_to",
     "surface_of_grid": "parse_surfaces, asc",

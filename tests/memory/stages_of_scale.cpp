@@ -9,12 +9,14 @@
 
 #include <terrane/algorithms/maps/maps.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
+#include <terrane/algorithms/sections/sections.hpp>
 #include <terrane/algorithms/tiles/local_supersteps.hpp>
 #include <terrane/algorithms/tiles/names_in_tiles.hpp>
 #include <terrane/algorithms/tiles/tiled_arrangement.hpp>
 #include <terrane/algorithms/tiles/volumes_in_tiles.hpp>
 #include <terrane/algorithms/uncertainty/measures.hpp>
 #include <terrane/algorithms/uncertainty/realisations.hpp>
+#include <terrane/io/sections/section_text.hpp>
 
 #include "fixture.hpp"
 #include "scratch.hpp"
@@ -210,11 +212,60 @@ std::vector<Stage> drawing() {
     return stages;
 }
 
+std::string text_of(const SectionSurface& made) {
+    return made.surface.name + " " + std::to_string(made.sheets.size());
+}
+
+std::vector<Stage> cutting() {
+    static const Fixture& f = Fixture::get();
+    const auto text = [](const SectionSurface& made) { return text_of(made); };
+    static const std::vector<std::array<double, 2>> line{{0, 0}, {4, 2}, {8, 0}};
+    static const std::vector<double> heights{2, 4};
+    static const SectionSurface fence = needed(section_fence(*f.mesh, line));
+    std::vector<Stage> stages;
+    stages.push_back(stage(
+        "section_plane",
+        [] {
+            return section_plane(*f.mesh, {1, 1, 1}, {1, 0, 1});
+        },
+        text));
+    stages.push_back(stage(
+        "section_levels", [] { return section_levels(*f.mesh, heights); }, text));
+    stages.push_back(stage(
+        "section_fence", [] { return section_fence(*f.mesh, line); }, text));
+    stages.push_back(stage(
+        "section_along", [] { return section_along(f.surfaces[0]); }, text));
+    stages.push_back(stage(
+        "cut_section", [] { return cut_section(*f.mesh, f.volumes, fence); },
+        [](const Section& made) {
+            return std::to_string(made.polygons.size()) + " " + std::to_string(made.lines.size());
+        }));
+    static const Section section = needed(cut_section(*f.mesh, f.volumes, fence));
+    static const SectionNames names = [] {
+        SectionNames made{{}, {}, f.mesh->surfaces, "a fence with a long title"};
+        for (const ModelBlock& block : f.model.structure.blocks) {
+            made.blocks.push_back(block.name);
+            made.units.push_back(block.unit);
+        }
+        return made;
+    }();
+    for (const std::string extension : {".svg", ".geojson", ".dxf", ".csv", ".shp"}) {
+        const auto format = *section_format(extension);
+        if (!section_files(section, names, format)) continue; // without shapelib
+        stages.push_back(writing_stage("write_section, " + extension.substr(1),
+                                       "section" + extension, true,
+                                       [format](const std::filesystem::path& path) {
+                                           return write_section(section, names, format, path);
+                                       }));
+    }
+    return stages;
+}
+
 } // namespace
 
 std::vector<Stage> stages_of_scale() {
     std::vector<Stage> stages;
-    for (const auto& part : {simplifying(), dividing(), drawing()})
+    for (const auto& part : {simplifying(), dividing(), drawing(), cutting()})
         stages.insert(stages.end(), part.begin(), part.end());
     return stages;
 }

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <terrane/algorithms/mesh/labels.hpp>
+#include <terrane/algorithms/mesh/submesh.hpp>
+#include <terrane/algorithms/sections/sections.hpp>
+#include <terrane/cli/commands/command.hpp>
+#include <terrane/cli/options/choices.hpp>
+#include <terrane/cli/options/roles.hpp>
+#include <terrane/cli/stages/model_run.hpp>
+#include <terrane/io/sections/section_text.hpp>
+
+namespace terrane::cli {
+namespace {
+
+struct SectionCommand {
+    ModelCommand model;
+    std::string plane, fence, level, by; ///< one of them, or contours
+    double contours = 0;                 ///< step; 0: none
+    double exaggeration = 1;
+};
+
+constexpr auto section_footer =
+    R"(The surfaces are arranged, cut by a volume of interest and rounded as `terrane volume` does, and its options and
+names of blocks are the same. The model is then cut exactly: polygons of blocks, lines of surfaces.
+
+OUT is a drawing (.svg), a map or table (.geojson, .shp, .dxf, .csv), or the triangles of the section by block in any
+format of surfaces (.vtp, .obj, .ts, ...). Coordinates of a drawing are the distance along the section and the height;
+those of levels, and of a surface that folds over nowhere in the map, are x and y.
+
+Where the section lies upon a surface, the block in front counts, on the side of the normal; of a fence that is the
+right of its way. A section by a surface in the map shows the blocks below, as a geological map does.
+
+Without any block or line in the section nothing is written, and the exit status is 1.
+
+Examples:
+  terrane section *.ts --box 0,0,-3000,9000,9000,500 --fence 0,0,4000,5000,9000,9000 -o fence.svg
+  terrane section model.ml --plane 4500,4500,0,0,-1,0 -o west-east.svg --exaggeration 5
+  terrane section model.ml --level -1000 -o slice.geojson
+  terrane section top.ts --contours 50 -o contours.dxf
+  terrane section *.ts --by topography -o geological-map.svg)";
+
+/// Returns the numbers of an option. Errors: bad_option.
+std::vector<double> numbers_of(const std::string& text, const char* option, const char* wanted) {
+    auto numbers = numbers_in(text);
+    if (!numbers) refuse("needs numbers: " + std::string(wanted), option);
+    return std::move(*numbers);
+}
+
+/// Returns the levels at multiples of a step between the heights of a mesh. Errors: bad_option.
+std::vector<double> levels_of(const Mesh& mesh, double step) {
+    constexpr int most = 10000;
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const Point3& p : mesh.vertices) {
+        low = std::min(low, p.z);
+        high = std::max(high, p.z);
+    }
+    if (!((high - low) / step <= most))
+        refuse("makes more than 10000 contours of each surface; take a larger step", "--contours");
+    std::vector<double> levels;
+    const double first = std::ceil(low / step);
+    for (int k = 0; k <= most && (first + k) * step <= high; ++k)
+        levels.push_back((first + k) * step);
+    if (levels.empty()) refuse("has no multiple between the heights of the surfaces", "--contours");
+    return levels;
+}
+
+/// Returns the surface with this name, or in this file. Errors: bad_option; those of reading.
+Surface surface_called(const std::string& name, const Mesh& mesh, const FileOptions& files) {
+    const auto labels = unique_labels(mesh.surfaces);
+    const auto called = surfaces_called(name, mesh.surfaces, labels);
+    if (called.size() > 1) refuse("names several surfaces: " + name, "--by");
+    if (!called.empty()) return surface_of_mesh(mesh, called[0]);
+    if (!std::filesystem::exists(name)) refuse(not_called("surface", name, labels), "--by");
+    auto read = must(read_surfaces(name, std::nullopt, files.read));
+    if (read.size() != 1) refuse("has several surfaces: " + name, "--by");
+    return std::move(read[0]);
+}
+
+void check_section(const SectionCommand& command) {
+    const int given = int{!command.plane.empty()} + int{!command.fence.empty()} +
+                      int{!command.level.empty()} + int{!command.by.empty()} +
+                      int{command.contours != 0};
+    if (given != 1)
+        refuse("one of these must be given", "--plane, --fence, --level, --contours, --by");
+}
+
+Result<SectionSurface> surface_of(const SectionCommand& command, const Mesh& mesh, const Run& run) {
+    if (!command.plane.empty()) {
+        const auto n = numbers_of(command.plane, "--plane", "x,y,z,nx,ny,nz");
+        if (n.size() != 6) refuse("needs six numbers: x,y,z,nx,ny,nz", "--plane");
+        return section_plane(mesh, {n[0], n[1], n[2]}, {n[3], n[4], n[5]});
+    }
+    if (!command.fence.empty()) return section_fence(mesh, corners_of(command.fence, "--fence"));
+    if (!command.level.empty())
+        return section_levels(mesh, numbers_of(command.level, "--level", "z,z,..."));
+    if (command.contours != 0) return section_levels(mesh, levels_of(mesh, command.contours));
+    return section_along(surface_called(command.by, mesh, command.model.files), run);
+}
+
+/// Returns the option that says where the section is, and its value.
+std::pair<std::string, std::string> place_of(const SectionCommand& command) {
+    if (!command.plane.empty()) return {"plane", command.plane};
+    if (!command.fence.empty()) return {"fence", command.fence};
+    if (!command.level.empty()) return {"level", command.level};
+    if (command.contours != 0) return {"contours", fmt::format("{}", command.contours)};
+    return {"by", command.by};
+}
+
+SectionNames names_of(const SectionCommand& command, const SectionSurface& along,
+                      const ModelRun& run) {
+    const Model& model = *run.built().model;
+    SectionNames names;
+    for (const ModelBlock& block : model.structure.blocks) {
+        names.blocks.push_back(block.name);
+        names.units.push_back(block.unit);
+    }
+    names.surfaces = model.mesh.mesh()->surfaces;
+    const auto labels = unique_labels(names.surfaces);
+    for (std::size_t s = 0; s < labels.size(); ++s) names.surfaces[s].name = labels[s];
+    const auto [option, value] = place_of(command);
+    names.title = fmt::format("{}: {} {}", name_of_inputs(command.model.files), option, value);
+    names.length_unit = run.inputs().unit;
+    names.exaggeration = command.exaggeration;
+    names.shows_heights = command.contours != 0;
+    const SectionSheet& sheet = along.sheets[0];
+    names.shows_behind = !command.by.empty() && sheet.right.z == 0 && sheet.up.z == 0;
+    return names;
+}
+
+double area_of(const Section& section) {
+    double sum = 0;
+    for (const SectionPolygon& p : section.polygons) sum += p.area;
+    return sum;
+}
+
+std::string text_of(const Section& section, const SectionNames& names,
+                    const Quantities& quantities) {
+    if (names.shows_heights && section.polygons.empty())
+        return fmt::format("contours: {}\n", counted(section.lines.size(), "line"));
+    std::set<std::uint32_t> blocks, surfaces;
+    for (const SectionPolygon& p : section.polygons) blocks.insert(names.shown(p));
+    for (const SectionLine& line : section.lines) surfaces.insert(line.surface);
+    std::string text = fmt::format(
+        "section: {} of {}, area {}; {} of {}\n", counted(section.polygons.size(), "polygon"),
+        counted(blocks.size(), "block"), quantities.area(area_of(section)),
+        counted(section.lines.size(), "line"), counted(surfaces.size(), "surface"));
+    if (section.polygons.empty() && !section.lines.empty())
+        text += "It meets no closed block; a volume of interest, such as --box, closes blocks.\n";
+    return text;
+}
+
+/// A file for the section: in a format of sections, or of meshes.
+struct SectionOutput {
+    std::string path;
+    std::optional<SectionFormat> format{};
+    std::vector<Output> mesh{}; ///< one, or none
+};
+
+std::vector<SectionOutput> plan_section_outputs(const FileOptions& files) {
+    std::vector<SectionOutput> outputs;
+    FileOptions meshes = files;
+    meshes.outputs.clear();
+    for (const std::string& path : files.outputs) {
+        const auto extension = files.output_format.empty()
+                                   ? std::filesystem::path(path).extension().string()
+                                   : "." + files.output_format;
+        outputs.push_back({path, section_format(extension)});
+        if (outputs.back().format)
+            check_folder(path);
+        else
+            meshes.outputs.push_back(path);
+    }
+    if (std::ranges::count(files.outputs, "-") > 1 ||
+        (std::ranges::count(files.outputs, "-") == 1 &&
+         (files.stats == "-" || files.report == "-")))
+        refuse("standard output can take only one file");
+    const auto planned = plan_outputs(meshes, OutputKind::surfaces);
+    auto next = planned.begin();
+    for (SectionOutput& output : outputs)
+        if (!output.format) output.mesh = {*next++};
+    return outputs;
+}
+
+void write_output(const Section& section, const SectionNames& names, const SectionOutput& output,
+                  const ModelRun& run, Session& session) {
+    if (!output.format) {
+        if (section.triangles.empty())
+            refuse("the section has no polygon, and this format has no lines", output.path);
+        write_output(section_mesh(section, names), output.mesh[0], {.ascii = run.files().ascii},
+                     session);
+        return say_written(run.told(), output.path);
+    }
+    session.begin("write", Phase::writing);
+    const auto paths = must(write_section(section, names, *output.format, output.path));
+    session.end_stage();
+    for (const auto& path : paths) say_written(run.told(), path.string());
+}
+
+ExitStatus draw_section(const SectionCommand& command, Session& session) {
+    check_section(command);
+    const auto outputs = plan_section_outputs(command.model.files);
+    auto run = ModelRun::begin(command.model, session);
+    run.make();
+    if (!run.refused().empty()) return run.end(false);
+    const Model& model = *run.built().model;
+    const auto along = surface_of(command, model.mesh, session.run());
+    const auto at = [&](Error error) {
+        if (error.place == "section") error.place = "--" + place_of(command).first;
+        return Failure{error};
+    };
+    if (!along) throw at(along.error());
+    const auto section = session.timed(
+        "section", [&] { return cut_section(model.mesh, model.volumes, *along, session.run()); });
+    if (!section) throw at(section.error());
+    const SectionNames names = names_of(command, *along, run);
+    say(run.told(), text_of(*section, names, run.inputs().quantities()));
+    run.statistics()["section"] = {{"polygons", section->polygons.size()},
+                                   {"lines", section->lines.size()},
+                                   {"area", area_of(*section)}};
+    const bool is_empty = section->polygons.empty() && section->lines.empty();
+    if (is_empty) print(stderr, complaint("nothing written: the section does not meet the model"));
+    if (!is_empty)
+        for (const SectionOutput& output : outputs)
+            write_output(*section, names, output, run, session);
+    return run.end(!is_empty);
+}
+
+} // namespace
+
+Command section_command(CLI::App& program) {
+    auto command = std::make_shared<SectionCommand>();
+    auto* app = program.add_subcommand("section", "Draw sections, slices, contours and maps");
+    add_inputs(*app, command->model.files);
+    add_output(*app, command->model.files, "File for the section; - is standard output");
+    add_value(*app, "--plane", command->plane, "X,Y,Z,NX,NY,NZ",
+              "Cut by the plane through a point across a normal, seen from where this points");
+    add_value(*app, "--fence", command->fence, "LINE",
+              "Cut by vertical panels along a line in the map: x,y,x,y,..., or a file with x and y "
+              "on each line");
+    add_value(*app, "--level", command->level, "Z,...",
+              "Cut by horizontal planes at these heights");
+    add_value(*app, "--contours", command->contours, "STEP",
+              "Cut by horizontal planes at all multiples of a step")
+        ->check(CLI::PositiveNumber.description(""));
+    add_value(*app, "--by", command->by, "SURFACE",
+              "Cut by a surface, such as the topography: its name, or a file with it alone");
+    add_value(*app, "--exaggeration", command->exaggeration, "F",
+              "Stretch drawings vertically (default: 1)")
+        ->check(CLI::PositiveNumber.description(""));
+    add_naming(*app, command->model);
+    add_arranging(*app, command->model);
+    add_run(*app, command->model.files);
+    command->model.tells_blocks = false;
+    command->model.project.last = BuildStage::blocks;
+    app->footer(section_footer);
+    return {app, [command] {
+                Session session(command->model.files.threads);
+                return draw_section(*command, session);
+            }};
+}
+
+} // namespace terrane::cli
