@@ -112,7 +112,7 @@ std::vector<std::uint32_t> number_pieces(const Volumes& volumes, const std::vect
 
 /// Restricts an arrangement to the boundary of the region.
 Result<SelectedRegion> region_in(Arrangement exact, const Question& question, const Run& run) {
-    const auto volumes = find_volumes(exact, run);
+    const auto volumes = volumes::find_unmeasured(exact, run);
     if (!volumes) return volumes.error();
     const auto inside = volumes_inside(exact, *volumes, question);
     if (!inside) return inside.error();

@@ -29,16 +29,24 @@ IndexLists<Step> steps_of(const Arrangement& exact, const Operands& operands) {
     std::vector<Step> own;
     const PointStore& points = exact.state->points;
     for (std::uint32_t t = 0; t < exact.triangles.size(); ++t) {
-        own.clear();
         const auto parents = exact.parents_of[t];
+        const auto operand_of = [&](std::uint32_t parent) {
+            return operands.of_surface[exact.inputs.surface_of(InputTriangleId(parent))];
+        };
+        if (parents.size() == 1) {
+            const std::uint32_t k = operand_of(parents[0]);
+            if (k != no_index) steps.values.push_back({k, 1});
+            steps.close();
+            continue;
+        }
+        own.clear();
         const Triangle& p = exact.input_corners()[parents[0]];
         const Axis axis =
             projection_axis(points.input(p[0]), points.input(p[1]), points.input(p[2]));
         const Sign front =
             turn_of(exact, parents[0], axis); // the triangle is wound as its first parent
         for (const std::uint32_t parent : parents) {
-            const std::uint32_t k =
-                operands.of_surface[exact.inputs.surface_of(InputTriangleId(parent))];
+            const std::uint32_t k = operand_of(parent);
             if (k == no_index) continue;
             const int by = turn_of(exact, parent, axis) == front ? 1 : -1;
             const auto at = std::ranges::find(own, k, &Step::operand);
@@ -116,11 +124,16 @@ public:
 private:
     void reach() {
         std::vector<std::uint32_t> keys, triangles;
-        for (std::uint32_t t = 0; t < steps_.size(); ++t)
-            for (const std::uint32_t volume : volumes_.of_sides[t]) {
+        std::array<std::uint32_t, 2> last{}; // neighbouring triangles mostly follow each other
+        for (std::uint32_t t = 0; t < steps_.size(); ++t) {
+            const auto& sides = volumes_.of_sides[t];
+            if (volumes_.dangles(t) || sides == last) continue;
+            last = sides;
+            for (const std::uint32_t volume : sides) {
                 keys.push_back(volume);
                 triangles.push_back(t);
             }
+        }
         const auto around = lists_by_key<std::uint32_t>(
             known_.size(), keys, [&](std::size_t i) { return triangles[i]; });
         std::vector<std::uint32_t> open{0};

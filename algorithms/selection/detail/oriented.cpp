@@ -10,6 +10,7 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/volumes/exact_volumes.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane::selection {
@@ -79,35 +80,38 @@ private:
 } // namespace
 
 BoundaryFacets::BoundaryFacets(const SelectedRegion& region) :
-    mixed_(region.boundary.input_corners().size()) {
+    of_parent_(region.boundary.input_corners().size()) {
     const Arrangement& a = region.boundary;
-    facets_.reserve(a.triangles.size());
-    for (std::size_t t = 0; t < a.triangles.size(); ++t) {
-        const auto at = [&](unsigned i) { return a.nearest(VertexId(a.triangles[t][i])); };
+    const auto facet = [&](std::size_t t) -> Facet {
         const auto [front, behind] = region.of_sides[t];
-        facets_.push_back({a.parents_of[t][0], middle_of({at(0), at(1), at(2)}),
-                           std::max(front, behind) - 1, behind != 0});
+        return {a.parents_of[t][0], {}, std::max(front, behind) - 1, behind != 0};
+    };
+    for (std::size_t t = 0; t < a.triangles.size(); ++t) {
+        const Facet own = facet(t);
+        OfParent& first = of_parent_[own.parent];
+        if (!first.is_known)
+            first = {own, true, false};
+        else if (own.piece != first.facet.piece || own.is_behind != first.facet.is_behind)
+            first.is_mixed = true;
     }
-    std::sort(facets_.begin(), facets_.end(), [](const Facet& f, const Facet& g) {
+    for (std::size_t t = 0; t < a.triangles.size(); ++t) {
+        if (!of_parent_[a.parents_of[t][0]].is_mixed) continue;
+        const auto at = [&](unsigned i) { return a.nearest(VertexId(a.triangles[t][i])); };
+        mixed_.push_back(facet(t));
+        mixed_.back().middle = middle_of({at(0), at(1), at(2)});
+    }
+    std::sort(mixed_.begin(), mixed_.end(), [](const Facet& f, const Facet& g) {
         return std::tie(f.parent, f.middle) < std::tie(g.parent, g.middle);
     });
-    for (std::size_t i = 1; i < facets_.size(); ++i) {
-        const Facet &f = facets_[i - 1], &g = facets_[i];
-        if (f.parent == g.parent && (f.piece != g.piece || f.is_behind != g.is_behind))
-            mixed_[f.parent] = true;
-    }
 }
 
 const BoundaryFacets::Facet* BoundaryFacets::nearest(std::uint32_t parent,
                                                      const std::array<Point3, 3>& corners) const {
-    const auto first =
-        std::lower_bound(facets_.begin(), facets_.end(), parent,
-                         [](const Facet& f, std::uint32_t p) { return f.parent < p; });
-    if (first == facets_.end() || first->parent != parent) return nullptr;
-    if (!mixed_[parent]) return &*first;
+    const OfParent& known = of_parent_[parent];
+    if (!known.is_known) return nullptr;
+    if (!known.is_mixed) return &known.facet;
     const Point3 middle = middle_of(corners);
-    const auto last = std::upper_bound(
-        first, facets_.end(), parent, [](std::uint32_t p, const Facet& f) { return p < f.parent; });
+    const auto [first, last] = std::ranges::equal_range(mixed_, parent, {}, &Facet::parent);
     const auto same = std::lower_bound(
         first, last, middle, [](const Facet& f, const Point3& p) { return f.middle < p; });
     if (same != last && same->middle == middle) return &*same;
@@ -119,23 +123,24 @@ const BoundaryFacets::Facet* BoundaryFacets::nearest(std::uint32_t parent,
         first, last, [&](const Facet& f, const Facet& g) { return distance(f) < distance(g); });
 }
 
-Result<Oriented> oriented(const Mesh& rounded, const BoundaryFacets& facets, const Run& run) {
-    const auto volumes = find_volumes(rounded, run);
+Result<Oriented> oriented(Mesh rounded, const BoundaryFacets& facets, const Run& run) {
+    const auto volumes = volumes::find_sides(rounded, run);
     if (!volumes) return volumes.error();
     Ballot ballot(rounded, *volumes, facets);
     const auto inside = ballot.inside();
     const auto piece = ballot.pieces(inside);
     Oriented made;
-    Mesh turned = rounded;
     std::vector<bool> keep;
     for (std::size_t t = 0; t < rounded.triangles.size(); ++t) {
         const auto [front, behind] = volumes->of_sides[t];
         keep.push_back(inside[front] != inside[behind]);
         if (!keep.back()) continue;
-        if (inside[front]) std::swap(turned.triangles[t][1], turned.triangles[t][2]);
+        if (inside[front]) std::swap(rounded.triangles[t][1], rounded.triangles[t][2]);
         made.piece_of.push_back(piece[inside[front] ? front : behind]);
     }
-    made.mesh = part_of(turned, keep);
+    rounded.regions_of = {};
+    const bool is_all = made.piece_of.size() == keep.size();
+    made.mesh = is_all ? std::move(rounded) : part_of(rounded, keep);
     return made;
 }
 

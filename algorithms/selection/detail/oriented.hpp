@@ -40,8 +40,13 @@ public:
                                        const std::array<Point3, 3>& corners) const;
 
 private:
-    std::vector<Facet> facets_; ///< by parent, then by middle
-    std::vector<bool> mixed_;   ///< per input triangle: its facets differ in piece or side
+    struct OfParent {
+        Facet facet{};         ///< the first; without a middle
+        bool is_known = false; ///< whether there is one
+        bool is_mixed = false; ///< whether others differ from it in piece or side
+    };
+    std::vector<OfParent> of_parent_; ///< per input triangle
+    std::vector<Facet> mixed_;        ///< those of mixed parents, by parent, then by middle
 };
 
 /// A rounded boundary whose triangles face outwards.
@@ -54,7 +59,7 @@ struct Oriented {
 /// its triangles than not, by the facets that they come from; so the result is closed, whatever rounding
 /// did. Triangles with the region on both sides, or on none, as a part of it was too thin for doubles,
 /// are left out. Errors: those of find_volumes().
-Result<Oriented> oriented(const Mesh& rounded, const BoundaryFacets& facets, const Run& run);
+Result<Oriented> oriented(Mesh rounded, const BoundaryFacets& facets, const Run& run);
 
 /// Returns the triangles of a mesh that are kept, with the vertices and intersection edges that they use;
 /// without regions.
