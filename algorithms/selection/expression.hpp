@@ -4,16 +4,19 @@
 //
 // Operators as in Python, from the strongest: ~ (complement), - (difference), & (intersection),
 // ^ (symmetric difference), | (union); operators of one strength apply from the left. Names are made of
-// letters, digits, '_' and '.'; others stand in double quotes. inside(a) is the same as a.
+// letters, digits, '_' and '.'; others stand in double quotes. Functions: inside(a) is the same as a for a closed
+// surface a; below(s) and above(s), west(s) and east(s), south(s) and north(s) are the sides of a surface s.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
+#include <terrane/kernel/point.hpp>
 
 namespace terrane {
 
@@ -24,10 +27,20 @@ struct Expression {
         Action action;
         std::uint32_t operand = 0; ///< its index in `operands`, of Action::operand
     };
-    std::vector<Step> steps;
-    std::vector<std::string> operands; ///< names, each once, by their first place in the text
+    /// A statement about a point.
+    struct Operand {
+        std::string name; ///< of surfaces
+        /// Nothing: the point is inside of them; or it is on their lower side along this axis.
+        std::optional<Axis> axis{};
+        bool is_bare = true; ///< whether it is a name alone everywhere, not inside(name)
 
-    /// Returns the value of the expression at a point. is_inside(k): whether it is in operand k.
+        friend bool operator==(const Operand&, const Operand&) = default;
+    };
+    std::vector<Step> steps;
+    std::vector<Operand>
+        operands; ///< each name with each axis once, by their first place in the text
+
+    /// Returns the value of the expression at a point. is_inside(k): whether operand k holds.
     [[nodiscard]] bool value(const std::function<bool(std::uint32_t)>& is_inside) const;
 };
 

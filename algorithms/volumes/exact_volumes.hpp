@@ -27,6 +27,9 @@ std::vector<double> measure_volumes(const TriangleComplex& sheets, VolumeSides o
 std::vector<double> measure_volumes(const Arrangement& arrangement, VolumeSides of_sides,
                                     std::size_t count);
 
+/// Returns the planes of the triangles of an arrangement: those of their first parents, which are wound like them.
+std::vector<Triangle> planes_of(const Arrangement& arrangement);
+
 /// Finds volumes as find_volumes() does, without their measures, which are all 0.
 Result<Volumes> find_unmeasured(const Arrangement& arrangement, const Run& run);
 /// The same of a conforming mesh of doubles, but numbered by their first triangles.

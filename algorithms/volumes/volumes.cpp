@@ -215,16 +215,6 @@ Result<Volumes> find(const TriangleComplex& sheets, Wanted wanted, const Run& ru
     return volumes;
 }
 
-/// Returns the planes of the triangles of an arrangement: those of their first parents, which are
-/// wound like them.
-std::vector<Triangle> planes_of(const Arrangement& a) {
-    std::vector<Triangle> planes;
-    planes.reserve(a.triangles.size());
-    for (std::size_t t = 0; t < a.triangles.size(); ++t)
-        planes.push_back(a.state->corners[a.parents_of[t][0]]);
-    return planes;
-}
-
 /// Takes the sum of all blocks out of the place of the outside.
 ExactVolumes with_total(std::vector<std::string> measures) {
     std::string total = std::exchange(measures[0], {});
@@ -250,6 +240,14 @@ Result<Volumes> find_in(const Mesh& mesh, Wanted wanted, const Run& run) {
 }
 
 } // namespace
+
+std::vector<Triangle> volumes::planes_of(const Arrangement& a) {
+    std::vector<Triangle> planes;
+    planes.reserve(a.triangles.size());
+    for (std::size_t t = 0; t < a.triangles.size(); ++t)
+        planes.push_back(a.state->corners[a.parents_of[t][0]]);
+    return planes;
+}
 
 Result<Volumes> find_volumes(const Arrangement& a, const Run& run) {
     return find_in(a, Wanted::measures, run);

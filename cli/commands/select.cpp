@@ -45,7 +45,12 @@ std::string volume_text(double volume, const std::string& exact, const Quantitie
 
 std::string region_text(const Selected& made, const Quantities& quantities) {
     constexpr std::size_t most_pieces = 20; // printed
-    if (made.pieces.empty()) return "region: empty\n";
+    if (made.is_surface && made.regions > 0)
+        return fmt::format("surface: {}, {}\n", counted(made.mesh.triangles.size(), "triangle"),
+                           counted(made.regions, "region")) +
+               text_of(made.rounding, quantities);
+    if (made.pieces.empty())
+        return made.is_surface ? "surface: nothing of it is left\n" : "region: empty\n";
     const auto triangles =
         [&](std::size_t count) { // there are none if the doubles are not conforming
             return made.rounding.clean ? counted(count, "triangle") + ", " : "";

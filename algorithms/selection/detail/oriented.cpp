@@ -10,8 +10,10 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
+#include <terrane/algorithms/selection/windings.hpp>
 #include <terrane/algorithms/volumes/exact_volumes.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
+#include <terrane/kernel/predicates.hpp>
 
 namespace terrane::selection {
 namespace {
@@ -142,6 +144,23 @@ Result<Oriented> oriented(Mesh rounded, const BoundaryFacets& facets, const Run&
     const bool is_all = made.piece_of.size() == keep.size();
     made.mesh = is_all ? std::move(rounded) : part_of(rounded, keep);
     return made;
+}
+
+void turn_as_open(const SelectedRegion& region, Mesh& rounded) {
+    const Arrangement& a = region.boundary;
+    const PointStore& points = a.state->points;
+    for (std::size_t t = 0; t < rounded.triangles.size(); ++t) {
+        const auto parents = rounded.parents_of[t];
+        const auto own = std::ranges::find_if(parents, [&](std::uint32_t p) {
+            return region.open[a.inputs.surface_of(InputTriangleId(p))];
+        });
+        if (own == parents.begin() || own == parents.end()) continue;
+        const Triangle& c = a.input_corners()[*own];
+        const Axis axis =
+            projection_axis(points.input(c[0]), points.input(c[1]), points.input(c[2]));
+        if (turn_of(a, *own, axis) != turn_of(a, parents[0], axis))
+            std::swap(rounded.triangles[t][1], rounded.triangles[t][2]);
+    }
 }
 
 Mesh part_of(const Mesh& mesh, const std::vector<bool>& keep) {

@@ -21,6 +21,8 @@ struct SelectedRegion {
         of_sides; ///< per triangle: the piece in front of and behind it, from 1; 0 is not in the region
     std::uint32_t pieces = 0;   ///< their number
     std::uint32_t cavities = 0; ///< bounded parts of space without the region
+    /// Per surface, whether a part of it is selected as an open surface, instead of a region; else empty.
+    std::vector<bool> open{};
 };
 
 /// The triangles of an exact boundary, found by a parent and a place near to theirs.
@@ -60,6 +62,10 @@ struct Oriented {
 /// did. Triangles with the region on both sides, or on none, as a part of it was too thin for doubles,
 /// are left out. Errors: those of find_volumes().
 Result<Oriented> oriented(Mesh rounded, const BoundaryFacets& facets, const Run& run);
+
+/// Turns the triangles of a rounded part of an open surface as that surface faces, where they are wound as another
+/// surface that they are part of, too.
+void turn_as_open(const SelectedRegion& region, Mesh& rounded);
 
 /// Returns the triangles of a mesh that are kept, with the vertices and intersection edges that they use;
 /// without regions.

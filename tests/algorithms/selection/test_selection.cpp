@@ -69,8 +69,8 @@ int compare_points(const std::vector<Surface>& surfaces, const std::string& text
         const auto found = winding_around(made.mesh.vertices, made.mesh.triangles, q);
         if (windings.size() != surfaces.size() || !found) continue;
         const bool expected = expression->value([&](std::uint32_t k) {
-            return is_within(windings[static_cast<std::size_t>(expression->operands[k][0] - 'a')],
-                             rule);
+            return is_within(
+                windings[static_cast<std::size_t>(expression->operands[k].name[0] - 'a')], rule);
         });
         CHECK(*found == (expected ? 1 : 0));
         ++compared;
