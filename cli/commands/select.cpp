@@ -28,16 +28,20 @@ struct SelectCommand {
 };
 
 constexpr auto select_footer =
-    R"(Operands are closed surfaces by their names in the files; a name with other characters than letters,
+    R"text(Operands are closed surfaces by their names in the files; a name with other characters than letters,
 digits, _ and . stands in double quotes. Operators as in Python, from the strongest: ~ complement,
 - difference, & intersection, ^ symmetric difference, | union. Surfaces may cross themselves and each other,
 touch and overlap. Triangles face outwards. The boundary is written only if its doubles are conforming, by an
 exact check; if they are not, or the region is empty, the exit status is 1.
 
+A surface that is not closed has sides: below(S) and above(S), west(S) and east(S), south(S) and north(S). A
+part of it is selected by functions: "fault & below(top)", "horizon & inside(body)".
+
 Examples:
   terrane select "(a | b) - c" a.stl b.stl c.stl -o region.obj
   terrane select "reservoir - salt" model.ts -o rest.vtp --fractions
-  terrane select "scan" scan.ply -o outside.ply --rule positive)";
+  terrane select "salt & below(topography)" salt.ts topography.ts -o salt_below.ts
+  terrane select "scan" scan.ply -o outside.ply --rule positive)text";
 
 std::string volume_text(double volume, const std::string& exact, const Quantities& quantities) {
     return "volume " + quantities.volume(volume) + (exact.empty() ? "" : ", exactly " + exact);
@@ -92,6 +96,7 @@ void add_region(Json& json, const Selected& made, const SelectCommand& command) 
                               {"cavities", made.cavities},
                               {"pieces", Json::array()}},
                              made.exact_volume);
+    if (made.is_surface) region["regions"] = made.regions;
     for (const SelectedPiece& piece : made.pieces)
         region["pieces"].push_back(with_exact(
             {{"triangles", piece.triangles}, {"volume", piece.volume}}, piece.exact_volume));

@@ -33,24 +33,24 @@ std::vector<bool> surfaces_of(const Question& question, std::uint32_t operand) {
     return is_of;
 }
 
-/// Lists volumes and what lies between them.
+/// Lists volumes. Each is a part of its own: a horizon that a fault divides ends on both sides of the fault.
 Cells volume_cells(const Volumes& volumes, const SidedSurface& surface) {
     const std::size_t count = volumes.measures.size();
-    Cells cells{std::vector<bool>(count), {}, {}, std::vector<std::uint32_t>(count, no_index)};
+    Cells cells{std::vector<bool>(count), {}, {}, {}};
     for (std::uint32_t t = 0; t < volumes.of_sides.size(); ++t) {
         const auto [front, back] = volumes.of_sides[t];
         if (surface.has(t)) {
             cells.touches.push_back({front, t, surface.at_front(t)});
             cells.touches.push_back({back, t, surface.at_back(t)});
         } else {
-            if (front != back) cells.joined.push_back({front, back});
-            cells.triangle_of[front] = cells.triangle_of[back] = t;
+            cells.others.push_back({front, t});
+            if (front != back) cells.others.push_back({back, t});
         }
     }
     return cells;
 }
 
-/// Triangles of an open surface, and the edges at which they meet others.
+/// Triangles of an open surface, and the edges at which they meet others. Parts end where the surface meets another.
 class SurfaceParts {
 public:
     /// of_surface: triangles of the arrangement, ascending.
@@ -63,7 +63,9 @@ public:
 
     /// Lists the triangles, and which of them a surface divides.
     [[nodiscard]] Cells cells(const SidedSurface& surface) const {
-        Cells cells{std::vector<bool>(triangles_.size()), {}, {}, triangles_};
+        Cells cells{std::vector<bool>(triangles_.size()), {}, {}, {}};
+        for (std::uint32_t c = 0; c < triangles_.size(); ++c)
+            if (!surface.has(triangles_[c])) cells.others.push_back({c, triangles_[c]});
         const UpwardRounding guard;
         const volumes::TriangleComplex sheets{
             exact_.state->points, exact_.vertices, exact_.triangles, edges_, planes_,
@@ -73,8 +75,10 @@ public:
             const auto is_own = [&](const auto& s) { return cell_of_[s.triangle] != no_index; };
             if (std::ranges::none_of(at_edge, is_own)) return;
             if (std::ranges::none_of(at_edge,
-                                     [&](const auto& s) { return surface.has(s.triangle); }))
-                return join(at_edge, cells);
+                                     [&](const auto& s) { return surface.has(s.triangle); })) {
+                if (std::ranges::all_of(at_edge, is_own)) join(at_edge, cells);
+                return;
+            }
             round.assign(at_edge.begin(), at_edge.end());
             volumes::sort_round_edge(guard, sheets, low, round);
             std::erase_if(round,
@@ -95,7 +99,6 @@ private:
         std::uint32_t last = no_index;
         for (const auto& side : at_edge) {
             const std::uint32_t c = cell_of_[side.triangle];
-            if (c == no_index) continue;
             if (last != no_index) cells.joined.push_back({last, c});
             last = c;
         }

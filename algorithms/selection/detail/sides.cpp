@@ -183,44 +183,80 @@ std::uint8_t SidedSurface::along_line(std::size_t triangle) const {
     return above == 0 && below != 0 ? high_side : no_side;
 }
 
+namespace {
+
+constexpr std::uint8_t both_sides = low_side | high_side;
+
+/// Parts of cells.
+class Parts {
+public:
+    explicit Parts(const Cells& cells) :
+        cells_(cells), sets_(cells.asked.size()), sides_(cells.asked.size(), no_side),
+        place_(cells.asked.size(), no_index) {
+        for (const auto& [c, d] : cells.joined)
+            if (cells.asked[c] && cells.asked[d]) sets_.join(c, d);
+        for (const Cells::Touch& touch : cells.touches)
+            if (cells.asked[touch.cell]) add(sets_.find(touch.cell), touch.sides, touch.triangle);
+    }
+
+    /// Looks along lines from parts that do not touch the surface.
+    void look_along_lines(const SidedSurface& surface) {
+        std::vector<std::uint32_t> parts, triangles;
+        for (const auto& [c, t] : cells_.others) {
+            if (!cells_.asked[c] || sides_[sets_.find(c)] != no_side) continue;
+            parts.push_back(sets_.find(c));
+            triangles.push_back(t);
+        }
+        constexpr std::size_t most_lines = 64;
+        const auto lists = lists_by_key<std::uint32_t>(sides_.size(), parts,
+                                                       [&](std::size_t i) { return triangles[i]; });
+        for (std::uint32_t part = 0; part < lists.size(); ++part) {
+            const auto own = lists[part];
+            const std::size_t lines = std::min(most_lines, own.size());
+            for (std::size_t i = 0; i < lines; ++i) {
+                const std::uint32_t t = own[i * own.size() / lines];
+                add(part, surface.along_line(t), t);
+            }
+        }
+    }
+
+    /// Returns the sides of the part of a cell.
+    [[nodiscard]] std::uint8_t sides(std::uint32_t cell) { return sides_[sets_.find(cell)]; }
+    /// Returns a triangle at which the sides of the part of a cell were seen last, or no_index.
+    [[nodiscard]] std::uint32_t place(std::uint32_t cell) { return place_[sets_.find(cell)]; }
+
+private:
+    void add(std::uint32_t part, std::uint8_t sides, std::uint32_t triangle) {
+        if (sides_[part] != both_sides) place_[part] = triangle;
+        sides_[part] |= sides;
+    }
+
+    const Cells& cells_;
+    DisjointSets sets_;
+    std::vector<std::uint8_t> sides_;  ///< per part, by its lowest cell
+    std::vector<std::uint32_t> place_; ///< likewise
+};
+
+} // namespace
+
 Result<std::vector<bool>> low_cells(const Arrangement& exact, const SidedSurface& surface,
                                     const Cells& cells, const SideNames& names) {
-    const std::size_t count = cells.asked.size();
-    DisjointSets parts(count);
-    for (const auto& [c, d] : cells.joined)
-        if (cells.asked[c] && cells.asked[d]) parts.join(c, d);
-    std::vector<std::uint8_t> sides(count, no_side); // per part, by its lowest cell
-    std::vector<std::uint32_t> triangle(count, no_index), touched(count, no_index);
-    for (const Cells::Touch& touch : cells.touches) {
-        if (!cells.asked[touch.cell]) continue;
-        const std::uint32_t part = parts.find(touch.cell);
-        sides[part] |= touch.sides;
-        if (sides[part] == (low_side | high_side) && touched[part] == no_index)
-            touched[part] = touch.triangle;
-    }
-    for (std::uint32_t c = 0; c < count; ++c)
-        if (cells.asked[c] && triangle[parts.find(c)] == no_index)
-            triangle[parts.find(c)] = cells.triangle_of[c];
-    std::vector<bool> low(count);
-    for (std::uint32_t c = 0; c < count; ++c) {
+    Parts parts(cells);
+    parts.look_along_lines(surface);
+    std::vector<bool> low(cells.asked.size());
+    for (std::uint32_t c = 0; c < low.size(); ++c) {
         if (!cells.asked[c]) continue;
-        const std::uint32_t part = parts.find(c);
-        if (sides[part] == no_side && triangle[part] != no_index)
-            sides[part] = surface.along_line(triangle[part]);
-        if (sides[part] == (low_side | high_side))
-            return Error{ErrorCode::not_closed,
-                         "does not divide what it is to divide: a part at " +
-                             place_text(least_corner(exact, touched[part])) + " is on both sides",
-                         names.surface};
-        if (sides[part] == no_side)
-            return Error{ErrorCode::not_closed,
-                         "a part" +
-                             (triangle[part] == no_index
-                                  ? std::string()
-                                  : " at " + place_text(least_corner(exact, triangle[part]))) +
-                             " is neither " + names.low + " nor " + names.high + " it",
-                         names.surface};
-        low[c] = sides[part] == low_side;
+        low[c] = parts.sides(c) == low_side;
+        if (low[c] || parts.sides(c) == high_side) continue;
+        const std::uint32_t t = parts.place(c);
+        const std::string place =
+            t == no_index ? std::string() : " at " + place_text(least_corner(exact, t));
+        return Error{ErrorCode::not_closed,
+                     parts.sides(c) == both_sides
+                         ? "does not divide the part" + place + ", which is on both sides of it"
+                         : "the part" + place + " is neither " + names.low + " nor " + names.high +
+                               " it",
+                     names.surface};
     }
     return low;
 }

@@ -5,10 +5,10 @@
 // (1) The triangles of a surface are turned alike across each edge that just two of them share. Of a patch of
 //     triangles that are connected so, the upper side is the one that faces up in sum, by exact projected areas. A
 //     patch that faces neither way in sum, such as a vertical one, divides without saying which side is which.
-// (2) A part is on the side that it touches.
-// (3) One that does not touch the surface is on its lower side if a line along the axis through the part passes
-//     through the surface above the part only, and on its upper side if below the part only. Passages up and down
-//     through the same surface cancel out.
+// (2) A part, which is a volume of the arrangement or a region of another surface, is on the side that it touches.
+// (3) One that does not touch the surface is on its lower side if lines along the axis pass through the surface above
+//     the part only, and on its upper side if below the part only. Passages up and down through the same surface cancel
+//     out. The lines go through up to 64 triangles of the part; those beside the surface tell nothing.
 // (4) A part that is on both sides, as the surface ends inside of it, or on none, is an error.
 #pragma once
 
@@ -65,10 +65,10 @@ struct Cells {
         std::uint8_t sides;
     };
     std::vector<bool> asked; ///< per cell: whether its side is asked for; others are not looked at
-    std::vector<std::array<std::uint32_t, 2>> joined; ///< cells without the surface between them
+    std::vector<std::array<std::uint32_t, 2>> joined; ///< cells of one part
     std::vector<Touch> touches;                       ///< cells at triangles of the surface
-    std::vector<std::uint32_t>
-        triangle_of; ///< per cell: a triangle at it that is not of the surface, or no_index
+    /// {cell, triangle at it that is not of the surface}, all of them.
+    std::vector<std::array<std::uint32_t, 2>> others;
 };
 
 /// How errors name a surface and its sides.

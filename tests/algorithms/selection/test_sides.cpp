@@ -215,20 +215,17 @@ TEST_CASE("select: points of an open surface are in the part that winding number
             const auto a = winding_around(all[0].vertices, all[0].triangles, q),
                        b = winding_around(all[1].vertices, all[1].triangles, q);
             if (!a || !b) continue;
-            bool is_in = false; // of a triangle of this parent, in the projection along an axis
+            bool is_in = false; // of a triangle of this parent, seen from above; none is vertical
             for (std::size_t t = 0; t < made.mesh.triangles.size(); ++t) {
                 if (std::ranges::count(made.mesh.parents_of[t], first + p) == 0) continue;
                 std::array<RationalPoint, 3> d;
                 for (unsigned i = 0; i < 3; ++i)
                     d[i] = between(made.mesh.vertices[made.mesh.triangles[t][i]], q);
-                for (const RationalPoint& axis :
-                     {RationalPoint{1, 0, 0}, RationalPoint{0, 1, 0}, RationalPoint{0, 0, 1}}) {
-                    const int x = sgn(determinant(axis, d[0], d[1])),
-                              y = sgn(determinant(axis, d[1], d[2])),
-                              z = sgn(determinant(axis, d[2], d[0]));
-                    if (x == 0 || x != y || y != z) continue;
-                    is_in = true;
-                }
+                const RationalPoint axis{0, 0, 1};
+                const int x = sgn(determinant(axis, d[0], d[1])),
+                          y = sgn(determinant(axis, d[1], d[2])),
+                          z = sgn(determinant(axis, d[2], d[0]));
+                is_in = is_in || (x != 0 && x == y && y == z);
             }
             CHECK(is_in == (*a != 0 && *b == 0));
             ++compared;
@@ -275,11 +272,11 @@ TEST_CASE("select: a surface that does not divide what it is to divide is named 
     const std::vector<Surface> s{cube(0, 2, "a"), level(1, -1, -1, 1, 3, "short"),
                                  quad({1, -1, -1}, {1, 3, -1}, {1, 3, 3}, {1, -1, 3}, "wall"),
                                  level(9, 5, 5, 6, 6, "far"), box({0.5, 0.5, -2}, {1, 1, 4}, "b")};
-    CHECK(refusal(s, "a & below(short)") == "short: does not divide what it is to divide: a part "
-                                            "at (0, 0, 1) is on both sides");
-    CHECK(refusal(s, "a & above(far)") == "far: a part at (0, 0, 2) is neither below nor above it");
+    CHECK(refusal(s, "a & below(short)") ==
+          "short: does not divide the part at (0, 0, 1), which is on both sides of it");
+    CHECK(refusal(s, "a & above(far)") == "far: the part at (0, 0, 2) is neither below nor above it");
     CHECK(refusal(s, "a & below(wall)") ==
-          "wall: a part at (0, 0, 2) is neither below nor above it");
+          "wall: the part at (0, 0, 2) is neither below nor above it");
     CHECK(refusal(s, "below(wall)") == "expression: the region has no end: all that is outside of "
                                        "the surfaces is in it");
     CHECK(picked(s, "a & inside(b) & below(short)").exact_volume == "1/4"); // there it does
@@ -287,7 +284,18 @@ TEST_CASE("select: a surface that does not divide what it is to divide is named 
     CHECK(refusal(s, "wall & below(far)").find("neither below nor above") != std::string::npos);
     const std::vector<Surface> half{level(0, 0, 0, 4, 4, "t"),
                                     quad({1, 1, -1}, {3, 1, -1}, {6, 1, 1}, {1, 1, 1}, "f")};
-    CHECK(refusal(half, "f & below(t)").find("on both sides") != std::string::npos);
+    CHECK(refusal(half, "f & below(t)").find("on both sides of it") != std::string::npos);
+}
+
+TEST_CASE("select: surfaces divide together if the expression names both") {
+    Surface t = level(1, -1, -1, 1, 3, "t"); // a fault moves it by a half
+    add_quad(t, {1, -1, 0.5}, {3, -1, 0.5}, {3, 3, 0.5}, {1, 3, 0.5});
+    const std::vector<Surface> s{cube(0, 2, "a"), t,
+                                 quad({1, -1, -1}, {1, 3, -1}, {1, 3, 3}, {1, -1, 3}, "f")};
+    CHECK(refusal(s, "a & below(t)").find("on both sides of it") != std::string::npos);
+    CHECK(picked(s, "a & below(t) & (west(f) | east(f))").exact_volume == "3");
+    CHECK(picked(s, "a & below(t) & west(f)").exact_volume == "2");
+    CHECK(picked(s, "a & above(t) & east(f)").exact_volume == "3");
 }
 
 TEST_CASE("select: only a name without a function, beside functions, may be an open surface") {
