@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +13,7 @@
 
 #include "support/closed_solids.hpp"
 #include "support/effort.hpp"
+#include "support/solid_beneath.hpp"
 #include "support/winding_oracle.hpp"
 
 using namespace terrane;
@@ -22,33 +22,6 @@ using namespace test_support;
 namespace {
 
 constexpr double bottom = -40;
-
-/// Returns the solid between a sheet and the plane z = bottom: the sheet, its image in that plane, turned over, and
-/// walls along its border. Where the sheet overhangs, parts of the image cancel out.
-Surface beneath(const Surface& sheet, std::string name) {
-    Surface solid{std::move(name), Role::unknown, {}, {}};
-    std::map<std::pair<Point3, Point3>, int> border; // how often the sheet runs along an edge
-    const auto down = [](Point3 p) { return Point3{p.x, p.y, bottom}; };
-    const auto add = [&](const Point3& a, const Point3& b, const Point3& c) {
-        const auto first = static_cast<std::uint32_t>(solid.vertices.size());
-        solid.vertices.insert(solid.vertices.end(), {a, b, c});
-        solid.triangles.push_back({first, first + 1, first + 2});
-    };
-    for (const auto& [i, j, k] : sheet.triangles) {
-        const Point3 &a = sheet.vertices[i], &b = sheet.vertices[j], &c = sheet.vertices[k];
-        add(a, b, c);
-        add(down(a), down(c), down(b));
-        for (const auto& [p, q] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}})
-            ++(border[{std::min(p, q), std::max(p, q)}] += p < q ? 0 : -2);
-    }
-    for (const auto& [edge, times] : border) {
-        if (times == 0) continue;
-        const auto [p, q] = times > 0 ? edge : std::pair{edge.second, edge.first};
-        add(p, down(p), down(q));
-        add(p, down(q), q);
-    }
-    return solid;
-}
 
 /// Returns a sheet over [-20, 20]^2: heights of a coarse lattice, or an overhanging fold along y.
 Surface sheet(Random& random, std::string name) {
@@ -143,7 +116,7 @@ TEST_CASE("select: what is below a surface is what the solid beneath it has") {
         auto all = make.solids(2);
         const Surface t = sheet(make.random, "t"), s = sheet(make.random, "s");
         auto solids = all;
-        solids.insert(solids.end(), {beneath(t, "t"), beneath(s, "s")});
+        solids.insert(solids.end(), {beneath(t, bottom, "t"), beneath(s, bottom, "s")});
         all.insert(all.end(), {turned_somehow(t, make.random), turned_somehow(s, make.random)});
         for (const char* const text :
              {"a & below(t)", "a & above(t)", "(a | b) & below(t)", "(a - b) & above(t)",
@@ -181,7 +154,7 @@ TEST_CASE("select: parts of open surfaces are those on a side, or inside of soli
             p = is_steep ? Point3{p.z, p.x / 2, p.y / 2} : Point3{p.x / 2, p.y / 2, p.z};
         const Surface t = sheet(make.random, "t"), s = sheet(make.random, "s");
         auto solids = all;
-        solids.insert(solids.end(), {beneath(t, "t"), beneath(s, "s")});
+        solids.insert(solids.end(), {beneath(t, bottom, "t"), beneath(s, bottom, "s")});
         all.insert(all.end(), {turned_somehow(t, make.random), turned_somehow(s, make.random)});
         for (const char* const text :
              {"f & below(t)", "f - below(t)", "f & below(t) & above(s)", "f & below(t) & inside(a)",
@@ -274,7 +247,8 @@ TEST_CASE("select: a surface that does not divide what it is to divide is named 
                                  level(9, 5, 5, 6, 6, "far"), box({0.5, 0.5, -2}, {1, 1, 4}, "b")};
     CHECK(refusal(s, "a & below(short)") ==
           "short: does not divide the part at (0, 0, 1), which is on both sides of it");
-    CHECK(refusal(s, "a & above(far)") == "far: the part at (0, 0, 2) is neither below nor above it");
+    CHECK(refusal(s, "a & above(far)") ==
+          "far: the part at (0, 0, 2) is neither below nor above it");
     CHECK(refusal(s, "a & below(wall)") ==
           "wall: the part at (0, 0, 2) is neither below nor above it");
     CHECK(refusal(s, "below(wall)") == "expression: the region has no end: all that is outside of "
