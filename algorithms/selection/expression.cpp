@@ -10,6 +10,7 @@ namespace terrane {
 namespace {
 
 using Action = Expression::Action;
+using Kind = Expression::Kind;
 
 /// Binary operators by strength, the weakest first.
 constexpr std::array<std::pair<char, Action>, 4> binary{{{'|', Action::unite},
@@ -110,7 +111,8 @@ private:
         const std::size_t first = at_;
         std::string name = take_name();
         if (flaw_) return;
-        if (is_quoted || !take('(')) return push({std::move(name), {}, !is_inside_});
+        if (is_quoted || !take('('))
+            return push({std::move(name), is_inside_ ? Kind::inside : Kind::bare});
         if (name == "inside") {
             const bool was_inside = std::exchange(is_inside_, true);
             read_rest_of_brackets();
@@ -118,15 +120,17 @@ private:
             return;
         }
         const auto side = std::ranges::find(side_functions, name, &SideFunction::name);
-        if (side == side_functions.end())
+        const bool is_side = side != side_functions.end();
+        if (!is_side && name != "hull")
             return fail("there is no function " + name +
-                            "(); there are inside(), below(), above(), west(), east(), south() "
-                            "and north()",
+                            "(); there are inside(), hull(), below(), above(), west(), east(), "
+                            "south() and north()",
                         first);
         std::string surface = take_name();
         if (flaw_) return;
-        push({std::move(surface), side->axis, false});
-        if (!side->is_low) made_.steps.push_back({Action::complement});
+        push(is_side ? Expression::Operand{std::move(surface), Kind::low_side, side->axis}
+                     : Expression::Operand{std::move(surface), Kind::enclosed});
+        if (is_side && !side->is_low) made_.steps.push_back({Action::complement});
         if (!take(')')) expect("')': " + name + "() takes the name of one surface");
     }
 
@@ -152,15 +156,18 @@ private:
     }
 
     void push(Expression::Operand operand) {
+        const auto kind = [](const Expression::Operand& o) {
+            return o.kind == Kind::bare ? Kind::inside : o.kind;
+        };
         const auto known = std::ranges::find_if(made_.operands, [&](const auto& o) {
-            return o.name == operand.name && o.axis == operand.axis;
+            return o.name == operand.name && kind(o) == kind(operand) && o.axis == operand.axis;
         });
         made_.steps.push_back(
             {Action::operand, static_cast<std::uint32_t>(known - made_.operands.begin())});
         if (known == made_.operands.end())
             made_.operands.push_back(std::move(operand));
-        else
-            known->is_bare = known->is_bare && operand.is_bare;
+        else if (known->kind == Kind::bare)
+            known->kind = operand.kind;
     }
 
     std::string_view text_;

@@ -5,12 +5,12 @@
 // Operators as in Python, from the strongest: ~ (complement), - (difference), & (intersection),
 // ^ (symmetric difference), | (union); operators of one strength apply from the left. Names are made of
 // letters, digits, '_' and '.'; others stand in double quotes. Functions: inside(a) is the same as a for a closed
-// surface a; below(s) and above(s), west(s) and east(s), south(s) and north(s) are the sides of a surface s.
+// surface a; hull(a) is all that a keeps from infinity; below(s) and above(s), west(s) and east(s), south(s) and
+// north(s) are the sides of a surface s.
 #pragma once
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,18 +27,23 @@ struct Expression {
         Action action;
         std::uint32_t operand = 0; ///< its index in `operands`, of Action::operand
     };
+    enum class Kind : std::uint8_t {
+        bare,     ///< the point is inside of the surfaces; they are named without a function
+        inside,   ///< the point is inside of the surfaces
+        enclosed, ///< each way from the point to infinity meets the surfaces
+        low_side, ///< the point is on their lower side along an axis
+    };
     /// A statement about a point.
     struct Operand {
         std::string name; ///< of surfaces
-        /// Nothing: the point is inside of them; or it is on their lower side along this axis.
-        std::optional<Axis> axis{};
-        bool is_bare = true; ///< whether it is a name alone everywhere, not inside(name)
+        Kind kind = Kind::bare;
+        Axis axis = Axis::z; ///< of low_side
 
         friend bool operator==(const Operand&, const Operand&) = default;
     };
     std::vector<Step> steps;
     std::vector<Operand>
-        operands; ///< each name with each axis once, by their first place in the text
+        operands; ///< each once, by their first place in the text; bare or inside, not both
 
     /// Returns the value of the expression at a point. is_inside(k): whether operand k holds.
     [[nodiscard]] bool value(const std::function<bool(std::uint32_t)>& is_inside) const;

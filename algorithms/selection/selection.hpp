@@ -86,7 +86,7 @@ struct Selected {
 
 /// Selects a region by an expression over the surfaces, by their names; surfaces with one name are one operand.
 /// expression.hpp describes expressions: a | b (union), a & b (intersection), a - b (difference), a ^ b (symmetric
-/// difference), ~a (complement), below(s), above(s), west(s), east(s), south(s), north(s) (sides of a surface),
+/// difference), ~a (complement), below(s), above(s), west(s), east(s), south(s), north(s) (sides of a surface), hull(s) (all that it keeps from infinity),
 /// brackets, and names in double quotes. A region without points has an empty mesh.
 /// Errors: bad_option with the column (syntax, an unknown name) or if the region has no end; not_closed for a
 /// surface that bounds no solid, or does not divide what it is to divide, with the place; those of arrange(), find_volumes() and round_to_doubles().

@@ -29,7 +29,7 @@ std::uint32_t Question::may_be_open() const {
     std::uint32_t found = no_index;
     const auto& operands = expression.operands;
     for (std::uint32_t k = 0; k < operands.size(); ++k) {
-        if (!operands[k].is_bare) continue;
+        if (operands[k].kind != Expression::Kind::bare) continue;
         if (found != no_index) return no_index;
         found = k;
     }
@@ -53,8 +53,12 @@ Result<Question> question_of(std::span<const Surface> surfaces, std::string_view
     if (!parsed) return parsed.error();
     const auto infos = infos_of(surfaces);
     const auto labels = unique_labels(infos);
-    Question question{
-        std::move(*parsed), {}, std::vector<std::uint32_t>(surfaces.size(), no_index), {}, rule};
+    Question question{std::move(*parsed),
+                      {},
+                      std::vector<std::uint32_t>(surfaces.size(), no_index),
+                      {},
+                      {},
+                      rule};
     const auto& operands = question.expression.operands;
     for (std::uint32_t k = 0; k < operands.size(); ++k) {
         const auto& name = operands[k].name;
@@ -63,6 +67,10 @@ Result<Question> question_of(std::span<const Surface> surfaces, std::string_view
             return of_expression(not_called("surface", name, labels));
         if (question.is_side(k)) {
             question.sided.push_back(k);
+            continue;
+        }
+        if (operands[k].kind == Expression::Kind::enclosed) {
+            question.hulls.push_back(k);
             continue;
         }
         for (const std::uint32_t s : question.surfaces_of[k]) {

@@ -23,12 +23,13 @@ struct Question {
     std::vector<std::vector<std::uint32_t>> surfaces_of; ///< per operand: the surfaces of its name
     std::vector<std::uint32_t>
         solid_of; ///< per surface: the operand of points inside of it, or no_index
+    std::vector<std::uint32_t> hulls; ///< operands of points that surfaces enclose, ascending
     std::vector<std::uint32_t> sided; ///< operands that are sides of surfaces, ascending
     InsideRule rule = InsideRule::nonzero;
 
     /// Whether an operand is a side of a surface.
     [[nodiscard]] bool is_side(std::uint32_t operand) const {
-        return expression.operands[operand].axis.has_value();
+        return expression.operands[operand].kind == Expression::Kind::low_side;
     }
     /// Whether the expression names a surface.
     [[nodiscard]] bool names(std::size_t surface) const;

@@ -33,6 +33,42 @@ std::vector<bool> surfaces_of(const Question& question, std::uint32_t operand) {
     return is_of;
 }
 
+/// Which solids and hulls hold in each volume.
+class Holding {
+public:
+    Holding(const Arrangement& exact, const Volumes& volumes, const Windings& windings,
+            const Question& question) :
+        windings_(windings),
+        question_(question), hulls_(question.expression.operands.size()) {
+        for (const std::uint32_t k : question.hulls) hulls_[k] = hull_of(exact, volumes, k);
+    }
+
+    [[nodiscard]] bool operator()(std::uint32_t volume, std::uint32_t operand) const {
+        return hulls_[operand].empty() ? question_.is_inside(windings_[volume][operand])
+                                       : bool(hulls_[operand][volume]);
+    }
+
+private:
+    /// Returns per volume whether the surfaces of an operand keep it from the outside.
+    [[nodiscard]] std::vector<bool> hull_of(const Arrangement& exact, const Volumes& volumes,
+                                            std::uint32_t operand) const {
+        const auto is_of = surfaces_of(question_, operand);
+        DisjointSets parts(volumes.measures.size());
+        for (std::size_t t = 0; t < volumes.of_sides.size(); ++t)
+            if (std::ranges::none_of(exact.surfaces_of[t],
+                                     [&](std::uint32_t s) { return is_of[s]; }))
+                parts.join(volumes.of_sides[t][0], volumes.of_sides[t][1]);
+        std::vector<bool> enclosed;
+        for (std::uint32_t v = 0; v < volumes.measures.size(); ++v)
+            enclosed.push_back(parts.find(v) != 0);
+        return enclosed;
+    }
+
+    const Windings& windings_;
+    const Question& question_;
+    std::vector<std::vector<bool>> hulls_; ///< per operand: per volume, or no list
+};
+
 /// Lists volumes. Each is a part of its own: a horizon that a fault divides ends on both sides of the fault.
 Cells volume_cells(const Volumes& volumes, const SidedSurface& surface) {
     const std::size_t count = volumes.measures.size();
@@ -130,14 +166,14 @@ Result<std::vector<bool>> answers_in(const Arrangement& exact, const Question& q
     for (std::size_t j = 0; j < question.sided.size(); ++j) {
         const auto& operand = question.expression.operands[question.sided[j]];
         const auto is_of = surfaces_of(question, question.sided[j]);
-        const SidedSurface surface(exact, is_of, *operand.axis);
+        const SidedSurface surface(exact, is_of, operand.axis);
         Cells cells = list(surface);
         for (std::size_t c = 0; c < count; ++c)
             if (lies_on(surface, c))
                 low[c] |= 1U << j;
             else
                 cells.asked[c] = answers.depends(c, j);
-        const auto& [below, above] = side_names[static_cast<std::size_t>(*operand.axis)];
+        const auto& [below, above] = side_names[static_cast<std::size_t>(operand.axis)];
         const auto found = low_cells(exact, surface, cells, {operand.name, below, above});
         if (!found) return found.error();
         for (std::size_t c = 0; c < count; ++c)
@@ -170,9 +206,7 @@ std::vector<std::uint32_t> number_pieces(const Volumes& volumes, const std::vect
 Result<SelectedRegion> solid_in(Arrangement exact, const Volumes& volumes, const Windings& windings,
                                 const Question& question) {
     const std::size_t count = volumes.measures.size();
-    const Answers answers(question, count, [&](std::uint32_t v, std::uint32_t k) {
-        return question.is_inside(windings[v][k]);
-    });
+    const Answers answers(question, count, Holding(exact, volumes, windings, question));
     const auto inside = answers_in(
         exact, question, answers, count,
         [&](const SidedSurface& surface) { return volume_cells(volumes, surface); },
@@ -195,8 +229,9 @@ Result<SelectedRegion> solid_in(Arrangement exact, const Volumes& volumes, const
 Result<SelectedRegion> surface_in(Arrangement exact, const Volumes& volumes,
                                   const Windings& windings, const Question& question,
                                   std::uint32_t open, const Error& otherwise) {
+    const Holding holding(exact, volumes, windings, question);
     const auto is_inside = [&](std::uint32_t v, std::uint32_t k) {
-        return k != open && question.is_inside(windings[v][k]);
+        return k != open && holding(v, k);
     };
     const Answers without(question, volumes.measures.size(), is_inside);
     for (std::size_t v = 0; v < volumes.measures.size(); ++v)

@@ -52,6 +52,15 @@ TEST_CASE("expression: names may be quoted and are listed once, in their order")
     REQUIRE(parsed);
     using Operands = std::vector<terrane::Expression::Operand>;
     CHECK(parsed->operands == Operands{{"top (2)"}, {"salt_1.5"}, {"größe"}});
+    using Kind = terrane::Expression::Kind;
+    const auto functions =
+        parse_expression("a & inside(a | b) | hull( a ) ^ above(a) - west(\"a\") - below(a)");
+    REQUIRE(functions);
+    CHECK(functions->operands == Operands{{"a", Kind::inside},
+                                          {"b", Kind::inside},
+                                          {"a", Kind::enclosed},
+                                          {"a", Kind::low_side, terrane::Axis::z},
+                                          {"a", Kind::low_side, terrane::Axis::x}});
 }
 
 TEST_CASE("expression: flaws are named with their column") {
@@ -65,8 +74,11 @@ TEST_CASE("expression: flaws are named with their column") {
     CHECK(flaw_of("a & \"\"") == "expression, column 5: a name may not be empty");
     CHECK(
         flaw_of("a & near(b)") ==
-        "expression, column 5: there is no function near(); there are inside(), below(), above(), "
+        "expression, column 5: there is no function near(); there are inside(), hull(), below(), above(), "
         "west(), east(), south() and north()");
+    CHECK(flaw_of("below(a | b)") ==
+          "expression, column 9: expected ')': below() takes the name of one surface, not '|'");
+    CHECK(flaw_of("hull()") == "expression, column 6: expected a name, '(' or '~', not ')'");
     CHECK(flaw_of(std::string(100000, '(')).find("nested more than 1000 times") !=
           std::string::npos);
     CHECK(flaw_of(std::string(100000, '~')).find("nested more than 1000 times") !=
