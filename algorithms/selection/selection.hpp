@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Selects a region of space by an expression over surfaces, such as "(a | b) - c", and returns its boundary:
-// Booleans of any number of solids, in one exact arrangement. Or selects a part of an open surface: "fault & below(top)".
+// Booleans of any number of solids, in one exact arrangement. Or selects a part of an open surface, such as
+// "fault & below(top)".
 //
 // (1) Each closed surface of the expression may cross, touch, overlap and contain itself and others. A point is
 //     inside of it by its winding number, which is exact.
@@ -66,8 +67,8 @@ struct SelectedPiece {
 
 /// A region of space, or a part of a surface.
 struct Selected {
-    Mesh
-        mesh; ///< its boundary, or the part of a surface. Surfaces and parents are those of the input, counted through all surfaces
+    /// Its boundary, or the part of a surface. Surfaces and parents are those of the input, counted through all surfaces.
+    Mesh mesh;
     std::vector<std::uint32_t> piece_of; ///< per triangle: the piece that it bounds; or no list
     std::vector<SelectedPiece> pieces;   ///< from the one with the least vertex on
     std::size_t cavities = 0;            ///< bounded parts of space without the region
@@ -86,10 +87,11 @@ struct Selected {
 
 /// Selects a region by an expression over the surfaces, by their names; surfaces with one name are one operand.
 /// expression.hpp describes expressions: a | b (union), a & b (intersection), a - b (difference), a ^ b (symmetric
-/// difference), ~a (complement), below(s), above(s), west(s), east(s), south(s), north(s) (sides of a surface), hull(s) (all that it keeps from infinity),
-/// brackets, and names in double quotes. A region without points has an empty mesh.
+/// difference), ~a (complement), below(s), above(s), west(s), east(s), south(s), north(s) (sides of a surface), hull(s)
+/// (all that it keeps from infinity), brackets, and names in double quotes. A region without points has an empty mesh.
 /// Errors: bad_option with the column (syntax, an unknown name) or if the region has no end; not_closed for a
-/// surface that bounds no solid, or does not divide what it is to divide, with the place; those of arrange(), find_volumes() and round_to_doubles().
+/// surface that bounds no solid, or does not divide what it is to divide, with the place; those of arrange(),
+/// find_volumes() and round_to_doubles().
 Result<Selected> select(std::span<const Surface> surfaces, std::string_view expression,
                         const SelectOptions& options = {}, const Run& run = {});
 

@@ -68,10 +68,12 @@ std::vector<DoubleDouble> quick_sums(const TriangleComplex& sheets, VolumeSides 
         const Triangle& corners = sheets.triangles[t];
         std::optional<DoubleDouble> part; // computed when first needed
         for_sides(of_sides[t], [&](std::uint32_t volume, int sign) {
+            if (volume == 0) return;
             if (!part) part = six_volumes_below(at[corners[0]], at[corners[1]], at[corners[2]]);
             sums[volume] = sign > 0 ? sums[volume] + *part : sums[volume] - *part;
         });
     }
+    for (std::size_t v = 1; v < count; ++v) sums[0] = sums[0] + sums[v];
     return sums;
 }
 

@@ -131,9 +131,8 @@ def select(surfaces: Any, expression: str, *, rule: str = "nonzero", fractions: 
         (symmetric difference), ``~a`` (complement), and brackets. Names with other characters than letters, digits,
         ``_`` and ``.`` stand in double quotes. A surface ``s`` that is not closed has sides: ``below(s)`` and
         ``above(s)``, ``west(s)`` and ``east(s)``, ``south(s)`` and ``north(s)``; ``hull(s)`` is all that it keeps from
-        infinity. One name that stands alone, beside
-        functions, may be an open surface, of which a part is selected: ``"fault & below(top)"``,
-        ``"horizon & inside(body)"``.
+        infinity. One name that stands alone, beside functions, may be an open surface, of which a part is selected:
+        ``"fault & below(top)"``, ``"horizon & inside(body)"``.
     rule : {"nonzero", "positive", "odd"}, optional
         The winding numbers of points that are inside of a surface.
     fractions : bool, optional
