@@ -16,7 +16,6 @@
 
 namespace terrane {
 
-using selection::BoundaryFacets;
 using selection::oriented;
 using selection::Question;
 using selection::question_of;
@@ -71,15 +70,16 @@ Status round_boundary(const SelectedRegion& region, const SelectOptions& options
         return Done{};
     }
     if (!rounded) return rounded.error();
-    made.rounding = std::move(rounded->report);
     if (made.is_surface) {
         made.mesh = rounded->mesh;
         turn_as_open(region, made.mesh);
         made.regions = rounded->regions.size();
+        made.rounding = std::move(rounded->report);
         return Done{};
     }
-    auto turned = oriented(*rounded->mesh, BoundaryFacets(region), run);
+    auto turned = oriented(*rounded, region, run);
     if (!turned) return turned.error();
+    made.rounding = std::move(rounded->report);
     made.mesh = std::move(turned->mesh);
     made.piece_of = std::move(turned->piece_of);
     for (const std::uint32_t p : made.piece_of) ++made.pieces[p].triangles;

@@ -67,7 +67,8 @@ struct SelectedPiece {
 
 /// A region of space, or a part of a surface.
 struct Selected {
-    /// Its boundary, or the part of a surface. Surfaces and parents are those of the input, counted through all surfaces.
+    /// Its boundary, or the part of a surface. Surfaces and parents are those of the input, counted through all
+    /// surfaces.
     Mesh mesh;
     std::vector<std::uint32_t> piece_of; ///< per triangle: the piece that it bounds; or no list
     std::vector<SelectedPiece> pieces;   ///< from the one with the least vertex on

@@ -2,7 +2,10 @@
 #include <terrane/algorithms/selection/detail/oriented.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -125,10 +128,68 @@ const BoundaryFacets::Facet* BoundaryFacets::nearest(std::uint32_t parent,
         first, last, [&](const Facet& f, const Facet& g) { return distance(f) < distance(g); });
 }
 
-Result<Oriented> oriented(Mesh rounded, const BoundaryFacets& facets, const Run& run) {
+namespace {
+
+/// Whether the triangles of a region's boundary are connected through edges of two of them, and have no other edges.
+bool is_one_surface(const Arrangement& boundary) {
+    const Adjacency& adjacency = boundary.state->adjacency;
+    DisjointSets parts(boundary.triangles.size());
+    for (const auto& inner : adjacency.inner)
+        for (const auto& [t, u] : inner) parts.join(t, u);
+    for (std::size_t e = 0; e < adjacency.edges.size(); ++e) {
+        const auto at = adjacency.triangles_at[e];
+        if (at.size() != 2) return false;
+        parts.join(at[0], at[1]);
+    }
+    const auto& first = parts.flattened();
+    return std::ranges::all_of(first, [](std::uint32_t t) { return t == 0; });
+}
+
+/// Whether triangles that face outwards, if those are turned whose back is not in the region, enclose a positive
+/// volume, as far as doubles tell.
+bool enclose_volume(const Mesh& mesh, const SelectedRegion& region) {
+    const Point3 origin = mesh.vertices[mesh.triangles[0][0]];
+    double sum = 0, most = 0; // of six volumes; of their sizes, for the bound of the error
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto [p, q, r] = corners_of(mesh, t);
+        const double left = (q.x - p.x) * (r.y - p.y), right = (q.y - p.y) * (r.x - p.x);
+        const double a = p.z - origin.z, b = q.z - origin.z, c = r.z - origin.z;
+        const double below = (left - right) * (a + b + c);
+        sum += region.of_sides[t][1] != 0 ? below : -below;
+        most += (std::fabs(left) + std::fabs(right)) * (std::fabs(a) + std::fabs(b) + std::fabs(c));
+    }
+    // Each term has an error of less than 16 units of its size, each sum of one unit; twice that in any rounding mode.
+    const double terms = 32 + 2 * static_cast<double>(mesh.triangles.size());
+    return sum > terms * std::numeric_limits<double>::epsilon() * most && sum > 1e-250;
+}
+
+/// Turns the triangles outwards where they are one surface. It has two sides, which its edges tell, as they have two
+/// triangles each; that to the region is the inner one if it encloses a positive volume. Else returns nothing.
+std::optional<Oriented> oriented_as_exact(Mesh& rounded, const SelectedRegion& region) {
+    if (rounded.triangles.empty() || rounded.triangles != region.boundary.triangles ||
+        rounded.parents_of != region.boundary.parents_of || !is_one_surface(region.boundary) ||
+        !enclose_volume(rounded, region))
+        return std::nullopt;
+    Oriented made;
+    for (std::size_t t = 0; t < rounded.triangles.size(); ++t) {
+        const auto [front, behind] = region.of_sides[t];
+        if (front != 0) std::swap(rounded.triangles[t][1], rounded.triangles[t][2]);
+        made.piece_of.push_back(std::max(front, behind) - 1);
+    }
+    rounded.regions_of = {};
+    made.mesh = std::move(rounded);
+    return made;
+}
+
+} // namespace
+
+Result<Oriented> oriented(const RoundedMesh& found, const SelectedRegion& region, const Run& run) {
+    Mesh rounded = *found.mesh;
+    if (found.report.clean)
+        if (auto made = oriented_as_exact(rounded, region)) return std::move(*made);
     const auto volumes = volumes::find_sides(rounded, run);
     if (!volumes) return volumes.error();
-    Ballot ballot(rounded, *volumes, facets);
+    Ballot ballot(rounded, *volumes, BoundaryFacets(region));
     const auto inside = ballot.inside();
     const auto piece = ballot.pieces(inside);
     Oriented made;

@@ -11,6 +11,7 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
 
 namespace terrane::selection {
 
@@ -61,7 +62,7 @@ struct Oriented {
 /// its triangles than not, by the facets that they come from; so the result is closed, whatever rounding
 /// did. Triangles with the region on both sides, or on none, as a part of it was too thin for doubles,
 /// are left out. Errors: those of find_volumes().
-Result<Oriented> oriented(Mesh rounded, const BoundaryFacets& facets, const Run& run);
+Result<Oriented> oriented(const RoundedMesh& rounded, const SelectedRegion& region, const Run& run);
 
 /// Turns the triangles of a rounded part of an open surface as that surface faces, where they are wound as another
 /// surface that they are part of, too.
