@@ -32,6 +32,7 @@
 #include <terrane/capi/project.h>
 #include <terrane/capi/reconstruction.h>
 #include <terrane/capi/sealing.h>
+#include <terrane/capi/selection.h>
 #include <terrane/capi/structure.h>
 #include <terrane/capi/surfaces.h>
 #include <terrane/capi/tetrahedra.h>

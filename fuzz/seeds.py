@@ -494,6 +494,12 @@ def shapefile(kind, corners):
             bytes(32) + record)
 
 
+def solids():
+    """Two solids, and in half of the cases a sheet (select.cpp)."""
+    for k in range(12):
+        yield f"solids-{k}", header() + bytes((7 * k + 13 * i + (k + 3) * i * i) % 256 for i in range(64))
+
+
 def tiles():
     """Soups, and triangles in few doubles, far from the origin (tiles.cpp)."""
     yield from soups()
@@ -511,7 +517,7 @@ def main():
                "forge_sealed": forge_sealed,
                "arrange": soups, "rounding": soups, "crowded": crowded, "regions": soups,
                 "tiles": tiles, "known": soups, "judge": soups,
-                "volumes": soups, "tetrahedra": soups, "pieces": pieces,
+                "volumes": soups, "select": solids, "tetrahedra": soups, "pieces": pieces,
                 "kept": kept}
     seeds = {t: dict(make()) for t, make in targets.items()}
     for fmt, files in (FILES | other_programs()).items():

@@ -12,7 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 HEADERS = ("base", "surfaces", "arrangement", "mesh", "sealing", "structure", "model", "reconstruction",
-           "tetrahedra", "verification", "certificate", "project")
+           "selection", "tetrahedra", "verification", "certificate", "project")
 
 def prose(comment):
     """The text of comment lines, with names of the interface as code."""

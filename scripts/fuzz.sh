@@ -16,7 +16,7 @@ seconds=${1:-60}
 shift || true
 targets=("$@")
 [[ ${#targets[@]} -gt 0 ]] ||
-    targets=(corefine arrange rounding crowded tiles known judge tetrahedra predicates tri_tri search regions volumes pieces kept
+    targets=(corefine arrange rounding crowded tiles known judge tetrahedra predicates tri_tri search regions volumes select pieces kept
              forge_arrangement forge_volumes forge_tetrahedra forge_improved forge_filled
              forge_layered forge_cut forge_sealed
              read_ts read_ml read_obj read_off read_stl read_ply read_irap read_zmap read_cps3

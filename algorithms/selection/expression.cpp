@@ -10,12 +10,26 @@ namespace terrane {
 namespace {
 
 using Action = Expression::Action;
+using Kind = Expression::Kind;
 
 /// Binary operators by strength, the weakest first.
 constexpr std::array<std::pair<char, Action>, 4> binary{{{'|', Action::unite},
                                                          {'^', Action::exclude},
                                                          {'&', Action::intersect},
                                                          {'-', Action::difference}}};
+
+/// The sides of surfaces: whether each is the lower one along an axis.
+struct SideFunction {
+    std::string_view name;
+    Axis axis;
+    bool is_low;
+};
+constexpr std::array<SideFunction, 6> side_functions{{{"below", Axis::z, true},
+                                                      {"above", Axis::z, false},
+                                                      {"west", Axis::x, true},
+                                                      {"east", Axis::x, false},
+                                                      {"south", Axis::y, true},
+                                                      {"north", Axis::y, false}}};
 
 bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
@@ -95,32 +109,71 @@ private:
     void read_name() {
         const bool is_quoted = peek() == '"';
         const std::size_t first = at_;
+        std::string name = take_name();
+        if (flaw_) return;
+        if (is_quoted || !take('('))
+            return push({std::move(name), is_inside_ ? Kind::inside : Kind::bare});
+        if (name == "inside") {
+            const bool was_inside = std::exchange(is_inside_, true);
+            read_rest_of_brackets();
+            is_inside_ = was_inside;
+            return;
+        }
+        const auto side = std::ranges::find(side_functions, name, &SideFunction::name);
+        const bool is_side = side != side_functions.end();
+        if (!is_side && name != "hull")
+            return fail("there is no function " + name +
+                            "(); there are inside(), hull(), below(), above(), west(), east(), "
+                            "south() and north()",
+                        first);
+        std::string surface = take_name();
+        if (flaw_) return;
+        push(is_side ? Expression::Operand{std::move(surface), Kind::low_side, side->axis}
+                     : Expression::Operand{std::move(surface), Kind::enclosed});
+        if (is_side && !side->is_low) made_.steps.push_back({Action::complement});
+        if (!take(')')) expect("')': " + name + "() takes the name of one surface");
+    }
+
+    std::string take_name() {
+        const bool is_quoted = peek() == '"';
+        const std::size_t first = at_;
         std::string name;
         if (is_quoted) {
             const std::size_t end = text_.find('"', first + 1);
-            if (end == std::string_view::npos) return fail("this quote has no end", first);
+            if (end == std::string_view::npos) {
+                fail("this quote has no end", first);
+                return name;
+            }
             name = text_.substr(first + 1, end - first - 1);
             at_ = end + 1;
-            if (name.empty()) return fail("a name may not be empty", first);
-        } else {
-            while (at_ < text_.size() && is_of_name(text_[at_])) ++at_;
-            name = text_.substr(first, at_ - first);
+            if (name.empty()) fail("a name may not be empty", first);
+            return name;
         }
-        if (name.empty()) return expect("a name, '(' or '~'");
-        if (!is_quoted && take('(')) {
-            if (name != "inside")
-                return fail("there is no function " + name + "(); there is inside()", first);
-            return read_rest_of_brackets();
-        }
-        const auto known = std::ranges::find(made_.operands, name);
+        while (at_ < text_.size() && is_of_name(text_[at_])) ++at_;
+        name = text_.substr(first, at_ - first);
+        if (name.empty()) expect("a name, '(' or '~'");
+        return name;
+    }
+
+    void push(Expression::Operand operand) {
+        const auto kind = [](const Expression::Operand& o) {
+            return o.kind == Kind::bare ? Kind::inside : o.kind;
+        };
+        const auto known = std::ranges::find_if(made_.operands, [&](const auto& o) {
+            return o.name == operand.name && kind(o) == kind(operand) && o.axis == operand.axis;
+        });
         made_.steps.push_back(
             {Action::operand, static_cast<std::uint32_t>(known - made_.operands.begin())});
-        if (known == made_.operands.end()) made_.operands.push_back(std::move(name));
+        if (known == made_.operands.end())
+            made_.operands.push_back(std::move(operand));
+        else if (known->kind == Kind::bare)
+            known->kind = operand.kind;
     }
 
     std::string_view text_;
     std::size_t at_ = 0;
     int depth_ = 0;
+    bool is_inside_ = false; ///< of inside()
     std::optional<Error> flaw_;
     Expression made_;
 };

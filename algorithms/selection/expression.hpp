@@ -4,7 +4,9 @@
 //
 // Operators as in Python, from the strongest: ~ (complement), - (difference), & (intersection),
 // ^ (symmetric difference), | (union); operators of one strength apply from the left. Names are made of
-// letters, digits, '_' and '.'; others stand in double quotes. inside(a) is the same as a.
+// letters, digits, '_' and '.'; others stand in double quotes. Functions: inside(a) is the same as a for a closed
+// surface a; hull(a) is all that a keeps from infinity; below(s) and above(s), west(s) and east(s), south(s) and
+// north(s) are the sides of a surface s.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
+#include <terrane/kernel/point.hpp>
 
 namespace terrane {
 
@@ -24,10 +27,25 @@ struct Expression {
         Action action;
         std::uint32_t operand = 0; ///< its index in `operands`, of Action::operand
     };
-    std::vector<Step> steps;
-    std::vector<std::string> operands; ///< names, each once, by their first place in the text
+    enum class Kind : std::uint8_t {
+        bare,     ///< the point is inside of the surfaces; they are named without a function
+        inside,   ///< the point is inside of the surfaces
+        enclosed, ///< each way from the point to infinity meets the surfaces
+        low_side, ///< the point is on their lower side along an axis
+    };
+    /// A statement about a point.
+    struct Operand {
+        std::string name; ///< of surfaces
+        Kind kind = Kind::bare;
+        Axis axis = Axis::z; ///< of low_side
 
-    /// Returns the value of the expression at a point. is_inside(k): whether it is in operand k.
+        friend bool operator==(const Operand&, const Operand&) = default;
+    };
+    std::vector<Step> steps;
+    std::vector<Operand>
+        operands; ///< each once, by their first place in the text; bare or inside, not both
+
+    /// Returns the value of the expression at a point. is_inside(k): whether operand k holds.
     [[nodiscard]] bool value(const std::function<bool(std::uint32_t)>& is_inside) const;
 };
 

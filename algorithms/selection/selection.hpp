@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Selects a region of space by an expression over closed surfaces, such as "(a | b) - c", and returns its
-// boundary: Booleans of any number of solids, in one exact arrangement.
+// Selects a region of space by an expression over surfaces, such as "(a | b) - c", and returns its boundary:
+// Booleans of any number of solids, in one exact arrangement. Or selects a part of an open surface, such as
+// "fault & below(top)".
 //
-// (1) Each surface of the expression may cross, touch, overlap and contain itself and others. A point is inside of
-//     it by its winding number, which is exact.
+// (1) Each closed surface of the expression may cross, touch, overlap and contain itself and others. A point is
+//     inside of it by its winding number, which is exact.
 // (2) The region is a set of volumes of the arrangement; its boundary are the triangles between a volume in it
 //     and one that is not. So it is closed: at each edge, as many triangles run one way as the other. Triangles
 //     face outwards.
-// (3) The same region has the same boundary, to the last byte, however the expression says it, if this names the
+// (3) An open surface divides what the rest of the expression leaves open into parts, each on one of its sides:
+//     detail/sides.hpp says on which. If it does not divide them, as it ends inside of one, that is an error.
+// (4) Where the expression has one name without a function, beside functions such as inside() and below(), and the
+//     surface of this name is open, the part of that surface is selected. What lies on a solid's boundary counts as
+//     inside of it, what lies on a surface as below, west or south of it.
+// (5) The same region has the same boundary, to the last byte, however the expression says it, if this names the
 //     same surfaces.
-// (4) The boundary is rounded to doubles by round_to_doubles(), with its guarantee. Volumes are exact.
+// (6) The result is rounded to doubles by round_to_doubles(), with its guarantee. Volumes are exact.
 // Cost: that of arrange() of the surfaces in the expression, find_volumes(), rounding the boundary, and
 // find_volumes() of it.
 #pragma once
@@ -59,17 +65,22 @@ struct SelectedPiece {
     std::size_t triangles = 0;  ///< of `mesh` that bound it; 0: it was too thin for doubles
 };
 
-/// A region of space.
+/// A region of space, or a part of a surface.
 struct Selected {
-    Mesh
-        mesh; ///< its boundary. Surfaces and parents are those of the input, counted through all surfaces
-    std::vector<std::uint32_t> piece_of; ///< per triangle: the piece that it bounds
+    /// Its boundary, or the part of a surface. Surfaces and parents are those of the input, counted through all
+    /// surfaces.
+    Mesh mesh;
+    std::vector<std::uint32_t> piece_of; ///< per triangle: the piece that it bounds; or no list
     std::vector<SelectedPiece> pieces;   ///< from the one with the least vertex on
     std::size_t cavities = 0;            ///< bounded parts of space without the region
     double volume = 0;             ///< the double nearest to the exact one, cubic unit of the input
     std::string exact_volume{};    ///< as a reduced fraction, if asked for
     RoundingReport rounding;       ///< of the boundary; `mesh` is conforming if it is clean
     ArrangeStatistics arrangement; ///< of the surfaces in the expression
+    /// Whether a part of an open surface is selected, which has no volume and no pieces. Its triangles face as
+    /// they did, and `mesh` has regions.
+    bool is_surface = false;
+    std::size_t regions = 0; ///< of the part of a surface
 
     /// Returns the boundary of a piece.
     [[nodiscard]] Mesh piece(std::uint32_t number) const;
@@ -77,9 +88,11 @@ struct Selected {
 
 /// Selects a region by an expression over the surfaces, by their names; surfaces with one name are one operand.
 /// expression.hpp describes expressions: a | b (union), a & b (intersection), a - b (difference), a ^ b (symmetric
-/// difference), ~a (complement), brackets, and names in double quotes. A region without points has an empty mesh.
+/// difference), ~a (complement), below(s), above(s), west(s), east(s), south(s), north(s) (sides of a surface), hull(s)
+/// (all that it keeps from infinity), brackets, and names in double quotes. A region without points has an empty mesh.
 /// Errors: bad_option with the column (syntax, an unknown name) or if the region has no end; not_closed for a
-/// surface that bounds no solid, with the place; those of arrange(), find_volumes() and round_to_doubles().
+/// surface that bounds no solid, or does not divide what it is to divide, with the place; those of arrange(),
+/// find_volumes() and round_to_doubles().
 Result<Selected> select(std::span<const Surface> surfaces, std::string_view expression,
                         const SelectOptions& options = {}, const Run& run = {});
 

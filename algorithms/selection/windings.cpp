@@ -29,16 +29,24 @@ IndexLists<Step> steps_of(const Arrangement& exact, const Operands& operands) {
     std::vector<Step> own;
     const PointStore& points = exact.state->points;
     for (std::uint32_t t = 0; t < exact.triangles.size(); ++t) {
-        own.clear();
         const auto parents = exact.parents_of[t];
+        const auto operand_of = [&](std::uint32_t parent) {
+            return operands.of_surface[exact.inputs.surface_of(InputTriangleId(parent))];
+        };
+        if (parents.size() == 1) {
+            const std::uint32_t k = operand_of(parents[0]);
+            if (k != no_index) steps.values.push_back({k, 1});
+            steps.close();
+            continue;
+        }
+        own.clear();
         const Triangle& p = exact.input_corners()[parents[0]];
         const Axis axis =
             projection_axis(points.input(p[0]), points.input(p[1]), points.input(p[2]));
         const Sign front =
             turn_of(exact, parents[0], axis); // the triangle is wound as its first parent
         for (const std::uint32_t parent : parents) {
-            const std::uint32_t k =
-                operands.of_surface[exact.inputs.surface_of(InputTriangleId(parent))];
+            const std::uint32_t k = operand_of(parent);
             if (k == no_index) continue;
             const int by = turn_of(exact, parent, axis) == front ? 1 : -1;
             const auto at = std::ranges::find(own, k, &Step::operand);
@@ -52,12 +60,12 @@ IndexLists<Step> steps_of(const Arrangement& exact, const Operands& operands) {
     return steps;
 }
 
-/// Says why an operand bounds no solid, by the edges at which its triangles do not cancel out.
-Error not_closed(const Arrangement& exact, const IndexLists<Step>& steps, std::uint32_t operand,
-                 const std::string& name) {
+/// Calls visit(low, high, is_open) for the edges at which the triangles of an operand do not cancel out; is_open:
+/// whether their number is odd.
+template <class Visit>
+void for_unbalanced(const Arrangement& exact, const IndexLists<Step>& steps, std::uint32_t operand,
+                    const Visit& visit) {
     const EdgeSides edges = group_edges(exact.triangles, exact.vertices.size());
-    std::size_t open = 0, turned = 0;
-    std::optional<Point3> first_open, first_turned;
     edges.for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
         int sum = 0, count = 0;
         for (const auto& side : sides)
@@ -66,9 +74,17 @@ Error not_closed(const Arrangement& exact, const IndexLists<Step>& steps, std::u
                 sum += runs_along(exact.triangles[side.triangle], low, high) ? step.by : -step.by;
                 count += std::abs(step.by);
             }
-        if (sum == 0) return;
+        if (sum != 0) visit(low, high, count % 2 == 1);
+    });
+}
+
+/// Says why an operand bounds no solid, by the edges at which its triangles do not cancel out.
+Error not_closed(const Arrangement& exact, const IndexLists<Step>& steps, std::uint32_t operand,
+                 const std::string& name) {
+    std::size_t open = 0, turned = 0;
+    std::optional<Point3> first_open, first_turned;
+    for_unbalanced(exact, steps, operand, [&](std::uint32_t low, std::uint32_t high, bool is_open) {
         const Point3 place = std::min(exact.nearest(VertexId(low)), exact.nearest(VertexId(high)));
-        const bool is_open = count % 2 == 1;
         ++(is_open ? open : turned);
         auto& first = is_open ? first_open : first_turned;
         first = first ? std::min(*first, place) : place;
@@ -116,11 +132,16 @@ public:
 private:
     void reach() {
         std::vector<std::uint32_t> keys, triangles;
-        for (std::uint32_t t = 0; t < steps_.size(); ++t)
-            for (const std::uint32_t volume : volumes_.of_sides[t]) {
+        std::array<std::uint32_t, 2> last{}; // neighbouring triangles mostly follow each other
+        for (std::uint32_t t = 0; t < steps_.size(); ++t) {
+            const auto& sides = volumes_.of_sides[t];
+            if (volumes_.dangles(t) || sides == last) continue;
+            last = sides;
+            for (const std::uint32_t volume : sides) {
                 keys.push_back(volume);
                 triangles.push_back(t);
             }
+        }
         const auto around = lists_by_key<std::uint32_t>(
             known_.size(), keys, [&](std::size_t i) { return triangles[i]; });
         std::vector<std::uint32_t> open{0};
@@ -163,6 +184,13 @@ Result<Windings> find_windings(const Arrangement& exact, const Volumes& volumes,
     if (const std::uint32_t k = spreading.inconsistent(); k != no_index)
         return not_closed(exact, steps, k, operands.names[k]);
     return std::move(spreading).found();
+}
+
+bool is_open(const Arrangement& exact, const Operands& operands, std::uint32_t operand) {
+    bool found = false;
+    for_unbalanced(exact, steps_of(exact, operands), operand,
+                   [&](std::uint32_t, std::uint32_t, bool is_open) { found = found || is_open; });
+    return found;
 }
 
 } // namespace terrane

@@ -52,4 +52,7 @@ private:
 Result<Windings> find_windings(const Arrangement& exact, const Volumes& volumes,
                                const Operands& operands);
 
+/// Whether an operand ends somewhere: an odd number of its triangles meet at an edge. Cost: linear.
+bool is_open(const Arrangement& exact, const Operands& operands, std::uint32_t operand);
+
 } // namespace terrane

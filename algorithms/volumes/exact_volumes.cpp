@@ -51,6 +51,13 @@ std::vector<TwofoldVector> relative_to(const Point3& origin, const TriangleCompl
     return vectors;
 }
 
+/// Returns six times the volume between a triangle and the plane z = 0, below which it counts negative. Over a closed
+/// boundary these add up to the determinants, of which each costs three times as much.
+DoubleDouble six_volumes_below(const TwofoldVector& a, const TwofoldVector& b,
+                               const TwofoldVector& c) {
+    return ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) * (a.z + b.z + c.z);
+}
+
 std::vector<DoubleDouble> quick_sums(const TriangleComplex& sheets, VolumeSides of_sides,
                                      std::size_t count) {
     std::vector<DoubleDouble> sums(count);
@@ -59,13 +66,14 @@ std::vector<DoubleDouble> quick_sums(const TriangleComplex& sheets, VolumeSides 
     const auto at = relative_to(sheets.points.input(first.v[0]), sheets);
     for (std::size_t t = 0; t < sheets.triangles.size(); ++t) {
         const Triangle& corners = sheets.triangles[t];
-        std::optional<DoubleDouble> determinant; // computed when first needed
+        std::optional<DoubleDouble> part; // computed when first needed
         for_sides(of_sides[t], [&](std::uint32_t volume, int sign) {
-            if (!determinant)
-                determinant = dot(cross(at[corners[0]], at[corners[1]]), at[corners[2]]);
-            sums[volume] = sign > 0 ? sums[volume] + *determinant : sums[volume] - *determinant;
+            if (volume == 0) return;
+            if (!part) part = six_volumes_below(at[corners[0]], at[corners[1]], at[corners[2]]);
+            sums[volume] = sign > 0 ? sums[volume] + *part : sums[volume] - *part;
         });
     }
+    for (std::size_t v = 1; v < count; ++v) sums[0] = sums[0] + sums[v];
     return sums;
 }
 

@@ -11,6 +11,7 @@
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/volumes/complex.hpp>
+#include <terrane/algorithms/volumes/volumes.hpp>
 
 namespace terrane::volumes {
 
@@ -25,6 +26,14 @@ std::vector<double> measure_volumes(const TriangleComplex& sheets, VolumeSides o
 /// The same of the triangles of an arrangement, whose volumes the caller numbered.
 std::vector<double> measure_volumes(const Arrangement& arrangement, VolumeSides of_sides,
                                     std::size_t count);
+
+/// Returns the planes of the triangles of an arrangement: those of their first parents, which are wound like them.
+std::vector<Triangle> planes_of(const Arrangement& arrangement);
+
+/// Finds volumes as find_volumes() does, without their measures, which are all 0.
+Result<Volumes> find_unmeasured(const Arrangement& arrangement, const Run& run);
+/// The same of a conforming mesh of doubles, but numbered by their first triangles.
+Result<Volumes> find_sides(const Mesh& mesh, const Run& run);
 
 /// Returns, for each volume, six times the part of its exact measure that these triangles
 /// contribute, as text; all vertices are input points.

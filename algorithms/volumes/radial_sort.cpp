@@ -74,10 +74,11 @@ void join_round_edges(const TriangleComplex& sheets, DisjointSets& sides) {
     const UpwardRounding guard;
     std::vector<Side> round;
     sheets.edges.for_each([&](std::uint32_t low, std::uint32_t, std::span<const Side> at_edge) {
+        const auto join = [&](std::uint32_t a, std::uint32_t b) { sides.join(a, b); };
+        if (at_edge.size() < 3) return join_round_edge(sheets, low, at_edge, join);
         round.assign(at_edge.begin(), at_edge.end());
         sort_round_edge(guard, sheets, low, round);
-        join_round_edge(sheets, low, round,
-                        [&](std::uint32_t a, std::uint32_t b) { sides.join(a, b); });
+        join_round_edge(sheets, low, round, join);
     });
 }
 

@@ -369,17 +369,18 @@ private:
     /// Lists the triangles of each group; group_of[c] is that of a component, or no_index.
     [[nodiscard]] IndexLists<std::uint32_t>
     gathered(const std::vector<std::uint32_t>& group_of) const {
-        std::vector<std::uint32_t> triangles;
-        for (std::uint32_t t = 0; t < count(); ++t)
-            if (group_of[component_of_[t]] != no_index) triangles.push_back(t);
-        const auto group = [&](std::uint32_t t) { return group_of[component_of_[t]]; };
-        std::ranges::stable_sort(triangles, {}, group);
-        IndexLists<std::uint32_t> lists;
-        for (std::size_t i = 0; i < triangles.size(); ++i) {
-            if (i > 0 && group(triangles[i]) != group(triangles[i - 1])) lists.close();
-            lists.values.push_back(triangles[i]);
+        std::vector<std::uint32_t> triangles, groups;
+        for (std::uint32_t t = 0; t < count(); ++t) {
+            const std::uint32_t group = group_of[component_of_[t]];
+            if (group == no_index) continue;
+            triangles.push_back(t);
+            groups.push_back(group);
         }
-        if (!triangles.empty()) lists.close();
+        const auto all = lists_by_key<std::uint32_t>(through_.size(), groups,
+                                                     [&](std::size_t i) { return triangles[i]; });
+        IndexLists<std::uint32_t> lists;
+        for (std::size_t g = 0; g < all.size(); ++g)
+            if (!all[g].empty()) lists.push_back(all[g]);
         return lists;
     }
     [[nodiscard]] IndexLists<std::uint32_t> unsettled(DisjointSets& groups,

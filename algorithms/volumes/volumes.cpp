@@ -2,7 +2,6 @@
 #include <terrane/algorithms/volumes/volumes.hpp>
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -26,18 +25,6 @@ using namespace volumes;
 
 namespace {
 
-/// Returns the rank of each vertex in the lexicographic order.
-std::vector<std::uint32_t> lexicographic_ranks(const TriangleComplex& sheets) {
-    std::vector<std::uint32_t> order(sheets.vertices.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t v, std::uint32_t w) {
-        return sheets.points.compare(sheets.vertices[v], sheets.vertices[w]) < 0;
-    });
-    std::vector<std::uint32_t> rank(order.size());
-    for (std::uint32_t r = 0; r < order.size(); ++r) rank[order[r]] = r;
-    return rank;
-}
-
 /// A side of a triangle: the ranks of its corners, ascending, and whether they are counterclockwise
 /// in that order seen from this side.
 using SideKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, bool>;
@@ -57,14 +44,13 @@ class Numbering {
 public:
     Numbering(const TriangleComplex& sheets, DisjointSets& sides) :
         sheets_(sheets), sides_(sides),
-        outside_(2 * static_cast<std::uint32_t>(sheets.triangles.size())),
-        rank_(lexicographic_ranks(sheets)) {}
+        outside_(2 * static_cast<std::uint32_t>(sheets.triangles.size())) {}
 
     Volumes operator()() {
         find_least_vertices();
         gather_boundaries_of_tied();
         std::sort(blocks_.begin(), blocks_.end(), [this](std::uint32_t a, std::uint32_t b) {
-            if (least_[a] != least_[b]) return least_[a] < least_[b];
+            if (least_[a] != least_[b]) return before(least_[a], least_[b]);
             return a != b && tied_[slot_[a]] < tied_[slot_[b]];
         });
         return numbered();
@@ -81,6 +67,13 @@ private:
         }
     };
 
+    /// Whether a vertex comes before another one in the lexicographic order.
+    [[nodiscard]] bool before(std::uint32_t v, std::uint32_t w) const {
+        const PointIndex p = sheets_.vertices[v], q = sheets_.vertices[w];
+        // Rounding to nearest keeps the order: doubles that differ decide.
+        const double x = sheets_.points.nearest(p).x, other_x = sheets_.points.nearest(q).x;
+        return x != other_x ? x < other_x : sheets_.points.compare(p, q) < 0;
+    }
     [[nodiscard]] Triangle ranks_of(std::uint32_t triangle) const {
         const auto [a, b, c] = sheets_.triangles[triangle];
         return {rank_[a], rank_[b], rank_[c]};
@@ -93,9 +86,23 @@ private:
             const std::uint32_t set = sides_.find(s);
             if (set == outside) continue;
             if (least_[set] == no_index) blocks_.push_back(set);
-            const Triangle r = ranks_of(s / 2);
-            least_[set] = std::min({least_[set], r[0], r[1], r[2]});
+            for (const std::uint32_t v : sheets_.triangles[s / 2])
+                if (least_[set] == no_index || (v != least_[set] && before(v, least_[set])))
+                    least_[set] = v;
         }
+    }
+
+    /// Ranks the vertices of blocks that share their least one with others.
+    void rank_vertices_of_tied() {
+        std::vector<std::uint32_t> order;
+        for (std::uint32_t s = 0; s < outside_; ++s)
+            if (slot_[sides_.find(s)] != no_index)
+                for (const std::uint32_t v : sheets_.triangles[s / 2]) order.push_back(v);
+        sort_unique(order);
+        std::sort(order.begin(), order.end(),
+                  [&](std::uint32_t v, std::uint32_t w) { return before(v, w); });
+        rank_.assign(sheets_.vertices.size(), no_index);
+        for (std::uint32_t r = 0; r < order.size(); ++r) rank_[order[r]] = r;
     }
 
     void gather_boundaries_of_tied() {
@@ -108,7 +115,9 @@ private:
             slot_[b] = static_cast<std::uint32_t>(tied_.size());
             tied_.emplace_back();
         }
-        for (std::uint32_t s = 0; !tied_.empty() && s < outside_; ++s) {
+        if (tied_.empty()) return;
+        rank_vertices_of_tied();
+        for (std::uint32_t s = 0; s < outside_; ++s) {
             const std::uint32_t slot = slot_[sides_.find(s)];
             if (slot == no_index) continue;
             const Triangle r = ranks_of(s / 2);
@@ -137,9 +146,9 @@ private:
 
     const TriangleComplex& sheets_;
     DisjointSets& sides_;
-    const std::uint32_t outside_; ///< its element of sides_
-    std::vector<std::uint32_t> rank_;
-    std::vector<std::uint32_t> least_;  ///< per set: the rank of its least vertex
+    const std::uint32_t outside_;       ///< its element of sides_
+    std::vector<std::uint32_t> rank_;   ///< per vertex of tied blocks: its place in their order
+    std::vector<std::uint32_t> least_;  ///< per set: its least vertex
     std::vector<std::uint32_t> blocks_; ///< the sets that are blocks
     std::vector<std::uint32_t> slot_;   ///< per set: index into tied_, or none
     std::vector<Boundary> tied_;
@@ -149,7 +158,32 @@ Error interrupted() {
     return {ErrorCode::interrupted, "stopped on request", ""};
 }
 
-Result<Volumes> find(const TriangleComplex& sheets, const Run& run) {
+/// What is wanted of volumes: their sides, with numbers by position, with measures.
+enum class Wanted : std::uint8_t { sides, numbers, measures };
+
+/// Numbers volumes by their first triangles.
+Volumes numbered_by_triangles(const TriangleComplex& sheets, DisjointSets& sides) {
+    const auto outside = 2 * static_cast<std::uint32_t>(sheets.triangles.size());
+    const auto& set_of = sides.flattened();
+    std::vector<std::uint32_t> number(outside + std::size_t{1}, no_index);
+    number[set_of[outside]] = 0;
+    Volumes volumes;
+    volumes.of_sides.reserve(sheets.triangles.size());
+    std::uint32_t count = 1;
+    const auto number_of = [&](std::uint32_t side) {
+        auto& own = number[set_of[side]];
+        return own = own == no_index ? count++ : own;
+    };
+    for (std::uint32_t t = 0; t < sheets.triangles.size(); ++t) {
+        const std::uint32_t front = number_of(front_of(t));
+        volumes.of_sides.push_back({front, number_of(back_of(t))});
+    }
+    volumes.measures.assign(count, 0);
+    return volumes;
+}
+
+/// Finds volumes; their measures are 0 unless wanted.
+Result<Volumes> find(const TriangleComplex& sheets, Wanted wanted, const Run& run) {
     const auto report = [&](double share) {
         if (run.progress) run.progress("volumes", share);
         return !run.stop.stop_requested();
@@ -163,11 +197,14 @@ Result<Volumes> find(const TriangleComplex& sheets, const Run& run) {
     join_nested(sheets, sides);
     if (!report(0.5)) return interrupted();
     step.next("numbers");
-    Volumes volumes = Numbering(sheets, sides)();
+    Volumes volumes =
+        wanted == Wanted::sides ? numbered_by_triangles(sheets, sides) : Numbering(sheets, sides)();
     if (!report(0.7)) return interrupted();
-    step.next("measures");
-    volumes.measures = measure_volumes(sheets, volumes.of_sides, volumes.measures.size());
-    volumes.total = std::exchange(volumes.measures[0], Volumes().measures[0]);
+    if (wanted == Wanted::measures) {
+        step.next("measures");
+        volumes.measures = measure_volumes(sheets, volumes.of_sides, volumes.measures.size());
+        volumes.total = std::exchange(volumes.measures[0], Volumes().measures[0]);
+    }
     step.stop();
     TERRANE_ASSERT(volumes.of_sides.size() == sheets.triangles.size());
     TERRANE_ASSERT_PARANOID(corners_below(volumes.of_sides, volumes.measures.size()));
@@ -178,9 +215,33 @@ Result<Volumes> find(const TriangleComplex& sheets, const Run& run) {
     return volumes;
 }
 
-/// Returns the planes of the triangles of an arrangement: those of their first parents, which are
-/// wound like them.
-std::vector<Triangle> planes_of(const Arrangement& a) {
+/// Takes the sum of all blocks out of the place of the outside.
+ExactVolumes with_total(std::vector<std::string> measures) {
+    std::string total = std::exchange(measures[0], {});
+    return {std::move(measures), std::move(total)};
+}
+
+Result<Volumes> find_in(const Arrangement& a, Wanted wanted, const Run& run) {
+    return guarded("for the volumes", "volumes", [&]() -> Result<Volumes> {
+        detail::announce_work("find exact volumes", {}, a.triangles);
+        const auto planes = planes_of(a);
+        const auto edges = group_edges(a.triangles, a.vertices.size(), run);
+        return find({a.state->points, a.vertices, a.triangles, edges, planes, &a.parents_of},
+                    wanted, run);
+    });
+}
+
+Result<Volumes> find_in(const Mesh& mesh, Wanted wanted, const Run& run) {
+    return guarded("for the volumes", "volumes", [&]() -> Result<Volumes> {
+        if (auto valid = validate(mesh.vertices, mesh.triangles, run); !valid) return valid.error();
+        detail::announce_work("find volumes", mesh.vertices, mesh.triangles);
+        return find(MeshSheets(mesh.vertices, mesh.triangles, run).view(), wanted, run);
+    });
+}
+
+} // namespace
+
+std::vector<Triangle> volumes::planes_of(const Arrangement& a) {
     std::vector<Triangle> planes;
     planes.reserve(a.triangles.size());
     for (std::size_t t = 0; t < a.triangles.size(); ++t)
@@ -188,35 +249,26 @@ std::vector<Triangle> planes_of(const Arrangement& a) {
     return planes;
 }
 
-/// Takes the sum of all blocks out of the place of the outside.
-ExactVolumes with_total(std::vector<std::string> measures) {
-    std::string total = std::exchange(measures[0], {});
-    return {std::move(measures), std::move(total)};
-}
-
-} // namespace
-
 Result<Volumes> find_volumes(const Arrangement& a, const Run& run) {
-    return guarded("for the volumes", "volumes", [&]() -> Result<Volumes> {
-        detail::announce_work("find exact volumes", {}, a.triangles);
-        const auto planes = planes_of(a);
-        const auto edges = group_edges(a.triangles, a.vertices.size(), run);
-        return find({a.state->points, a.vertices, a.triangles, edges, planes, &a.parents_of}, run);
-    });
+    return find_in(a, Wanted::measures, run);
 }
 
 Result<Volumes> find_volumes(const Mesh& mesh, const Run& run) {
-    return guarded("for the volumes", "volumes", [&]() -> Result<Volumes> {
-        if (auto valid = validate(mesh.vertices, mesh.triangles, run); !valid) return valid.error();
-        detail::announce_work("find volumes", mesh.vertices, mesh.triangles);
-        return find(MeshSheets(mesh.vertices, mesh.triangles, run).view(), run);
-    });
+    return find_in(mesh, Wanted::measures, run);
+}
+
+Result<Volumes> volumes::find_unmeasured(const Arrangement& a, const Run& run) {
+    return find_in(a, Wanted::numbers, run);
+}
+
+Result<Volumes> volumes::find_sides(const Mesh& mesh, const Run& run) {
+    return find_in(mesh, Wanted::sides, run);
 }
 
 std::vector<double> volumes::measure_volumes(const Arrangement& a, VolumeSides of_sides,
                                              std::size_t count) {
     const auto planes = planes_of(a);
-    const auto edges = group_edges(a.triangles, a.vertices.size());
+    const EdgeSides edges; // measures need none
     return measure_volumes({a.state->points, a.vertices, a.triangles, edges, planes, &a.parents_of},
                            of_sides, count);
 }
@@ -224,7 +276,7 @@ std::vector<double> volumes::measure_volumes(const Arrangement& a, VolumeSides o
 ExactVolumes exact_volumes(const Arrangement& a, const Volumes& volumes, int base) {
     const StandardArithmetic guard;
     const auto planes = planes_of(a);
-    const auto edges = group_edges(a.triangles, a.vertices.size());
+    const EdgeSides edges; // measures need none
     return with_total(
         exact_measures({a.state->points, a.vertices, a.triangles, edges, planes, &a.parents_of},
                        volumes.of_sides, volumes.measures.size(), base));

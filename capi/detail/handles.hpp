@@ -26,6 +26,7 @@
 #include <terrane/algorithms/reconstruction/fill.hpp>
 #include <terrane/algorithms/regions/regions.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
+#include <terrane/algorithms/selection/selection.hpp>
 #include <terrane/algorithms/simplification/simplify.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
@@ -39,6 +40,7 @@
 #include <terrane/capi/project.h>
 #include <terrane/capi/reconstruction.h>
 #include <terrane/capi/sealing.h>
+#include <terrane/capi/selection.h>
 #include <terrane/capi/structure.h>
 #include <terrane/capi/surfaces.h>
 #include <terrane/capi/tetrahedra.h>
@@ -70,6 +72,7 @@ enum class Kind : std::uint64_t {
     simplified,
     error,
     mesh_judgement,
+    selected,
 };
 
 /// The base of handles: their type comes first in memory.
@@ -242,6 +245,14 @@ struct terrane_layered : terrane::capi::detail::Handle<terrane::capi::detail::Ki
     terrane::Layered layered;
     terrane_mesh mesh;
     std::vector<terrane_layer_report> reports{};
+};
+
+struct terrane_selected : terrane::capi::detail::Handle<terrane::capi::detail::Kind::selected> {
+    explicit terrane_selected(terrane::Selected made);
+
+    terrane::Selected selected;
+    terrane_mesh mesh;
+    std::vector<terrane_selected_piece> pieces{};
 };
 
 struct terrane_tetrahedra : terrane::capi::detail::Handle<terrane::capi::detail::Kind::tetrahedra> {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -24,20 +26,26 @@ struct SelectCommand {
     FileOptions files;
     std::string expression;
     std::string rule = "nonzero";
+    bool splits = false; ///< whether each piece has a file of its own
     SelectOptions settings;
 };
 
 constexpr auto select_footer =
-    R"(Operands are closed surfaces by their names in the files; a name with other characters than letters,
+    R"text(Operands are closed surfaces by their names in the files; a name with other characters than letters,
 digits, _ and . stands in double quotes. Operators as in Python, from the strongest: ~ complement,
 - difference, & intersection, ^ symmetric difference, | union. Surfaces may cross themselves and each other,
 touch and overlap. Triangles face outwards. The boundary is written only if its doubles are conforming, by an
 exact check; if they are not, or the region is empty, the exit status is 1.
 
+A surface that is not closed has sides: below(S) and above(S), west(S) and east(S), south(S) and north(S). A
+part of it is selected by functions: "fault & below(top)", "horizon & inside(body)". hull(S) is all that S keeps
+from infinity, whether or not S is closed.
+
 Examples:
   terrane select "(a | b) - c" a.stl b.stl c.stl -o region.obj
   terrane select "reservoir - salt" model.ts -o rest.vtp --fractions
-  terrane select "scan" scan.ply -o outside.ply --rule positive)";
+  terrane select "salt & below(topography)" salt.ts topography.ts -o salt_below.ts
+  terrane select "hull(scan)" scan.ply -o outside.ply)text";
 
 std::string volume_text(double volume, const std::string& exact, const Quantities& quantities) {
     return "volume " + quantities.volume(volume) + (exact.empty() ? "" : ", exactly " + exact);
@@ -45,7 +53,12 @@ std::string volume_text(double volume, const std::string& exact, const Quantitie
 
 std::string region_text(const Selected& made, const Quantities& quantities) {
     constexpr std::size_t most_pieces = 20; // printed
-    if (made.pieces.empty()) return "region: empty\n";
+    if (made.is_surface && made.regions > 0)
+        return fmt::format("surface: {}, {}\n", counted(made.mesh.triangles.size(), "triangle"),
+                           counted(made.regions, "region")) +
+               text_of(made.rounding, quantities);
+    if (made.pieces.empty())
+        return made.is_surface ? "surface: nothing of it is left\n" : "region: empty\n";
     const auto triangles =
         [&](std::size_t count) { // there are none if the doubles are not conforming
             return made.rounding.clean ? counted(count, "triangle") + ", " : "";
@@ -87,6 +100,7 @@ void add_region(Json& json, const Selected& made, const SelectCommand& command) 
                               {"cavities", made.cavities},
                               {"pieces", Json::array()}},
                              made.exact_volume);
+    if (made.is_surface) region["regions"] = made.regions;
     for (const SelectedPiece& piece : made.pieces)
         region["pieces"].push_back(with_exact(
             {{"triangles", piece.triangles}, {"volume", piece.volume}}, piece.exact_volume));
@@ -95,9 +109,39 @@ void add_region(Json& json, const Selected& made, const SelectCommand& command) 
     add_constants(json, "round", rounding_constants());
 }
 
+/// Returns the output for a piece: "out-2.obj" for "out.obj".
+Output output_of_piece(const Output& output, std::size_t number) {
+    std::filesystem::path path = output.path;
+    path.replace_filename(path.stem().string() + "-" + std::to_string(number) +
+                          path.extension().string());
+    return {path.string(), output.format};
+}
+
+/// Writes the result, or each piece that doubles hold.
+void write_selected(const Selected& made, const Inputs& inputs, const SelectCommand& command,
+                    const std::vector<Output>& outputs, Session& session) {
+    const auto write = [&](const Mesh& mesh, const Output& output) {
+        const auto values =
+            carry_values({.given = inputs.surfaces, .parents = inputs.surfaces}, mesh);
+        write_output(mesh, output, {.ascii = command.files.ascii, .values = values}, session);
+        tell_when_written(summary_stream(command.files), wrote(output));
+    };
+    for (const Output& output : outputs) {
+        if (!command.splits || made.is_surface) {
+            write(made.mesh, output);
+            continue;
+        }
+        for (std::uint32_t p = 0; p < made.pieces.size(); ++p)
+            if (made.pieces[p].triangles > 0)
+                write(made.piece(p), output_of_piece(output, p + std::size_t{1}));
+    }
+}
+
 ExitStatus select_files(SelectCommand& command, const CLI::App& app, Session& session) {
     const FileOptions& files = command.files;
     const auto outputs = plan_outputs(files, OutputKind::surfaces);
+    if (command.splits && std::ranges::count(outputs, "-", &Output::path) > 0)
+        refuse("takes the name of a file: each piece has one of its own", "--split");
     command.settings.rule = *inside_rule_named(command.rule);
     const auto inputs = read_inputs(files, session);
     Json statistics = statistics_of(inputs);
@@ -114,13 +158,7 @@ ExitStatus select_files(SelectCommand& command, const CLI::App& app, Session& se
     const bool writes = made.rounding.clean && !made.mesh.triangles.empty() &&
                         stl_is_conforming(made.mesh, files, outputs, session);
     if (!writes) print(stderr, complaint("nothing written"));
-    const auto values =
-        carry_values({.given = inputs.surfaces, .parents = inputs.surfaces}, made.mesh);
-    for (const Output& output : outputs) {
-        if (!writes) break;
-        write_output(made.mesh, output, {.ascii = files.ascii, .values = values}, session);
-        tell_when_written(told, wrote(output));
-    }
+    if (writes) write_selected(made, inputs, command, outputs, session);
     write_statistics(std::move(statistics), files.stats, session);
     return writes ? ExitStatus::done : ExitStatus::negative;
 }
@@ -139,6 +177,8 @@ Command select_command(CLI::App& program) {
               "Winding numbers of points inside of a surface: nonzero, positive or odd "
               "(default: nonzero)")
         ->check(one_of({"nonzero", "positive", "odd"}));
+    app->add_flag("--split", command->splits,
+                  "Write each piece to a file of its own: OUT-1.obj, OUT-2.obj, ...");
     app->add_flag("--fractions", command->settings.fractions, "Give volumes as fractions, too");
     add_max_move(*app, command->settings.rounding.max_move);
     app->add_flag("--ascii", command->files.ascii, "STL as text, with doubles, not float32");

@@ -34,6 +34,7 @@ py::tuple select_region(const py::sequence& surfaces, const py::str& expression,
         pieces.append(py::make_tuple(piece.volume, piece.exact_volume, piece.triangles));
     const py::dict report("pieces"_a = pieces, "cavities"_a = made.cavities,
                           "volume"_a = made.volume, "exact_volume"_a = made.exact_volume,
+                          "is_surface"_a = made.is_surface, "regions"_a = made.regions,
                           "rounding"_a = to_dict(made.rounding));
     return py::make_tuple(handle_of(SharedMesh(std::move(made.mesh))),
                           owned(std::move(made.piece_of)), report);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Regions of space by expressions over closed surfaces."""
+"""Regions of space, and parts of surfaces, by expressions over surfaces."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class SelectedPiece(NamedTuple):
 
 
 class Selected(OnMesh):
-    """A region of space, by its boundary.
+    """A region of space, by its boundary, or a part of an open surface.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class Selected(OnMesh):
         The boundary; triangles face outwards. Its surfaces and parents are those of the input. It is conforming if
         ``rounding.clean``.
     piece_of : ndarray, shape (m,), uint32
-        Per triangle of the mesh: the index in `pieces` of the piece that it bounds.
+        Per triangle of the mesh: the index in `pieces` of the piece that it bounds; empty for a part of a surface.
     pieces : list of SelectedPiece
     cavities : int
         Bounded parts of space without the region.
@@ -57,6 +57,11 @@ class Selected(OnMesh):
         The exact volume, rounded once; cubic unit of the input.
     exact_volume : Fraction or None
         Itself, with ``fractions=True``.
+    is_surface : bool
+        Whether a part of an open surface is selected, which has no volume and no pieces. Its triangles face as they
+        did.
+    regions : int
+        Regions of that part.
     rounding : RoundingReport
 
     Examples
@@ -66,7 +71,8 @@ class Selected(OnMesh):
     <Selected: volume 14, 2 pieces, 1 cavity, 48 triangles>
     """
 
-    __slots__ = ("mesh", "piece_of", "pieces", "cavities", "volume", "exact_volume", "rounding", "_report")
+    __slots__ = ("mesh", "piece_of", "pieces", "cavities", "volume", "exact_volume", "is_surface", "regions",
+                 "rounding", "_report")
 
     def __init__(self, mesh: Mesh, piece_of: UInt32Array, report: Dict[str, Any]) -> None:
         self._report = report
@@ -76,6 +82,8 @@ class Selected(OnMesh):
         self.cavities = int(report["cavities"])
         self.volume = float(report["volume"])
         self.exact_volume: Optional[Fraction] = _fraction(report["exact_volume"])
+        self.is_surface = bool(report["is_surface"])
+        self.regions = int(report["regions"])
         self.rounding: RoundingReport = rounding_report(report["rounding"])
 
     def save(self, path: Path, format: Optional[str] = None, **options: Any) -> None:
@@ -93,11 +101,15 @@ class Selected(OnMesh):
         return self.mesh, self.piece_of, self._report
 
     def _line(self) -> str:
+        if self.is_surface:
+            return f"surface, {counted(self.regions, 'region')}, {counted(len(self.mesh.triangles), 'triangle')}"
         cavities = "1 cavity" if self.cavities == 1 else f"{self.cavities} cavities"
         return (f"volume {_core.figure(self.volume)}, {counted(len(self.pieces), 'piece')}, {cavities}, "
                 f"{counted(len(self.mesh.triangles), 'triangle')}")
 
     def _numbers(self) -> Dict[str, Any]:
+        if self.is_surface:
+            return {"regions": self.regions, **self.mesh._numbers()}
         return {"volume": _core.figure(self.volume), "pieces": len(self.pieces), "cavities": self.cavities,
                 **self.mesh._numbers()}
 
@@ -108,7 +120,7 @@ def _fraction(text: str) -> Optional[Fraction]:
 
 def select(surfaces: Any, expression: str, *, rule: str = "nonzero", fractions: bool = False,
            max_move: Optional[float] = None, threads: Optional[int] = None, progress: Any = None) -> Selected:
-    """Select a region of space by an expression over closed surfaces, such as ``"(a | b) - c"``.
+    """Select a region of space by an expression over surfaces, such as ``"(a | b) - c"``, or a part of a surface.
 
     Parameters
     ----------
@@ -117,7 +129,10 @@ def select(surfaces: Any, expression: str, *, rule: str = "nonzero", fractions: 
     expression : str
         Operators as in Python: ``a | b`` (union), ``a & b`` (intersection), ``a - b`` (difference), ``a ^ b``
         (symmetric difference), ``~a`` (complement), and brackets. Names with other characters than letters, digits,
-        ``_`` and ``.`` stand in double quotes.
+        ``_`` and ``.`` stand in double quotes. A surface ``s`` that is not closed has sides: ``below(s)`` and
+        ``above(s)``, ``west(s)`` and ``east(s)``, ``south(s)`` and ``north(s)``; ``hull(s)`` is all that it keeps from
+        infinity. One name that stands alone, beside functions, may be an open surface, of which a part is selected:
+        ``"fault & below(top)"``, ``"horizon & inside(body)"``.
     rule : {"nonzero", "positive", "odd"}, optional
         The winding numbers of points that are inside of a surface.
     fractions : bool, optional
@@ -129,7 +144,8 @@ def select(surfaces: Any, expression: str, *, rule: str = "nonzero", fractions: 
     ------
     terrane.Error
         ``bad_option`` for an expression with a mistake, with its column, for a name of no surface, and if the region
-        has no end; ``not_closed`` for a surface that bounds no solid, with the place; those of `arrange` and `round`.
+        has no end; ``not_closed`` for a surface that bounds no solid, or does not divide what it is to divide, with the
+        place; those of `arrange` and `round`.
 
     Notes
     -----

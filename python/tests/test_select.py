@@ -78,6 +78,20 @@ def test_mistakes(expression, code, why):
     assert raised.value.code == code
 
 
+def test_sides_of_open_surfaces():
+    plane = terrane.Surface([(-9, -9, 1), (9, -9, 1), (9, 9, 1), (-9, 9, 1)], [(0, 1, 2), (0, 2, 3)], "plane")
+    made = terrane.select([A, plane], "a & below(plane)", fractions=True)
+    assert made.exact_volume == 4 and not made.is_surface
+    part = terrane.select([A, plane], "plane & inside(a)")
+    assert part.is_surface and part.regions == 1 and len(part.pieces) == 0 and len(part.piece_of) == 0
+    assert repr(part).startswith("<Selected: surface, 1 region, ") and pickle.loads(pickle.dumps(part)) == part
+    p, q, r = np.asarray(part.mesh.vertices)[np.asarray(part.mesh.triangles).T]
+    assert np.cross(q - p, r - p).sum(axis=0) / 2 == pytest.approx((0, 0, 4))
+    with pytest.raises(terrane.Error, match="not closed along 4 edges") as raised:
+        terrane.select([A, plane], "a & plane")
+    assert raised.value.code == "not_closed"
+
+
 def test_names_that_are_no_utf8():
     name = os.fsdecode(b"a\xff")
     assert terrane.select([A.replace(name=name)], f'"{name}"').volume == 8

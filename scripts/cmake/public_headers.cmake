@@ -22,6 +22,7 @@ set(terrane_c_headers
     capi/project.h
     capi/reconstruction.h
     capi/sealing.h
+    capi/selection.h
     capi/structure.h
     capi/surfaces.h
     capi/tetrahedra.h

@@ -170,6 +170,7 @@ class Library:
                                                h("terrane_mesh"), None, None, None),
             "terrane_holes": lambda: self.make("terrane_find_holes", self.holed, ctypes.addressof(self.task), 1, None),
             "terrane_layered": lambda: self.make("terrane_stack_layers", self.boxed, ctypes.addressof(layers), 2, None, None),
+            "terrane_selected": lambda: self.make("terrane_select", self.boxed, self.text("top & above(base)"), None, None),
             "terrane_tetrahedra": lambda: self.make("terrane_tetrahedralize", h("terrane_model"), None, None),
             "terrane_verdict": lambda: self.make_verdict(),
             "terrane_mesh_judgement": lambda: self.make("terrane_judge", self.boxed, self.boxed, None, None),

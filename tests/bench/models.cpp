@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "models.hpp"
 
+#include <array>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <terrane/algorithms/arrangement/soup.hpp>
@@ -17,6 +20,37 @@ namespace {
 
 using namespace terrane;
 using Surfaces = std::vector<Surface>;
+
+/// Returns a ball of radius 100 that faces outwards, of 8 n^2 triangles: a divided octahedron.
+Surface ball(const Point3& centre, int n, std::string name) {
+    Surface s{std::move(name), Role::boundary, {}, {}};
+    std::map<std::array<int, 3>, std::uint32_t> numbers;
+    const auto vertex = [&](const std::array<int, 3>& p) {
+        const auto [at, is_new] =
+            numbers.try_emplace(p, static_cast<std::uint32_t>(s.vertices.size()));
+        const double scale = 100 / std::hypot(p[0], p[1], p[2]);
+        if (is_new)
+            s.vertices.push_back(
+                {centre.x + scale * p[0], centre.y + scale * p[1], centre.z + scale * p[2]});
+        return at->second;
+    };
+    for (unsigned octant = 0; octant < 8; ++octant) {
+        const auto sign = [&](unsigned axis) { return (octant >> axis & 1U) != 0 ? -1 : 1; };
+        const auto at = [&](int i, int j) {
+            return vertex({sign(0) * i, sign(1) * j, sign(2) * (n - i - j)});
+        };
+        const bool turns = sign(0) * sign(1) * sign(2) < 0;
+        const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+            s.triangles.push_back(turns ? Triangle{a, c, b} : Triangle{a, b, c});
+        };
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; i + j < n; ++j) {
+                add(at(i, j), at(i + 1, j), at(i, j + 1));
+                if (i + j + 1 < n) add(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+            }
+    }
+    return s;
+}
 
 const std::map<std::string, std::function<Surfaces()>>& makers() {
     using namespace models;
@@ -33,6 +67,10 @@ const std::map<std::string, std::function<Surfaces()>>& makers() {
         {"nonuniform2", nonuniform_2},
         {"rectangles_100", [] { return random_squares(rectangles_100); }},
         {"rectangles_1000", [] { return random_squares(rectangles_1000); }},
+        {"balls_160k",
+         [] {
+             return Surfaces{ball({0, 0, 0}, 100, "a"), ball({61, 31, 17}, 100, "b")};
+         }},
     };
     return all;
 }

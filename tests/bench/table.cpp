@@ -18,6 +18,7 @@
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/search/search.hpp>
+#include <terrane/algorithms/selection/selection.hpp>
 
 #include "floor.hpp"
 #include "models.hpp"
@@ -173,6 +174,29 @@ void print_search(const char* name, const Options& options) {
     std::fflush(stdout);
 }
 
+/// Compares the Booleans of two balls with arranging and rounding them.
+void print_selections(const Options& options) {
+    const Model& m = model("balls_160k");
+    const std::array expressions{"a | b", "a - b", "a & b"};
+    Measured arranged;
+    std::array<Series, 3> series;
+    std::array<std::size_t, 3> triangles{};
+    for (unsigned i = 0; i < options.repeats; ++i) {
+        time_ours(m, arranged);
+        for (std::size_t k = 0; k < series.size(); ++k) {
+            std::optional<Result<Selected>> made;
+            series[k].time([&] { made.emplace(select(m.surfaces, expressions[k])); });
+            triangles[k] = made->value().mesh.triangles.size();
+        }
+    }
+    std::printf("\n%-16s %9s %9s %9s  %s\n", "selection", "out", "ours", "arrange", "ours/arrange");
+    for (std::size_t k = 0; k < series.size(); ++k)
+        std::printf("%-16s %9zu %9.4f %9.4f  %s\n", expressions[k], triangles[k],
+                    series[k].median(), arranged.ours(),
+                    ratio(series[k].median(), arranged.ours(), 4.0 / 3).c_str());
+    std::fflush(stdout);
+}
+
 Options parse(int argc, char** argv) {
     Options o;
     for (int i = 1; i < argc; ++i) {
@@ -230,6 +254,7 @@ int run(const Options& options) {
                 "ours/floor", "CGAL/ours (at least)");
     for (const Row& row : rows)
         if (is_pair(row) && options.wants(row)) print_search(row.name, options);
+    if (options.names.empty()) print_selections(options);
     return 0;
 }
 

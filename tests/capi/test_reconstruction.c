@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Holes, fillings and stacks of layers.
+// Holes, fillings, stacks of layers and selections.
 #include "support.h"
 
 #include <math.h>
@@ -117,7 +117,60 @@ static void test_layers(void) {
     terrane_surfaces_free(s);
 }
 
+static void add_cube(terrane_surfaces* s, const char* name, double low, double high) {
+    static const uint32_t faces[] = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                     2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+    double corners[24];
+    for (unsigned k = 0; k < 24; ++k) corners[k] = (k / 3) >> (k % 3) & 1U ? high : low;
+    WORKS(terrane_surfaces_add(s, name, TERRANE_ROLE_BOUNDARY, corners, 8, faces, 12, &error));
+}
+
+static void test_selections(void) {
+    terrane_surfaces* s = NULL;
+    WORKS(terrane_surfaces_new(&s, &error));
+    add_cube(s, "a", 0, 2);
+    add_cube(s, "b", 1, 4);
+    const double plane[] = {-9, -9, 1, 9, -9, 1, 9, 9, 1, -9, 9, 1};
+    const uint32_t square[] = {0, 1, 2, 0, 2, 3};
+    WORKS(terrane_surfaces_add(s, "t", TERRANE_ROLE_HORIZON, plane, 4, square, 2, &error));
+    terrane_selected* made = NULL;
+    terrane_select_options options;
+    CHECK(terrane_select_options_init(&options, sizeof options) == TERRANE_OK);
+    options.fractions = 1;
+    WORKS(terrane_select(s, "a ^ b", &options, NULL, &made, &error));
+    size_t n = 0, triangles = 0;
+    const terrane_selected_piece* const pieces = terrane_selected_pieces(made, &n);
+    CHECK(n == 2 && pieces[0].volume == 7 && pieces[1].volume == 26);
+    const uint32_t* const piece_of = terrane_selected_piece_of(made, &n);
+    for (size_t i = 0; i < n; ++i) triangles += piece_of[i] == 1;
+    CHECK(triangles == pieces[1].triangles && triangles < n);
+    size_t corners = 0;
+    CHECK(terrane_mesh_triangles(terrane_selected_mesh(made), &corners) != NULL && corners == n);
+    CHECK(terrane_selected_cavities(made) == 1 && terrane_selected_volume(made) == 33);
+    CHECK(same_text(terrane_selected_exact_volume(made, TERRANE_NONE), "33"));
+    CHECK(same_text(terrane_selected_exact_volume(made, 0), "7"));
+    CHECK(terrane_selected_exact_volume(made, 2) == NULL);
+    CHECK(terrane_selected_is_surface(made) == 0);
+    terrane_selected_free(made);
+    WORKS(terrane_select(s, "t & inside(a)", NULL, NULL, &made, &error));
+    CHECK(terrane_selected_is_surface(made) == 1 && terrane_selected_volume(made) == 0);
+    CHECK(terrane_selected_pieces(made, &n) != NULL || n == 0);
+    CHECK(same_text(terrane_selected_exact_volume(made, TERRANE_NONE), ""));
+    terrane_selected_free(made);
+    options.rule = TERRANE_INSIDE_POSITIVE;
+    WORKS(terrane_select(s, "a & below(t)", &options, NULL, &made, &error));
+    CHECK(same_text(terrane_selected_exact_volume(made, TERRANE_NONE), "4"));
+    terrane_selected_free(made);
+    FAILS(TERRANE_BAD_OPTION, terrane_select(s, "a +", NULL, NULL, &made, &error));
+    FAILS(TERRANE_NOT_CLOSED, terrane_select(s, "a & t", NULL, NULL, &made, &error));
+    options.rule = 7;
+    FAILS(TERRANE_BAD_ARGUMENT, terrane_select(s, "a", &options, NULL, &made, &error));
+    FAILS(TERRANE_BAD_ARGUMENT, terrane_select(s, NULL, NULL, NULL, &made, &error));
+    terrane_surfaces_free(s);
+}
+
 void test_reconstruction(void) {
     test_holes();
     test_layers();
+    test_selections();
 }

@@ -123,6 +123,41 @@ TEST_CASE("cli: select lists pieces, and writes to standard output", "[cli]") {
                              "  piece 2: 12 triangles, volume 8\n"));
 }
 
+TEST_CASE("cli: select divides bodies by open surfaces, and cuts these", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("two.obj", two_boxes());
+    const auto plane =
+        folder.input("plane.obj", polygon("plane", "-9 -9 1, 9 -9 1, 9 9 1, -9 9 1"));
+    const auto both = in + " " + plane;
+    const auto below = folder.run("select 'a & below(plane)' " + both + " -o out.obj --fractions");
+    CHECK(below.status == 0);
+    CHECK(contains(below.out, "volume 4, exactly 4\n"));
+    const auto part =
+        folder.run("select 'plane & inside(a)' " + both + " -o out.obj --stats s.json");
+    CHECK(part.status == 0);
+    CHECK(contains(part.out, "1 region\n"));
+    CHECK(Json::parse(folder.read("s.json"))["region"]["regions"] == 1);
+    const auto none = folder.run("select 'plane & above(plane)' " + both + " -o none.obj");
+    CHECK(none.status == 1);
+    CHECK(contains(none.out, "surface: nothing of it is left\n"));
+    const auto refused = folder.run("select 'a & plane' " + both + " -o none.obj");
+    CHECK(refused.status == 1);
+    CHECK(contains(refused.err, "plane: bounds no solid: it is not closed along "));
+}
+
+TEST_CASE("cli: select --split writes each piece to a file of its own", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("two.obj", two_boxes());
+    const auto r = folder.run("select 'a ^ b' " + in + " -o out.obj --split");
+    CHECK(r.status == 0);
+    CHECK(contains(r.out, "wrote out-1.obj\nwrote out-2.obj\n"));
+    CHECK(volume_in(folder.read("out-1.obj")) == 7);
+    CHECK(volume_in(folder.read("out-2.obj")) == 26);
+    const auto refused = folder.run("select 'a ^ b' " + in + " -o - --output-format obj --split");
+    CHECK(refused.status == 2);
+    CHECK(contains(refused.err, "--split: takes the name of a file"));
+}
+
 TEST_CASE("cli: select takes --rule for what is inside", "[cli]") {
     const Folder folder;
     const auto in = folder.input("shells.obj", box("a", 0, 4) + box("a", 1, 3));

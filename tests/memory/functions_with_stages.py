@@ -34,6 +34,8 @@ WITHIN = {
     "create": "write_model_folder",
     "cut_sections": "to_cut_certificate",
     "delaunay": "connect_points",
+    "find_sides": "select",
+    "find_unmeasured": "select",
     "find_windings": "select",
     "improve_tetrahedra": "fill_blocks",
     "make_tetrahedra": "tetrahedralize",

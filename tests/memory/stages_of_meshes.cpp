@@ -60,6 +60,15 @@ std::vector<Stage> arranging() {
     stages.push_back(stage(
         "select", [solids] { return select(solids, "a - b", {.fractions = true}); },
         [](const Selected& selected) { return text_of(selected.mesh) + selected.exact_volume; }));
+    const std::vector<Surface> divided{solids[0], test_support::level(1, -1, -1, 4, 4, "t"),
+                                       test_support::level(0.5, -1, -1, 4, 4, "s")};
+    stages.push_back(stage(
+        "select, side", [divided] { return select(divided, "a & below(t)"); },
+        [](const Selected& selected) { return text_of(selected.mesh); }));
+    stages.push_back(stage(
+        "select, part of a surface",
+        [divided] { return select(divided, "t & inside(a) & above(s)"); },
+        [](const Selected& selected) { return text_of(selected.mesh); }));
     stages.push_back(stage(
         "to_exact", [&f] { return to_exact(f.arranged.exact); },
         [](const ExactText& exact) { return to_text(exact); }));

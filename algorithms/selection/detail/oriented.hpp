@@ -11,6 +11,7 @@
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/rounding/rounding.hpp>
 
 namespace terrane::selection {
 
@@ -21,6 +22,8 @@ struct SelectedRegion {
         of_sides; ///< per triangle: the piece in front of and behind it, from 1; 0 is not in the region
     std::uint32_t pieces = 0;   ///< their number
     std::uint32_t cavities = 0; ///< bounded parts of space without the region
+    /// Per surface, whether a part of it is selected as an open surface, instead of a region; else empty.
+    std::vector<bool> open{};
 };
 
 /// The triangles of an exact boundary, found by a parent and a place near to theirs.
@@ -40,8 +43,13 @@ public:
                                        const std::array<Point3, 3>& corners) const;
 
 private:
-    std::vector<Facet> facets_; ///< by parent, then by middle
-    std::vector<bool> mixed_;   ///< per input triangle: its facets differ in piece or side
+    struct OfParent {
+        Facet facet{};         ///< the first; without a middle
+        bool is_known = false; ///< whether there is one
+        bool is_mixed = false; ///< whether others differ from it in piece or side
+    };
+    std::vector<OfParent> of_parent_; ///< per input triangle
+    std::vector<Facet> mixed_;        ///< those of mixed parents, by parent, then by middle
 };
 
 /// A rounded boundary whose triangles face outwards.
@@ -54,7 +62,11 @@ struct Oriented {
 /// its triangles than not, by the facets that they come from; so the result is closed, whatever rounding
 /// did. Triangles with the region on both sides, or on none, as a part of it was too thin for doubles,
 /// are left out. Errors: those of find_volumes().
-Result<Oriented> oriented(const Mesh& rounded, const BoundaryFacets& facets, const Run& run);
+Result<Oriented> oriented(const RoundedMesh& rounded, const SelectedRegion& region, const Run& run);
+
+/// Turns the triangles of a rounded part of an open surface as that surface faces, where they are wound as another
+/// surface that they are part of, too.
+void turn_as_open(const SelectedRegion& region, Mesh& rounded);
 
 /// Returns the triangles of a mesh that are kept, with the vertices and intersection edges that they use;
 /// without regions.

@@ -21,18 +21,32 @@ void add_to(Enclosure& box, const Enclosure& other) {
 
 } // namespace
 
-TriangleBoxes::TriangleBoxes(const TriangleComplex& sheets, std::uint32_t count) :
-    boxes_(count), order_(count) {
-    std::iota(order_.begin(), order_.end(), 0U);
-    for (std::uint32_t t = 0; t < count; ++t) {
-        const auto& [a, b, c] = sheets.triangles[t];
-        boxes_[t] = sheets.points.enclosure(sheets.vertices[a]);
-        for (const std::uint32_t corner : {b, c})
-            add_to(boxes_[t], sheets.points.enclosure(sheets.vertices[corner]));
-    }
+bool TriangleBoxes::is_near(std::uint32_t triangle, const AxisLine& line) const {
+    if (!line.known) return true;
+    const auto& [a, b, c] = sheets_.triangles[triangle];
+    // Rounding to nearest keeps the order, so that doubles tell on which side of a double points are.
+    const auto at = [&](std::uint32_t v) -> const Point3& {
+        return sheets_.points.nearest(sheets_.vertices[v]);
+    };
+    const Point3 &p = at(a), &q = at(b), &r = at(c);
+    const auto covers = [&](double Point3::*k, double x) {
+        return !(p.*k > x && q.*k > x && r.*k > x) && !(p.*k < x && q.*k < x && r.*k < x);
+    };
+    constexpr std::array coordinates{&Point3::x, &Point3::y, &Point3::z};
+    return covers(coordinates[(line.axis + 1) % 3], line.u) &&
+           covers(coordinates[(line.axis + 2) % 3], line.v);
 }
 
 void TriangleBoxes::build_tree() {
+    boxes_.reserve(count_);
+    for (std::uint32_t t = 0; t < count_; ++t) {
+        const auto& [a, b, c] = sheets_.triangles[t];
+        boxes_.push_back(sheets_.points.enclosure(sheets_.vertices[a]));
+        for (const std::uint32_t corner : {b, c})
+            add_to(boxes_[t], sheets_.points.enclosure(sheets_.vertices[corner]));
+    }
+    order_.resize(count_);
+    std::iota(order_.begin(), order_.end(), 0U);
     const auto middle = [&](std::uint32_t t) {
         const Enclosure& box = boxes_[t];
         std::array<double, 3> at{};

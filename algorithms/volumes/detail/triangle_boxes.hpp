@@ -20,14 +20,14 @@ struct AxisLine {
 /// Finds the triangles near lines along axes, by a tree of boxes that enclose the exact triangles.
 class TriangleBoxes {
 public:
-    /// Takes the first `count` triangles. Cost: linear.
-    TriangleBoxes(const TriangleComplex& sheets, std::uint32_t count);
+    /// Takes the first `count` triangles of a complex, which must outlive it.
+    TriangleBoxes(const TriangleComplex& sheets, std::uint32_t count) :
+        sheets_(sheets), count_(count) {}
     /// Makes the tree that descend() needs. Cost: O(n log n).
     void build_tree();
 
-    [[nodiscard]] bool is_near(std::uint32_t triangle, const AxisLine& line) const {
-        return is_met(boxes_[triangle], line, HUGE_VAL, -HUGE_VAL);
-    }
+    /// Whether a line may meet a triangle. Needs no tree.
+    [[nodiscard]] bool is_near(std::uint32_t triangle, const AxisLine& line) const;
 
     /// Calls visit(triangle) for the triangles whose boxes the line meets at heights below `top`. It
     /// returns a height, below which no triangle is of interest; boxes that reach high come first.
@@ -70,6 +70,8 @@ private:
                line.v <= box.high[v] && box.low[line.axis] <= top && box.high[line.axis] >= bottom;
     }
 
+    const TriangleComplex& sheets_;
+    std::uint32_t count_;
     std::vector<Enclosure> boxes_;     ///< per triangle
     std::vector<std::uint32_t> order_; ///< triangles in the order of the leaves
     std::vector<Node> nodes_;

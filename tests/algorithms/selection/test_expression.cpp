@@ -17,7 +17,7 @@ std::bitset<16> table_of(const std::string& text) {
     std::bitset<16> table;
     for (unsigned in = 0; in < 16; ++in)
         table[in] = parsed->value([&](std::uint32_t k) {
-            return (in >> static_cast<unsigned>(parsed->operands[k][0] - 'a') & 1U) != 0;
+            return (in >> static_cast<unsigned>(parsed->operands[k].name[0] - 'a') & 1U) != 0;
         });
     return table;
 }
@@ -50,7 +50,17 @@ TEST_CASE("expression: operators bind as in Python") {
 TEST_CASE("expression: names may be quoted and are listed once, in their order") {
     const auto parsed = parse_expression("\"top (2)\" - salt_1.5 | \"top (2)\" & größe");
     REQUIRE(parsed);
-    CHECK(parsed->operands == std::vector<std::string>{"top (2)", "salt_1.5", "größe"});
+    using Operands = std::vector<terrane::Expression::Operand>;
+    CHECK(parsed->operands == Operands{{"top (2)"}, {"salt_1.5"}, {"größe"}});
+    using Kind = terrane::Expression::Kind;
+    const auto functions =
+        parse_expression("a & inside(a | b) | hull( a ) ^ above(a) - west(\"a\") - below(a)");
+    REQUIRE(functions);
+    CHECK(functions->operands == Operands{{"a", Kind::inside},
+                                          {"b", Kind::inside},
+                                          {"a", Kind::enclosed},
+                                          {"a", Kind::low_side, terrane::Axis::z},
+                                          {"a", Kind::low_side, terrane::Axis::x}});
 }
 
 TEST_CASE("expression: flaws are named with their column") {
@@ -62,8 +72,13 @@ TEST_CASE("expression: flaws are named with their column") {
     CHECK(flaw_of("a + b") == "expression, column 3: expected an operator: | ^ & -, not '+'");
     CHECK(flaw_of("a & \"b") == "expression, column 5: this quote has no end");
     CHECK(flaw_of("a & \"\"") == "expression, column 5: a name may not be empty");
-    CHECK(flaw_of("a & near(b)") ==
-          "expression, column 5: there is no function near(); there is inside()");
+    CHECK(
+        flaw_of("a & near(b)") ==
+        "expression, column 5: there is no function near(); there are inside(), hull(), below(), above(), "
+        "west(), east(), south() and north()");
+    CHECK(flaw_of("below(a | b)") ==
+          "expression, column 9: expected ')': below() takes the name of one surface, not '|'");
+    CHECK(flaw_of("hull()") == "expression, column 6: expected a name, '(' or '~', not ')'");
     CHECK(flaw_of(std::string(100000, '(')).find("nested more than 1000 times") !=
           std::string::npos);
     CHECK(flaw_of(std::string(100000, '~')).find("nested more than 1000 times") !=

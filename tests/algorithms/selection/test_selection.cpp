@@ -69,8 +69,8 @@ int compare_points(const std::vector<Surface>& surfaces, const std::string& text
         const auto found = winding_around(made.mesh.vertices, made.mesh.triangles, q);
         if (windings.size() != surfaces.size() || !found) continue;
         const bool expected = expression->value([&](std::uint32_t k) {
-            return is_within(windings[static_cast<std::size_t>(expression->operands[k][0] - 'a')],
-                             rule);
+            return is_within(
+                windings[static_cast<std::size_t>(expression->operands[k].name[0] - 'a')], rule);
         });
         CHECK(*found == (expected ? 1 : 0));
         ++compared;
@@ -244,6 +244,31 @@ TEST_CASE("select: a thousand copies of a surface are the surface") {
         all += " | a" + std::to_string(i);
     }
     CHECK(chosen(copies, all).exact_volume == "15");
+}
+
+TEST_CASE("select: a hull is all that a surface keeps from infinity") {
+    Surface scan = cube(0, 4, "a"); // with a cube inside, faults of facing, and a flap
+    const Surface inner = turned_over(cube(1, 3));
+    for (const Triangle& t : inner.triangles)
+        scan.triangles.push_back({t[0] + 24, t[1] + 24, t[2] + 24});
+    scan.vertices.insert(scan.vertices.end(), inner.vertices.begin(), inner.vertices.end());
+    for (std::size_t t = 0; t < scan.triangles.size(); t += 3)
+        std::swap(scan.triangles[t][1], scan.triangles[t][2]);
+    add_quad(scan, {2, 2, 2}, {2, 2, 9}, {2, 3, 9}, {2, 3, 2});
+    const std::vector<Surface> s{scan, cube(3, 5, "b")};
+    CHECK(!select(s, "a"));
+    const auto hull = chosen(s, "hull(a)");
+    CHECK(hull.exact_volume == "64");
+    CHECK(hull.pieces.size() == 1);
+    CHECK(hull.cavities == 0);
+    check_boundary(hull);
+    CHECK(chosen(s, "hull(a) & b").exact_volume == "1");
+    CHECK(chosen(s, "b - hull(a)").exact_volume == "7");
+    CHECK(chosen(s, "hull(a) | hull(b)").exact_volume == "71");
+    auto open = s;
+    open[0].triangles.erase(open[0].triangles.begin());
+    CHECK(chosen(open, "hull(a)").exact_volume == "8"); // the outer cube has a hole
+    CHECK(select(s, "~hull(a)").error().message().find("no end") != std::string::npos);
 }
 
 TEST_CASE("select: parents are counted through all surfaces") {
