@@ -59,7 +59,8 @@ SAFile open_to_write(const char* name, const char* access) {
         std::string& bytes =
             found != files.bytes.end() ? found->second : files.bytes[std::string(extension)];
         if (access[0] == 'w') bytes.clear();
-        return reinterpret_cast<SAFile>(std::make_unique<OpenShapeFile>(&files, &bytes).release());
+        return reinterpret_cast<SAFile>(
+            std::make_unique<OpenShapeFile>(OpenShapeFile{&files, &bytes}).release());
     } catch (const std::bad_alloc&) {
         files.lacks_memory = true;
         return nullptr;
