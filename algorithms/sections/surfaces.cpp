@@ -10,7 +10,6 @@
 #include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/algorithms/core/figure.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
-#include <terrane/algorithms/core/no_index.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/mesh/vectors.hpp>
 #include <terrane/algorithms/sections/sections.hpp>
@@ -123,6 +122,41 @@ Status check_fence(std::span<const Point3> line) {
     return Done{};
 }
 
+/// The axes, that along which most of a surface is seen first.
+std::array<Axis, 3> axes_by_area(const Surface& surface) {
+    Point3 seen; // areas, seen along each axis
+    for (const auto& [i, j, k] : surface.triangles) {
+        const Point3& a = surface.vertices[i];
+        const Point3 n = cross(minus(surface.vertices[j], a), minus(surface.vertices[k], a));
+        seen = {seen.x + std::abs(n.x), seen.y + std::abs(n.y), seen.z + std::abs(n.z)};
+    }
+    std::array<Axis, 3> axes{Axis::z, Axis::x, Axis::y};
+    const std::array area{seen.x, seen.y, seen.z};
+    std::stable_sort(axes.begin(), axes.end(), [&](Axis a, Axis b) {
+        return area[static_cast<std::size_t>(a)] > area[static_cast<std::size_t>(b)];
+    });
+    return axes;
+}
+
+/// Returns how the triangles of a surface turn, seen along an axis, if no two of them are seen at one place; Zero if
+/// that is not shown. Errors: nothing_to_do, those of arrange().
+Result<Sign> one_to_one_along(const Surface& surface, Axis axis, const Run& run) {
+    Surface turned = surface; // its z is the axis; the exchange of coordinates is a rotation
+    for (Point3& p : turned.vertices)
+        p = axis == Axis::x ? Point3{p.y, p.z, p.x} : axis == Axis::y ? Point3{p.z, p.x, p.y} : p;
+    const auto exact = arrange(std::array{std::move(turned)}, {}, run);
+    if (!exact) return exact.error();
+    if (exact->triangles.empty())
+        return Error{ErrorCode::nothing_to_do, "the surface has no triangle with area",
+                     surface.name};
+    const InjectivePatches& patches = exact->state->patches;
+    const std::uint32_t patch = patches.of[0];
+    const bool is_one = patch < patches.axis.size() && patches.axis[patch] == Axis::z &&
+                        std::all_of(patches.of.begin(), patches.of.end(),
+                                    [&](std::uint32_t p) { return p == patch; });
+    return is_one ? patches.turn[patch] : Sign::Zero;
+}
+
 } // namespace
 
 Result<SectionSurface> section_plane(const Mesh& mesh, const Point3& point, const Point3& normal) {
@@ -208,30 +242,24 @@ Result<SectionSurface> section_fence(const Mesh& mesh,
 
 Result<SectionSurface> section_along(const Surface& surface, const Run& run) {
     return guarded("for the section", "section_along", [&]() -> Result<SectionSurface> {
-        const auto exact = arrange(std::array{surface}, {}, run);
-        if (!exact) return exact.error();
-        if (exact->triangles.empty())
-            return Error{ErrorCode::nothing_to_do, "the surface has no triangle with area",
-                         surface.name};
-        const InjectivePatches& patches = exact->state->patches;
-        const std::uint32_t patch = patches.of.empty() ? no_index : patches.of[0];
-        const bool is_one = patch < patches.axis.size() && patches.turn[patch] != Sign::Zero &&
-                            std::all_of(patches.of.begin(), patches.of.end(),
-                                        [&](std::uint32_t p) { return p == patch; });
-        if (!is_one)
-            return refused(
-                "the surface folds over, or its triangles face different ways: seen along "
-                "x, y or z, each point may lie on one triangle only");
-        SectionSurface made{surface, std::vector<std::uint32_t>(surface.triangles.size(), 0), {}};
-        const Axis axis = patches.axis[patch];
-        const bool is_turned = patches.turn[patch] == Sign::Negative;
-        made.sheets.push_back(axis == Axis::z   ? SectionSheet{{}, {1, 0, 0}, {0, 1, 0}}
-                              : axis == Axis::x ? SectionSheet{{}, {0, 1, 0}, {0, 0, 1}}
-                                                : SectionSheet{{}, {1, 0, 0}, {0, 0, 1}});
-        // Seen along y, x and z are clockwise.
-        if (is_turned != (axis == Axis::y))
-            for (Triangle& t : made.surface.triangles) std::swap(t[1], t[2]);
-        return made;
+        if (const auto valid = validate(std::array{surface}); !valid) return valid.error();
+        for (const Axis axis : axes_by_area(surface)) {
+            const auto turn = one_to_one_along(surface, axis, run);
+            if (!turn) return turn.error();
+            if (*turn == Sign::Zero) continue;
+            SectionSurface made{
+                surface, std::vector<std::uint32_t>(surface.triangles.size(), 0), {}};
+            made.sheets.push_back(axis == Axis::z   ? SectionSheet{{}, {1, 0, 0}, {0, 1, 0}}
+                                  : axis == Axis::x ? SectionSheet{{}, {0, 1, 0}, {0, 0, 1}}
+                                                    : SectionSheet{{}, {1, 0, 0}, {0, 0, 1}});
+            // Seen along y, x and z are clockwise.
+            if ((*turn == Sign::Negative) != (axis == Axis::y))
+                for (Triangle& t : made.surface.triangles) std::swap(t[1], t[2]);
+            return made;
+        }
+        return refused(
+            "the surface folds over, or its triangles face different ways: seen along x, y "
+            "or z, each point may lie on one triangle only");
     });
 }
 

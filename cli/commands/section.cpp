@@ -37,7 +37,8 @@ format of surfaces (.vtp, .obj, .ts, ...). Coordinates of a drawing are the dist
 those of levels, and of a surface that folds over nowhere in the map, are x and y.
 
 Where the section lies upon a surface, the block in front counts, on the side of the normal; of a fence that is the
-right of its way. A section by a surface in the map shows the blocks below, as a geological map does.
+right of its way. A section by a surface in the map shows the blocks below, as a geological map does; one by a steep
+surface, such as a fault, shows which block touches which.
 
 Without any block or line in the section nothing is written, and the exit status is 1.
 
@@ -132,7 +133,9 @@ SectionNames names_of(const SectionCommand& command, const SectionSurface& along
     names.exaggeration = command.exaggeration;
     names.shows_heights = command.contours != 0;
     const SectionSheet& sheet = along.sheets[0];
-    names.shows_behind = !command.by.empty() && sheet.right.z == 0 && sheet.up.z == 0;
+    const bool is_map = sheet.right.z == 0 && sheet.up.z == 0;
+    names.shows_behind = !command.by.empty() && is_map;
+    names.shows_pairs = !command.by.empty() && !is_map;
     return names;
 }
 

@@ -59,7 +59,8 @@ SAFile open_to_write(const char* name, const char* access) {
         std::string& bytes =
             found != files.bytes.end() ? found->second : files.bytes[std::string(extension)];
         if (access[0] == 'w') bytes.clear();
-        return reinterpret_cast<SAFile>(std::make_unique<OpenShapeFile>(&files, &bytes).release());
+        return reinterpret_cast<SAFile>(
+            std::make_unique<OpenShapeFile>(OpenShapeFile{&files, &bytes}).release());
     } catch (const std::bad_alloc&) {
         files.lacks_memory = true;
         return nullptr;
@@ -187,7 +188,13 @@ public:
         if (DBFWriteStringAttribute(table_.get(), record_, field_++, text.c_str()) == 0)
             throw std::bad_alloc();
     }
-    void add(double number) { DBFWriteDoubleAttribute(table_.get(), record_, field_++, number); }
+    /// shapelib itself would write decimal commas where the locale has them.
+    void add(double number) {
+        std::string text = fmt::format("{:24.6f}", number);
+        if (text.size() > 24) text = fmt::format("{:24.15e}", number);
+        if (DBFWriteAttributeDirectly(table_.get(), record_, field_++, text.data()) == 0)
+            throw std::bad_alloc();
+    }
 
     /// Appends the files.
     void append_to(std::vector<SectionFile>& all, const std::string& ending) {

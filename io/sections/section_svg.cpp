@@ -67,6 +67,13 @@ public:
         return out;
     }
     [[nodiscard]] std::size_t count() const { return names_.size(); }
+    /// A bound of the width of the legend.
+    [[nodiscard]] double width() const {
+        constexpr double of_character = 7.5;
+        std::size_t longest = 0;
+        for (const std::string& name : names_) longest = std::max(longest, name.size());
+        return 50 + of_character * static_cast<double>(longest);
+    }
 
 private:
     static std::string fill(std::size_t i) {
@@ -95,7 +102,7 @@ public:
 
     std::string operator()() {
         const std::string parts = polygons() + lines();
-        const double wide = left + width() + 30 + legend;
+        const double wide = left + width() + 30 + std::max(legend, fills_.width());
         const double high =
             std::max(top + height() + below, top + 22 * static_cast<double>(fills_.count()) + 20);
         return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" "
@@ -126,17 +133,25 @@ private:
         return out;
     }
 
+    /// The unit of a block, or its name if it has none.
+    [[nodiscard]] const std::string& shown_as(BlockId block) const {
+        return names_.units[block].empty() ? names_.blocks[block] : names_.units[block];
+    }
+
     std::string polygons() {
         std::string out;
         for (const SectionPolygon& polygon : section_.polygons) {
-            const BlockId block = names_.shown(polygon);
-            const std::string& unit = names_.units[block];
-            const std::string& name = names_.blocks[block];
+            std::string key = shown_as(names_.shown(polygon)),
+                        name = names_.blocks[names_.shown(polygon)];
+            if (names_.shows_pairs && polygon.block != 0 && polygon.behind != 0) {
+                key = shown_as(polygon.block) + " | " + shown_as(polygon.behind);
+                name = names_.blocks[polygon.block] + " | " + names_.blocks[polygon.behind];
+            }
             std::string d;
             for (const auto& ring : polygon.rings) d += way(ring) + 'Z';
             out += fmt::format("<path d=\"{}\" fill=\"{}\" fill-rule=\"evenodd\"><title>{}</title>"
                                "</path>\n",
-                               d, fills_.of(unit.empty() ? name : unit), xml_escaped(name));
+                               d, fills_.of(key), xml_escaped(name));
         }
         return out;
     }

@@ -27,6 +27,8 @@ struct SectionNames {
     bool shows_behind =
         false; ///< whether a drawing shows the block behind the section, as a geological map does
 
+    bool shows_pairs =
+        false; ///< whether it shows which block touches which across the section, as Allan diagrams do
     bool shows_heights = false; ///< whether a drawing names lines by their heights, as contours are
 
     /// Returns the block that stands for a polygon: the one on the side that is shown, or if that is the outside, the

@@ -61,7 +61,8 @@ SectionSurface surface_of(const Where& where, const Mesh& mesh, const Run& run) 
     return must(section_levels(mesh, where.levels));
 }
 
-py::dict to_dict(Section section, const Model& model, bool map) {
+/// shows: whether a drawing shows the block behind, and pairs of blocks.
+py::dict to_dict(Section section, const Model& model, std::array<bool, 2> shows) {
     py::list polygons, lines, blocks;
     for (SectionPolygon& p : section.polygons) {
         py::list rings;
@@ -80,7 +81,8 @@ py::dict to_dict(Section section, const Model& model, bool map) {
                     "flat"_a = owned(std::move(section.flat)), "polygons"_a = polygons,
                     "lines"_a = lines, "triangles"_a = owned(std::move(section.triangles)),
                     "polygon_of"_a = owned(std::move(section.polygon_of)), "blocks"_a = blocks,
-                    "surfaces"_a = python::to_list(surfaces), "map"_a = map);
+                    "surfaces"_a = python::to_list(surfaces), "shows_behind"_a = shows[0],
+                    "shows_pairs"_a = shows[1]);
 }
 
 py::dict section_of(const ModelPointer& model, const py::dict& given, const HowToRun& how) {
@@ -88,9 +90,10 @@ py::dict section_of(const ModelPointer& model, const py::dict& given, const HowT
         const Mesh& mesh = model->model.mesh;
         const SectionSurface along = surface_of(where, mesh, run);
         const SectionSheet& sheet = along.sheets[0];
-        const bool map =
-            (!where.by.empty() || !where.name.empty()) && sheet.right.z == 0 && sheet.up.z == 0;
-        return std::pair(must(cut_section(mesh, model->model.volumes, along, run)), map);
+        const bool by = !where.by.empty() || !where.name.empty();
+        const bool map = sheet.right.z == 0 && sheet.up.z == 0;
+        return std::pair(must(cut_section(mesh, model->model.volumes, along, run)),
+                         std::array{by && map, by && !map});
     });
     return to_dict(std::move(made.first), model->model, made.second);
 }
@@ -128,7 +131,8 @@ SectionNames to_names(const py::dict& given) {
         names.units.push_back(from_text(values[1]));
     }
     names.surfaces = to_infos(given["surfaces"].cast<py::sequence>());
-    names.shows_behind = given["map"].cast<bool>();
+    names.shows_behind = given["shows_behind"].cast<bool>();
+    names.shows_pairs = given["shows_pairs"].cast<bool>();
     return names;
 }
 

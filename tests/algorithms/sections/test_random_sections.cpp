@@ -307,3 +307,47 @@ TEST_CASE("sections: random models against winding numbers, areas and crossed tr
     CHECK(upon > 15);
     CHECK(holes > 10);
 }
+
+TEST_CASE("sections: random fences and surfaces cover the box, with rings round what they hold") {
+    int polygons = 0, upon = 0;
+    const auto check = [&](const Section& section, double expected) {
+        double sum = 0;
+        for (const SectionPolygon& p : section.polygons) {
+            double rings = 0;
+            for (std::size_t k = 0; k < p.rings.size(); ++k) {
+                const double one = shoelace(section, p.rings[k]);
+                const bool is_thin =
+                    std::abs(one) < 1e-12; // too thin for doubles, which shoelace() sums
+                CHECK((is_thin || (one > 0) == (k == 0)));
+                rings += one;
+            }
+            sum += p.block == 0 ? 0 : rings;
+            ++polygons;
+            upon += p.block != p.behind ? 1 : 0;
+        }
+        CHECK(sum == Approx(expected).margin(1e-9));
+    };
+    for (std::uint64_t seed = 100; seed < 150; ++seed) {
+        ModelMaker maker(seed);
+        const auto model = random_model(maker);
+        if (!model) continue;
+        INFO("seed " << seed);
+        std::vector<std::array<double, 2>> corners;
+        double length = 0;
+        for (double x = -half + 1; x < half; x += 1 + std::abs(maker.number(2))) {
+            corners.push_back({x, maker.number(half - 1)});
+            if (corners.size() > 1)
+                length +=
+                    std::hypot(x - corners.end()[-2][0], corners.back()[1] - corners.end()[-2][1]);
+        }
+        if (corners.size() > 1)
+            check(cut_along(*model, section_fence(model->mesh, corners)), length * 2 * half);
+        Surface ground = maker.sheet(); // within the heights of the box
+        double reach = 0;
+        for (const Point3& p : ground.vertices) reach = std::max(reach, std::abs(p.x));
+        reach = std::min(reach, double(half));
+        if (reach > 0) check(cut_along(*model, section_along(ground)), 4 * reach * reach);
+    }
+    CHECK(polygons > 300);
+    CHECK(upon > 0);
+}

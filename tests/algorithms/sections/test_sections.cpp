@@ -221,7 +221,13 @@ TEST_CASE("sections: levels, contours and outcrops") {
     CHECK(area_of(wall) == 16);
     const Section other =
         cut_along(model, section_along(quad({-1, 2, -1}, {5, 2, -1}, {5, 2, 5}, {-1, 2, 5})));
-    for (const Section* s : {&wall, &other, &outcrops})
+    // A steep surface is seen from its side, though it is one-to-one in the map as well.
+    const Section steep = cut_along(
+        model, section_along(quad({1.5, -1, -1}, {1.5, 5, -1}, {2.5, 5, 5}, {2.5, -1, 5})));
+    for (std::size_t v = 0; v < steep.flat.size(); ++v)
+        CHECK(steep.flat[v] == std::array{steep.vertices[v].y, steep.vertices[v].z});
+    CHECK(area_of(steep) == Approx(4 * std::hypot(4, 4.0 / 6)));
+    for (const Section* s : {&wall, &other, &outcrops, &steep})
         for (const SectionPolygon& p : s->polygons) CHECK(shoelace(*s, p.rings[0]) > 0);
 }
 
