@@ -40,8 +40,8 @@ ExactPoint middle_of(const Arrangement& exact, std::size_t t) {
 }
 
 /// Returns the box around the doubles nearest to three points.
-Box box_of(const Arrangement& exact, const std::array<PointIndex, 3>& points) {
-    Box box{};
+Ranges box_of(const Arrangement& exact, const std::array<PointIndex, 3>& points) {
+    Ranges box{};
     constexpr std::array coordinates{&Point3::x, &Point3::y, &Point3::z};
     for (unsigned k = 0; k < 3; ++k) {
         const auto at = [&](unsigned i) {
@@ -55,7 +55,7 @@ Box box_of(const Arrangement& exact, const std::array<PointIndex, 3>& points) {
 
 /// Whether boxes meet in the projection along an axis. If those of nearest doubles do not, those of the exact points
 /// do not: rounding to nearest keeps the order.
-bool meet_along(Axis axis, const Box& a, const Box& b) {
+bool meet_along(Axis axis, const Ranges& a, const Ranges& b) {
     for (unsigned k = 0; k < 3; ++k)
         if (k != static_cast<unsigned>(axis) && (a[k][0] > b[k][1] || b[k][0] > a[k][1]))
             return false;
@@ -167,7 +167,7 @@ void SidedSurface::mark_fronts() {
 std::uint8_t SidedSurface::along_line(std::size_t triangle) const {
     const ExactPoint middle = middle_of(exact_, triangle);
     const auto& [u, v, w] = exact_.triangles[triangle];
-    const Box box = box_of(exact_, {exact_.vertices[u], exact_.vertices[v], exact_.vertices[w]});
+    const Ranges box = box_of(exact_, {exact_.vertices[u], exact_.vertices[v], exact_.vertices[w]});
     int above = 0, below = 0;
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
         const std::uint32_t p = inputs_[i];

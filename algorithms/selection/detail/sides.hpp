@@ -26,7 +26,7 @@ namespace terrane::selection {
 /// Sides of a surface, as bits.
 enum Sides : std::uint8_t { no_side = 0, low_side = 1, high_side = 2 };
 
-using Box = std::array<std::array<double, 2>, 3>; ///< per coordinate: the least, the most
+using Ranges = std::array<std::array<double, 2>, 3>; ///< per coordinate: the least, the most
 
 /// A surface with a lower and an upper side, in an arrangement, which must outlive it.
 class SidedSurface {
@@ -55,7 +55,7 @@ private:
     const std::vector<bool>& surfaces_;
     Axis axis_;
     std::vector<std::uint32_t> inputs_; ///< its input triangles that have parts, ascending
-    std::vector<Box> boxes_;            ///< of these
+    std::vector<Ranges> boxes_;         ///< of these
     std::vector<int> upper_;            ///< per input triangle: 1 (front), -1 (back), 0 (unknown)
     std::vector<bool> is_of_;           ///< per triangle
     std::vector<std::uint8_t> front_;   ///< per triangle: Sides
