@@ -194,12 +194,12 @@ std::string flaw_of_solids(std::span<const Surface> surfaces) {
 
 /// Whether no point of the sheet's border is above or below the box around a solid.
 bool reaches_beyond(const Surface& sheet, const Surface& solid) {
-    const auto [west, east] = std::ranges::minmax(solid.vertices, {}, &Point3::x);
-    const auto [south, north] = std::ranges::minmax(solid.vertices, {}, &Point3::y);
+    const auto x = std::ranges::minmax(solid.vertices, {}, &Point3::x);
+    const auto y = std::ranges::minmax(solid.vertices, {}, &Point3::y);
     return std::ranges::all_of(test_support::border_of(sheet), [&](const auto& edge) {
         const auto& [p, q] = edge.first;
-        return std::max(p.x, q.x) < west.x || std::min(p.x, q.x) > east.x ||
-               std::max(p.y, q.y) < south.y || std::min(p.y, q.y) > north.y;
+        return std::max(p.x, q.x) < x.min.x || std::min(p.x, q.x) > x.max.x ||
+               std::max(p.y, q.y) < y.min.y || std::min(p.y, q.y) > y.max.y;
     });
 }
 

@@ -17,8 +17,8 @@
 // (5) The same region has the same boundary, to the last byte, however the expression says it, if this names the
 //     same surfaces.
 // (6) The result is rounded to doubles by round_to_doubles(), with its guarantee. Volumes are exact.
-// Cost: that of arrange() of the surfaces in the expression, find_volumes(), rounding the boundary, and
-// find_volumes() of it.
+// Cost: that of arrange() of the surfaces in the expression, find_volumes(), and rounding the boundary; if this is not
+// one surface, also find_volumes() of it.
 #pragma once
 
 #include <cstddef>

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include <gmpxx.h>
@@ -64,16 +63,17 @@ std::vector<DoubleDouble> quick_sums(const TriangleComplex& sheets, VolumeSides 
     if (sheets.triangles.empty()) return sums;
     const Construction first = sheets.points.construction(sheets.vertices[0]);
     const auto at = relative_to(sheets.points.input(first.v[0]), sheets);
-    for (std::size_t t = 0; t < sheets.triangles.size(); ++t) {
-        const Triangle& corners = sheets.triangles[t];
-        std::optional<DoubleDouble> part; // computed when first needed
-        for_sides(of_sides[t], [&](std::uint32_t volume, int sign) {
-            if (volume == 0) return;
-            if (!part) part = six_volumes_below(at[corners[0]], at[corners[1]], at[corners[2]]);
-            sums[volume] = sign > 0 ? sums[volume] + *part : sums[volume] - *part;
-        });
-    }
-    for (std::size_t v = 1; v < count; ++v) sums[0] = sums[0] + sums[v];
+    in_twofold([&] {
+        for (std::size_t t = 0; t < sheets.triangles.size(); ++t) {
+            const auto [front, back] = of_sides[t];
+            if (front == back) continue;
+            const auto& [a, b, c] = sheets.triangles[t];
+            const DoubleDouble part = six_volumes_below(at[a], at[b], at[c]);
+            if (front != 0) sums[front] = sums[front] - part;
+            if (back != 0) sums[back] = sums[back] + part;
+        }
+        for (std::size_t v = 1; v < count; ++v) sums[0] = sums[0] + sums[v];
+    });
     return sums;
 }
 

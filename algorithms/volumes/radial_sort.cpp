@@ -60,6 +60,14 @@ private:
     const Side reference_;
 };
 
+/// Whether two triangles, which share an edge, run along it the same way.
+bool run_alike(const Triangle& t, const Triangle& u) {
+    for (unsigned i = 0; i < 3; ++i)
+        for (unsigned j = 0; j < 3; ++j)
+            if (t[i] == u[j] && t[(i + 1) % 3] == u[(j + 1) % 3]) return true;
+    return false;
+}
+
 } // namespace
 
 void sort_round_edge(UpwardWitness upward, const TriangleComplex& sheets, std::uint32_t low,
@@ -80,6 +88,26 @@ void join_round_edges(const TriangleComplex& sheets, DisjointSets& sides) {
         sort_round_edge(guard, sheets, low, round);
         join_round_edge(sheets, low, round, join);
     });
+}
+
+void join_round_edges(const TriangleComplex& sheets, const Adjacency& adjacency,
+                      DisjointSets& sides) {
+    for (const auto& inner : adjacency.inner)
+        for (const auto& [t, u] : inner) {
+            const bool turned = run_alike(sheets.triangles[t], sheets.triangles[u]);
+            sides.join(front_of(t), turned ? back_of(u) : front_of(u));
+            sides.join(back_of(t), turned ? front_of(u) : back_of(u));
+        }
+    const UpwardRounding guard;
+    std::vector<Side> round;
+    for (std::size_t e = 0; e < adjacency.edges.size(); ++e) {
+        const auto& [low, high] = adjacency.edges[e];
+        round.clear();
+        for (const std::uint32_t t : adjacency.triangles_at[e]) round.push_back({high, t});
+        sort_round_edge(guard, sheets, low, round);
+        join_round_edge(sheets, low, round,
+                        [&](std::uint32_t a, std::uint32_t b) { sides.join(a, b); });
+    }
 }
 
 } // namespace terrane::volumes

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <terrane/algorithms/core/disjoint_sets.hpp>
+#include <terrane/algorithms/mesh/adjacency.hpp>
 #include <terrane/algorithms/volumes/complex.hpp>
 
 namespace terrane::volumes {
@@ -42,5 +43,8 @@ void join_round_edge(const TriangleComplex& sheets, std::uint32_t low,
 /// free border, has its front joined with its back. `sides` has two elements per triangle (see
 /// complex.hpp). Cost: linear, plus O(k log k) for each edge with k > 2 triangles; one allocation.
 void join_round_edges(const TriangleComplex& sheets, DisjointSets& sides);
+/// Does the same by the adjacency of the triangles, which need not be grouped by edge for it.
+void join_round_edges(const TriangleComplex& sheets, const Adjacency& adjacency,
+                      DisjointSets& sides);
 
 } // namespace terrane::volumes

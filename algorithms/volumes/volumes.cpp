@@ -182,8 +182,10 @@ Volumes numbered_by_triangles(const TriangleComplex& sheets, DisjointSets& sides
     return volumes;
 }
 
-/// Finds volumes; their measures are 0 unless wanted.
-Result<Volumes> find(const TriangleComplex& sheets, Wanted wanted, const Run& run) {
+/// Finds volumes; their measures are 0 unless wanted. join_edges(sides): joins sides round edges.
+template <class JoinEdges>
+Result<Volumes> find(const TriangleComplex& sheets, const JoinEdges& join_edges, Wanted wanted,
+                     const Run& run) {
     const auto report = [&](double share) {
         if (run.progress) run.progress("volumes", share);
         return !run.stop.stop_requested();
@@ -191,7 +193,7 @@ Result<Volumes> find(const TriangleComplex& sheets, Wanted wanted, const Run& ru
     if (!report(0)) return interrupted();
     StageTimer step(run, "shells");
     DisjointSets sides(2 * sheets.triangles.size() + 1);
-    join_round_edges(sheets, sides);
+    join_edges(sides);
     if (!report(0.3)) return interrupted();
     step.next("nesting");
     join_nested(sheets, sides);
@@ -225,9 +227,13 @@ Result<Volumes> find_in(const Arrangement& a, Wanted wanted, const Run& run) {
     return guarded("for the volumes", "volumes", [&]() -> Result<Volumes> {
         detail::announce_work("find exact volumes", {}, a.triangles);
         const auto planes = planes_of(a);
-        const auto edges = group_edges(a.triangles, a.vertices.size(), run);
-        return find({a.state->points, a.vertices, a.triangles, edges, planes, &a.parents_of},
-                    wanted, run);
+        const EdgeSides edges; // the adjacency has them
+        const TriangleComplex sheets{a.state->points, a.vertices, a.triangles,
+                                     edges,           planes,     &a.parents_of};
+        return find(
+            sheets,
+            [&](DisjointSets& sides) { join_round_edges(sheets, a.state->adjacency, sides); },
+            wanted, run);
     });
 }
 
@@ -235,7 +241,10 @@ Result<Volumes> find_in(const Mesh& mesh, Wanted wanted, const Run& run) {
     return guarded("for the volumes", "volumes", [&]() -> Result<Volumes> {
         if (auto valid = validate(mesh.vertices, mesh.triangles, run); !valid) return valid.error();
         detail::announce_work("find volumes", mesh.vertices, mesh.triangles);
-        return find(MeshSheets(mesh.vertices, mesh.triangles, run).view(), wanted, run);
+        const MeshSheets mesh_sheets(mesh.vertices, mesh.triangles, run);
+        const TriangleComplex sheets = mesh_sheets.view();
+        return find(
+            sheets, [&](DisjointSets& sides) { join_round_edges(sheets, sides); }, wanted, run);
     });
 }
 

@@ -90,6 +90,7 @@ GOOD = {
     "terrane_box_boundary.low": lambda lib: lib.array(ctypes.c_double, [0, 0, 0]),
     "terrane_box_boundary.high": lambda lib: lib.array(ctypes.c_double, [1, 1, 1]),
     "terrane_volumes_exact.volume": lambda lib: 1,
+    "expression": lambda lib: lib.text("top & east(F1)"), "terrane_selected_exact_volume.piece": lambda lib: 0xffffffff,
     "terrane_error_free.error": lambda lib: lib.failure(),
     "terrane_code_name.code": lambda lib: 3,
     "json": lambda lib: lib.text(PROJECT), "format": lambda lib: None, "part_format": lambda lib: lib.text("obj"),

@@ -17,7 +17,8 @@ DATA = HERE.parent.parent / "docs" / "data"
 NUMBERS = {"double": ctypes.c_double, "int": ctypes.c_int, "int32_t": ctypes.c_int32, "uint32_t": ctypes.c_uint32,
            "uint64_t": ctypes.c_uint64, "size_t": ctypes.c_size_t, "unsigned": ctypes.c_uint, "terrane_code": ctypes.c_int32,
            "terrane_role": ctypes.c_int32, "terrane_mesher": ctypes.c_int32, "terrane_structure_list": ctypes.c_int32,
-           "terrane_operation": ctypes.c_int32, "terrane_property_verdict": ctypes.c_int32}
+           "terrane_operation": ctypes.c_int32, "terrane_property_verdict": ctypes.c_int32,
+           "terrane_inside_rule": ctypes.c_int32}
 #: Members without a default.
 NEEDED = {"terrane_seal_options": {"distance": 0.2}, "terrane_simplify_options": {"resolution": 0.5}}
 
@@ -170,7 +171,7 @@ class Library:
                                                h("terrane_mesh"), None, None, None),
             "terrane_holes": lambda: self.make("terrane_find_holes", self.holed, ctypes.addressof(self.task), 1, None),
             "terrane_layered": lambda: self.make("terrane_stack_layers", self.boxed, ctypes.addressof(layers), 2, None, None),
-            "terrane_selected": lambda: self.make("terrane_select", self.boxed, self.text("top & above(base)"), None, None),
+            "terrane_selected": lambda: self.make("terrane_select", self.boxed, self.text("top & east(F1)"), None, None),
             "terrane_tetrahedra": lambda: self.make("terrane_tetrahedralize", h("terrane_model"), None, None),
             "terrane_verdict": lambda: self.make_verdict(),
             "terrane_mesh_judgement": lambda: self.make("terrane_judge", self.boxed, self.boxed, None, None),

@@ -116,7 +116,8 @@ const BoundaryFacets::Facet* BoundaryFacets::nearest(std::uint32_t parent,
     if (!known.is_known) return nullptr;
     if (!known.is_mixed) return &known.facet;
     const Point3 middle = middle_of(corners);
-    const auto [first, last] = std::ranges::equal_range(mixed_, parent, {}, &Facet::parent);
+    const auto first = std::ranges::lower_bound(mixed_, parent, {}, &Facet::parent);
+    const auto last = std::ranges::upper_bound(mixed_, parent, {}, &Facet::parent);
     const auto same = std::lower_bound(
         first, last, middle, [](const Facet& f, const Point3& p) { return f.middle < p; });
     if (same != last && same->middle == middle) return &*same;

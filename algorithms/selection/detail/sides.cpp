@@ -39,11 +39,9 @@ ExactPoint middle_of(const Arrangement& exact, std::size_t t) {
     return {sum(a.x, b.x, c.x), sum(a.y, b.y, c.y), sum(a.z, b.z, c.z), a.w * b.w * c.w * 3};
 }
 
-using Box = std::array<std::array<double, 2>, 3>; // per coordinate: the least, the most
-
 /// Returns the box around the doubles nearest to three points.
-Box box_of(const Arrangement& exact, const std::array<PointIndex, 3>& points) {
-    Box box{};
+Ranges box_of(const Arrangement& exact, const std::array<PointIndex, 3>& points) {
+    Ranges box{};
     constexpr std::array coordinates{&Point3::x, &Point3::y, &Point3::z};
     for (unsigned k = 0; k < 3; ++k) {
         const auto at = [&](unsigned i) {
@@ -57,7 +55,7 @@ Box box_of(const Arrangement& exact, const std::array<PointIndex, 3>& points) {
 
 /// Whether boxes meet in the projection along an axis. If those of nearest doubles do not, those of the exact points
 /// do not: rounding to nearest keeps the order.
-bool meet_along(Axis axis, const Box& a, const Box& b) {
+bool meet_along(Axis axis, const Ranges& a, const Ranges& b) {
     for (unsigned k = 0; k < 3; ++k)
         if (k != static_cast<unsigned>(axis) && (a[k][0] > b[k][1] || b[k][0] > a[k][1]))
             return false;
@@ -90,6 +88,7 @@ SidedSurface::SidedSurface(const Arrangement& exact, const std::vector<bool>& is
                 inputs_.push_back(p);
             }
     sort_unique(inputs_);
+    for (const std::uint32_t p : inputs_) boxes_.push_back(box_of(exact, exact.input_corners()[p]));
     turn_alike();
     mark_fronts();
 }
@@ -168,11 +167,11 @@ void SidedSurface::mark_fronts() {
 std::uint8_t SidedSurface::along_line(std::size_t triangle) const {
     const ExactPoint middle = middle_of(exact_, triangle);
     const auto& [u, v, w] = exact_.triangles[triangle];
-    const Box box = box_of(exact_, {exact_.vertices[u], exact_.vertices[v], exact_.vertices[w]});
+    const Ranges box = box_of(exact_, {exact_.vertices[u], exact_.vertices[v], exact_.vertices[w]});
     int above = 0, below = 0;
-    for (const std::uint32_t p : inputs_) {
-        if (upper_[p] == 0 || !meet_along(axis_, box, box_of(exact_, exact_.input_corners()[p])))
-            continue;
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+        const std::uint32_t p = inputs_[i];
+        if (upper_[p] == 0 || !meet_along(axis_, box, boxes_[i])) continue;
         const auto [a, b, c] = corners_of(exact_, p);
         const Sign side = turn(axis_, a, b, middle);
         if (turn(axis_, b, c, middle) != side || turn(axis_, c, a, middle) != side) continue;
@@ -207,15 +206,18 @@ public:
             parts.push_back(sets_.find(c));
             triangles.push_back(t);
         }
-        constexpr std::size_t most_lines = 64;
+        constexpr std::size_t most_lines = 64, enough = 8;
         const auto lists = lists_by_key<std::uint32_t>(sides_.size(), parts,
                                                        [&](std::size_t i) { return triangles[i]; });
         for (std::uint32_t part = 0; part < lists.size(); ++part) {
             const auto own = lists[part];
             const std::size_t lines = std::min(most_lines, own.size());
-            for (std::size_t i = 0; i < lines; ++i) {
+            std::size_t told = 0;
+            for (std::size_t i = 0; i < lines && told < enough; ++i) {
                 const std::uint32_t t = own[i * own.size() / lines];
-                add(part, surface.along_line(t), t);
+                const std::uint8_t sides = surface.along_line(t);
+                if (sides != no_side) ++told;
+                add(part, sides, t);
             }
         }
     }

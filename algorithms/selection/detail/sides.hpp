@@ -8,7 +8,7 @@
 // (2) A part, which is a volume of the arrangement or a region of another surface, is on the side that it touches.
 // (3) One that does not touch the surface is on its lower side if lines along the axis pass through the surface above
 //     the part only, and on its upper side if below the part only. Passages up and down through the same surface cancel
-//     out. The lines go through up to 64 triangles of the part; those beside the surface tell nothing.
+//     out. Lines go through up to 64 triangles of the part, until 8 tell; those beside the surface do not.
 // (4) A part that is on both sides, as the surface ends inside of it, or on none, is an error.
 #pragma once
 
@@ -25,6 +25,8 @@ namespace terrane::selection {
 
 /// Sides of a surface, as bits.
 enum Sides : std::uint8_t { no_side = 0, low_side = 1, high_side = 2 };
+
+using Ranges = std::array<std::array<double, 2>, 3>; ///< per coordinate: the least, the most
 
 /// A surface with a lower and an upper side, in an arrangement, which must outlive it.
 class SidedSurface {
@@ -53,6 +55,7 @@ private:
     const std::vector<bool>& surfaces_;
     Axis axis_;
     std::vector<std::uint32_t> inputs_; ///< its input triangles that have parts, ascending
+    std::vector<Ranges> boxes_;         ///< of these
     std::vector<int> upper_;            ///< per input triangle: 1 (front), -1 (back), 0 (unknown)
     std::vector<bool> is_of_;           ///< per triangle
     std::vector<std::uint8_t> front_;   ///< per triangle: Sides

@@ -261,6 +261,20 @@ TEST_CASE("select: a surface that does not divide what it is to divide is named 
     CHECK(refusal(half, "f & below(t)").find("on both sides of it") != std::string::npos);
 }
 
+TEST_CASE("select: what an expression asks of sides has limits") {
+    std::vector<Surface> s{cube(0, 2, "a")};
+    std::string text = "a";
+    for (int i = 0; i < 11; ++i) {
+        s.push_back(level(1, -1, -1, 3, 3, "t" + std::to_string(i)));
+        if (i < 10) text += " & below(t" + std::to_string(i) + ")";
+    }
+    CHECK(picked(s, text).exact_volume == "4");
+    CHECK(refusal(s, text + " & below(t10)") ==
+          "expression: names the sides of more than 10 surfaces");
+    CHECK(refusal(s, "a & below(b)").find("no surface is called b") != std::string::npos);
+    CHECK(refusal(s, "a | below(t0)").find("has no end") != std::string::npos);
+}
+
 TEST_CASE("select: surfaces divide together if the expression names both") {
     Surface t = level(1, -1, -1, 1, 3, "t"); // a fault moves it by a half
     add_quad(t, {1, -1, 0.5}, {3, -1, 0.5}, {3, 3, 0.5}, {1, 3, 0.5});
