@@ -185,9 +185,11 @@ private:
         const std::size_t nx = map_.grid.nx;
         for_ranges(map_.grid.values.size(), run_, [&](std::size_t first, std::size_t last) {
             for (std::size_t k = first; k < last && !run_.stop.stop_requested(); ++k)
-                if (!std::isnan(at_.z[k]))
-                    map_.grid.values[k] = tree.distance(
-                        frame.node(double(k % nx), double(k / nx), at_.z[k]), HUGE_VAL);
+                if (!std::isnan(at_.z[k])) {
+                    const std::size_t row = k / nx, column = k % nx;
+                    map_.grid.values[k] =
+                        tree.distance(frame.node(double(column), double(row), at_.z[k]), HUGE_VAL);
+                }
         });
     }
 

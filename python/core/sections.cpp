@@ -62,7 +62,7 @@ SectionSurface surface_of(const Where& where, const Mesh& mesh, const Run& run) 
 }
 
 /// shows: whether a drawing shows the block behind, and pairs of blocks.
-py::dict to_dict(Section section, const Model& model, std::array<bool, 2> shows) {
+py::dict dict_of_section(Section section, const Model& model, std::array<bool, 2> shows) {
     py::list polygons, lines, blocks;
     for (SectionPolygon& p : section.polygons) {
         py::list rings;
@@ -95,7 +95,7 @@ py::dict section_of(const ModelPointer& model, const py::dict& given, const HowT
         return std::pair(must(cut_section(mesh, model->model.volumes, along, run)),
                          std::array{by && map, by && !map});
     });
-    return to_dict(std::move(made.first), model->model, made.second);
+    return dict_of_section(std::move(made.first), model->model, made.second);
 }
 
 Section to_section(const py::dict& given) {
