@@ -107,7 +107,8 @@ bool is_listed(const Arrangement& a, const Unproven& unproven, const CandidatePa
     const auto has = [](const auto& list, const auto& value) {
         return std::binary_search(list.begin(), list.end(), value);
     };
-    if (has(unproven.pairs, p) || has(unproven.parts, p.first) || has(unproven.parts, p.second))
+    if (std::find(unproven.pairs.begin(), unproven.pairs.end(), p) != unproven.pairs.end() ||
+        has(unproven.parts, p.first) || has(unproven.parts, p.second))
         return true;
     const auto faces = a.parents_of[p.first], others = a.parents_of[p.second];
     const bool within_a_face = std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) {
