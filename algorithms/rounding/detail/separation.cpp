@@ -43,8 +43,10 @@ public:
         moved_(moved), meeting_(meeting), faces_(moved, meeting, most_of(moved.moves), run) {}
 
     [[nodiscard]] Unproven operator()(const Run& run);
-    /// Returns the pairs that are not clear as a whole, as indices into Faces::faces.
-    [[nodiscard]] std::vector<CandidatePair> find_doubtful(const Run& run) const;
+    /// Returns how many pairs are not clear as a whole; 0 if find_common would cost much.
+    [[nodiscard]] std::size_t count_doubtful(const Run& run) const {
+        return has_few_common() ? find_doubtful(run).size() : 0;
+    }
 
 private:
     [[nodiscard]] Cut cut(std::uint32_t f_slot, std::uint32_t g_slot, const Point3& origin,
@@ -53,6 +55,7 @@ private:
     void find_common(std::uint32_t g_slot, std::vector<Common>& common) const;
     [[nodiscard]] bool is_clear_as_a_whole(std::uint32_t f_slot, std::uint32_t g_slot,
                                            const Common& common) const;
+    [[nodiscard]] std::vector<CandidatePair> find_doubtful(const Run& run) const;
     [[nodiscard]] bool has_few_common() const;
     [[nodiscard]] bool is_affordable(std::span<const CandidatePair> doubtful) const;
     void add_all_parts(std::span<const CandidatePair> doubtful,
@@ -151,6 +154,7 @@ void Prover::find_common(std::uint32_t g_slot, std::vector<Common>& common) cons
         }
 }
 
+/// Returns the pairs that are not clear as a whole, as indices into Faces::faces.
 std::vector<CandidatePair> Prover::find_doubtful(const Run& run) const {
     std::vector<std::size_t> groups; // the first pair of each with the same first face, and the end
     for (std::size_t i = 0; i < meeting_.size(); ++i)
@@ -258,7 +262,7 @@ bool are_mostly_doubtful(const MovedParts& moved, std::span<const CandidatePair>
     std::vector<CandidatePair> sample;
     for (const CandidatePair& p : meeting)
         if (p.first % every == 0) sample.push_back(p);
-    const std::size_t doubtful = Prover(moved, sample, run).find_doubtful(run).size();
+    const std::size_t doubtful = Prover(moved, sample, run).count_doubtful(run);
     return doubtful * meeting.size() > sample.size() * moved.parts.size();
 }
 
