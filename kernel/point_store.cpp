@@ -273,8 +273,8 @@ PointStore::IntervalPoint PointStore::interval(PointIndex p) const {
 
 namespace {
 
-// Intervals decide little that a filter of ball_filter.hpp has left: callers of the predicates in a
-// projection try these.
+// Intervals decide little that a filter of ball_filter.hpp has left, but for zeros of points that are
+// doubles: callers of the predicates in a projection try these.
 struct Orient2d {
     Axis axis;
     static constexpr bool tries_intervals = false;
@@ -303,7 +303,10 @@ struct Orient3d {
 
 template <class Polynomial, class... P>
 Sign PointStore::filtered(UpwardWitness upward, const Polynomial& polynomial, P... points) const {
-    if constexpr (Polynomial::tries_intervals)
+    const auto is_exact = [&](PointIndex p) {
+        return is_double(p, 0) && is_double(p, 1) && is_double(p, 2);
+    };
+    if (Polynomial::tries_intervals || (is_exact(points) && ...))
         if (const auto sign = certain_sign(upward, polynomial(interval(points)...))) {
             ++predicate_counts().interval;
             return *sign;

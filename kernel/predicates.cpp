@@ -108,19 +108,10 @@ bool are_parallel(const Uv& a, const Uv& b, const Uv& c, const Uv& d) {
 /// Stands for a test that tells nothing.
 constexpr auto not_known = [] { return false; };
 
-// Evaluates stages two to four. `polynomial` is generic over the number type. `is_zero()`: whether it is
-// known to be zero. Of exact zeros, which only the last stage would tell, most come from regular grids,
-// where it is. Stage one decides most calls in some 50 instructions; it stays that short if this function
-// is not inlined.
+/// Evaluates the stages after intervals. `is_zero()`: whether the polynomial is known to be zero. Of exact
+/// zeros, which only the last stage would tell, most come from regular grids, where it is.
 template <class Polynomial, class IsZero>
-[[gnu::noinline, gnu::cold]] Sign filtered(const Polynomial& polynomial, const IsZero& is_zero) {
-    {
-        const UpwardRounding guard;
-        if (const auto sign = certain_sign(guard, polynomial(Interval{}))) {
-            ++predicate_counts().interval;
-            return *sign;
-        }
-    }
+[[gnu::noinline]] Sign precise_sign(const Polynomial& polynomial, const IsZero& is_zero) {
     if (is_zero()) {
         ++predicate_counts().exact;
         return Sign::Zero;
@@ -134,6 +125,20 @@ template <class Polynomial, class IsZero>
     }
     ++predicate_counts().exact;
     return exact_sign(polynomial(Exact{}));
+}
+
+// Evaluates stages two to four. `polynomial` is generic over the number type. Stage one decides
+// most calls in some 50 instructions; it stays that short if this function is not inlined.
+template <class Polynomial, class IsZero>
+[[gnu::noinline, gnu::cold]] Sign filtered(const Polynomial& polynomial, const IsZero& is_zero) {
+    {
+        const UpwardRounding guard;
+        if (const auto sign = certain_sign(guard, polynomial(Interval{}))) {
+            ++predicate_counts().interval;
+            return *sign;
+        }
+    }
+    return precise_sign(polynomial, is_zero);
 }
 
 template <class N>
