@@ -5,8 +5,8 @@
 //
 // append() computes the doubles nearest to each constructed point and marks those that equal the
 // exact coordinates. A predicate tries numbers of about 106 bits, which append() keeps, then exact
-// homogeneous coordinates, which are computed when first needed and kept; orient3d tries intervals
-// before. If all points are input points, a predicate calls its namesake in predicates.hpp.
+// homogeneous coordinates, which are computed when first needed and kept. Before, orient3d and any one on
+// doubles try intervals. If all points are input points, it calls its namesake in predicates.hpp.
 //
 // Laws (a test carries each number):
 // (1) Each predicate agrees with its namesake in predicates.hpp on input points, and keeps its laws
