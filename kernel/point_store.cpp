@@ -271,12 +271,46 @@ PointStore::IntervalPoint PointStore::interval(PointIndex p) const {
 #endif
 }
 
+namespace {
+
+// Intervals decide little that a filter of ball_filter.hpp has left, but for zeros of points that are
+// doubles: callers of the predicates in a projection try these.
+struct Orient2d {
+    Axis axis;
+    static constexpr bool tries_intervals = false;
+    template <class P, class Q, class R>
+    auto operator()(const P& p, const Q& q, const R& r) const {
+        return polynomial::orient2d(axis, p, q, r);
+    }
+};
+struct InCircle {
+    Axis axis;
+    static constexpr bool tries_intervals = false;
+    template <class P, class Q, class R, class S>
+    auto operator()(const P& p, const Q& q, const R& r, const S& s) const {
+        return polynomial::in_circle(axis, p, q, r, s);
+    }
+};
+struct Orient3d {
+    static constexpr bool tries_intervals = true;
+    template <class P, class Q, class R, class S>
+    auto operator()(const P& p, const Q& q, const R& r, const S& s) const {
+        return polynomial::orient3d(p, q, r, s);
+    }
+};
+
+} // namespace
+
 template <class Polynomial, class... P>
 Sign PointStore::filtered(UpwardWitness upward, const Polynomial& polynomial, P... points) const {
-    if (const auto sign = certain_sign(upward, polynomial(interval(points)...))) {
-        ++predicate_counts().interval;
-        return *sign;
-    }
+    const auto is_exact = [&](PointIndex p) {
+        return is_double(p, 0) && is_double(p, 1) && is_double(p, 2);
+    };
+    if (Polynomial::tries_intervals || (is_exact(points) && ...))
+        if (const auto sign = certain_sign(upward, polynomial(interval(points)...))) {
+            ++predicate_counts().interval;
+            return *sign;
+        }
     const auto twofold = [&](PointIndex p) {
         return is_input(p) ? cartesian<DoubleDouble>(input_[p])
                            : cache_->twofold[p - input_.size()];
@@ -329,36 +363,21 @@ Sign PointStore::orient2d(UpwardWitness upward, Axis axis, PointIndex a, PointIn
                           PointIndex c) const {
     if (is_input(a) && is_input(b) && is_input(c))
         return terrane::orient2d(axis, input_[a], input_[b], input_[c]);
-    return filtered(
-        upward,
-        [axis](const auto& p, const auto& q, const auto& r) {
-            return polynomial::orient2d(axis, p, q, r);
-        },
-        a, b, c);
+    return filtered(upward, Orient2d{axis}, a, b, c);
 }
 
 Sign PointStore::orient3d(UpwardWitness upward, PointIndex a, PointIndex b, PointIndex c,
                           PointIndex d) const {
     if (is_input(a) && is_input(b) && is_input(c) && is_input(d))
         return terrane::orient3d(input_[a], input_[b], input_[c], input_[d]);
-    return filtered(
-        upward,
-        [](const auto& p, const auto& q, const auto& r, const auto& s) {
-            return polynomial::orient3d(p, q, r, s);
-        },
-        a, b, c, d);
+    return filtered(upward, Orient3d{}, a, b, c, d);
 }
 
 Sign PointStore::in_circle(UpwardWitness upward, Axis axis, PointIndex a, PointIndex b,
                            PointIndex c, PointIndex d) const {
     if (is_input(a) && is_input(b) && is_input(c) && is_input(d))
         return terrane::in_circle(axis, input_[a], input_[b], input_[c], input_[d]);
-    return filtered(
-        upward,
-        [axis](const auto& p, const auto& q, const auto& r, const auto& s) {
-            return polynomial::in_circle(axis, p, q, r, s);
-        },
-        a, b, c, d);
+    return filtered(upward, InCircle{axis}, a, b, c, d);
 }
 
 Point3 nearest(std::span<const Point3> input, const Construction& how) {

@@ -4,9 +4,9 @@
 // indices.
 //
 // append() computes the doubles nearest to each constructed point and marks those that equal the
-// exact coordinates. A predicate tries intervals around these doubles first, then numbers of about
-// 106 bits, which append() keeps, then exact homogeneous coordinates, which are computed when first
-// needed and kept. If all its points are input points, it calls its namesake in predicates.hpp.
+// exact coordinates. A predicate tries numbers of about 106 bits, which append() keeps, then exact
+// homogeneous coordinates, which are computed when first needed and kept. Before, orient3d and any one on
+// doubles try intervals. If all points are input points, it calls its namesake in predicates.hpp.
 //
 // Laws (a test carries each number):
 // (1) Each predicate agrees with its namesake in predicates.hpp on input points, and keeps its laws

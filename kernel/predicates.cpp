@@ -66,16 +66,55 @@ std::optional<Axis> static_projection_axis(const Point3& a, const Point3& b, con
     return std::nullopt;
 }
 
-// Evaluates stages two to four. `polynomial` is generic over the number type. Stage one decides
-// most calls in some 50 instructions; it stays that short if this function is not inlined.
-template <class Polynomial>
-[[gnu::noinline, gnu::cold]] Sign filtered(const Polynomial& polynomial) {
-    {
-        const UpwardRounding guard;
-        if (const auto sign = certain_sign(guard, polynomial(Interval{}))) {
-            ++predicate_counts().interval;
-            return *sign;
-        }
+/// Whether x + y and z + w are the same number. Two doubles hold each sum exactly (Knuth).
+bool are_equal_sums(double x, double y, double z, double w) {
+    if (x + y != z + w) return false; // equal numbers are rounded alike, in any mode
+    const ToNearest mode;
+    const auto rest = [](double a, double b) {
+        const double sum = a + b, part = sum - a;
+        return (a - (sum - part)) + (b - part);
+    };
+    return in_twofold([&] { return x + y == z + w && rest(x, y) == rest(z, w); });
+}
+bool are_equal_sums(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+    return are_equal_sums(a.x, b.x, c.x, d.x) && are_equal_sums(a.y, b.y, c.y, d.y) &&
+           are_equal_sums(a.z, b.z, c.z, d.z);
+}
+bool are_equal_sums(const Uv& a, const Uv& b, const Uv& c, const Uv& d) {
+    return are_equal_sums(a.u, b.u, c.u, d.u) && are_equal_sums(a.v, b.v, c.v, d.v);
+}
+
+/// Whether one of three points is in the middle of the others.
+template <class P>
+bool has_middle(const P& a, const P& b, const P& c) {
+    return are_equal_sums(a, a, b, c) || are_equal_sums(b, b, a, c) || are_equal_sums(c, c, a, b);
+}
+
+/// Whether the points are in one plane, as one is in the middle of two others, or four are the corners of
+/// a parallelogram.
+bool are_flat(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+    return has_middle(a, b, c) || has_middle(a, b, d) || has_middle(a, c, d) ||
+           has_middle(b, c, d) || are_equal_sums(a, b, c, d) || are_equal_sums(a, c, b, d) ||
+           are_equal_sums(a, d, b, c);
+}
+
+/// Whether directions a b and c d are parallel, as they are equal or opposite, or as a, which is c, b and d
+/// have a point in the middle.
+bool are_parallel(const Uv& a, const Uv& b, const Uv& c, const Uv& d) {
+    return are_equal_sums(a, d, b, c) || are_equal_sums(a, c, b, d) ||
+           (a == c && has_middle(a, b, d));
+}
+
+/// Stands for a test that tells nothing.
+constexpr auto not_known = [] { return false; };
+
+/// Evaluates the stages after intervals. `is_zero()`: whether the polynomial is known to be zero. Of exact
+/// zeros, which only the last stage would tell, most come from regular grids, where it is.
+template <class Polynomial, class IsZero>
+[[gnu::noinline]] Sign precise_sign(const Polynomial& polynomial, const IsZero& is_zero) {
+    if (is_zero()) {
+        ++predicate_counts().exact;
+        return Sign::Zero;
     }
     {
         const ToNearest mode;
@@ -86,6 +125,20 @@ template <class Polynomial>
     }
     ++predicate_counts().exact;
     return exact_sign(polynomial(Exact{}));
+}
+
+// Evaluates stages two to four. `polynomial` is generic over the number type. Stage one decides
+// most calls in some 50 instructions; it stays that short if this function is not inlined.
+template <class Polynomial, class IsZero>
+[[gnu::noinline, gnu::cold]] Sign filtered(const Polynomial& polynomial, const IsZero& is_zero) {
+    {
+        const UpwardRounding guard;
+        if (const auto sign = certain_sign(guard, polynomial(Interval{}))) {
+            ++predicate_counts().interval;
+            return *sign;
+        }
+    }
+    return precise_sign(polynomial, is_zero);
 }
 
 template <class N>
@@ -116,10 +169,12 @@ __attribute__((no_stack_protector)) Sign orient3d(const Point3& a, const Point3&
         ++predicate_counts().static_filter;
         return *sign;
     }
-    return filtered([&]<class N>(N) {
-        return polynomial::orient3d(cartesian<N>(a), cartesian<N>(b), cartesian<N>(c),
-                                    cartesian<N>(d));
-    });
+    return filtered(
+        [&]<class N>(N) {
+            return polynomial::orient3d(cartesian<N>(a), cartesian<N>(b), cartesian<N>(c),
+                                        cartesian<N>(d));
+        },
+        [&] { return are_flat(a, b, c, d); });
 }
 
 __attribute__((no_stack_protector)) Sign turn2d(Axis axis, const Point3& a, const Point3& b,
@@ -129,10 +184,15 @@ __attribute__((no_stack_protector)) Sign turn2d(Axis axis, const Point3& a, cons
         ++predicate_counts().static_filter;
         return *sign;
     }
-    return filtered([&]<class N>(N) {
-        return polynomial::turn2d(axis, cartesian<N>(a), cartesian<N>(b), cartesian<N>(c),
-                                  cartesian<N>(d));
-    });
+    return filtered(
+        [&]<class N>(N) {
+            return polynomial::turn2d(axis, cartesian<N>(a), cartesian<N>(b), cartesian<N>(c),
+                                      cartesian<N>(d));
+        },
+        [&] {
+            return are_parallel(project(axis, a), project(axis, b), project(axis, c),
+                                project(axis, d));
+        });
 }
 
 Sign orient2d(Axis axis, const Point3& a, const Point3& b, const Point3& c) {
@@ -146,10 +206,12 @@ __attribute__((no_stack_protector)) Sign in_circle(Axis axis, const Point3& a, c
         ++predicate_counts().static_filter;
         return *sign;
     }
-    return filtered([&]<class N>(N) {
-        return polynomial::in_circle(axis, cartesian<N>(a), cartesian<N>(b), cartesian<N>(c),
-                                     cartesian<N>(d));
-    });
+    return filtered(
+        [&]<class N>(N) {
+            return polynomial::in_circle(axis, cartesian<N>(a), cartesian<N>(b), cartesian<N>(c),
+                                         cartesian<N>(d));
+        },
+        not_known);
 }
 
 bool collinear(const Point3& a, const Point3& b, const Point3& c) {
@@ -163,10 +225,12 @@ Axis projection_axis(const Point3& a, const Point3& b, const Point3& c) {
         const auto pick = []<class N>(const polynomial::Vector<N>& n, Axis k) -> const N& {
             return k == Axis::x ? n.x : k == Axis::y ? n.y : n.z;
         };
-        return filtered([&]<class N>(N) {
-                   const auto n = normal<N>(a, b, c);
-                   return compare_squares(pick(n, first), pick(n, second));
-               }) == Sign::Positive;
+        return filtered(
+                   [&]<class N>(N) {
+                       const auto n = normal<N>(a, b, c);
+                       return compare_squares(pick(n, first), pick(n, second));
+                   },
+                   not_known) == Sign::Positive;
     };
     const Axis best = longer(Axis::x, Axis::z) ? Axis::x : Axis::z;
     return longer(Axis::y, best) ? Axis::y : best;

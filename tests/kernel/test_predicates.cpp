@@ -10,7 +10,12 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cfenv>
+#include <cmath>
+#include <functional>
+#include <vector>
 
 namespace {
 
@@ -227,6 +232,45 @@ TEST_CASE("nearly coplanar integers times a power of two, judged in 128 bits") {
                               d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
         REQUIRE(orient3d(p[0], p[1], p[2], p[3]) == sign_of(volume));
     }
+}
+
+TEST_CASE("middles and parallelograms agree with exact integers, whether rounded or not") {
+    Random random(19);
+    int zeros = 0, others = 0;
+    const auto combined = [](const Point3& p, const Point3& q, const auto& combine) {
+        return Point3{combine(p.x, q.x), combine(p.y, q.y), combine(p.z, q.z)};
+    };
+    const int callers = std::fegetround();
+    for (int i = 0; i < cases(20'000); ++i) {
+        std::vector<Point3> p;
+        for (int k = 0; k < 3; ++k)
+            p.push_back(point_of([&] { return random_real(random, 1, 2); }));
+        if (i % 2 == 0) {
+            p.push_back(combined(p[0], p[1], [](double x, double y) { return (x + y) / 2; }));
+        } else {
+            p[1] = combined(p[0], p[1], [](double x, double y) { return x + (y - 1) * 0x1p-20; });
+            const Point3 edge = combined(p[1], p[0], std::minus<>());
+            p.push_back(combined(p[2], edge, std::plus<>()));
+        }
+        if (i % 5 == 0) p[3].x = std::nextafter(p[3].x, 0);
+        std::shuffle(p.begin(), p.end(), random);
+        const auto q = oracle::points(p);
+        std::fesetround(std::array{FE_UPWARD, FE_TONEAREST, FE_DOWNWARD, FE_TOWARDZERO}[i % 4]);
+        const Sign volume = orient3d(p[0], p[1], p[2], p[3]);
+        std::array<Sign, 3> turns{};
+        for (const Axis axis : all_axes)
+            turns[static_cast<unsigned>(axis)] = turn2d(axis, p[0], p[1], p[2], p[3]);
+        const Sign turn = orient2d(Axis::z, p[0], p[1], p[2]);
+        std::fesetround(callers);
+        REQUIRE(volume == oracle::orient3d(q[0], q[1], q[2], q[3]));
+        REQUIRE(turn == oracle::orient2d(Axis::z, q[0], q[1], q[2]));
+        for (const Axis axis : all_axes)
+            REQUIRE(turns[static_cast<unsigned>(axis)] ==
+                    oracle::turn2d(axis, q[0], q[1], q[2], q[3]));
+        ++(volume == Sign::Zero ? zeros : others);
+    }
+    CHECK(zeros > cases(20'000) / 50);
+    CHECK(others > cases(20'000) / 2);
 }
 
 TEST_CASE("the static filter decides random points, the others are reached by degenerate ones") {

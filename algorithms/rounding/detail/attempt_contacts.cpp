@@ -162,6 +162,7 @@ std::vector<CandidatePair> Rounding::first_contacts(const Run& run) {
         for (const CandidatePair& p : unproven.pairs)
             if (is_improper(p)) pairs.push_back(p);
     }
+    sort_unique(pairs);
     const auto patch_of = [&](std::uint32_t t) {
         const std::uint32_t p = a.state->patches.of[t];
         return p != no_group && holds[p] ? p : no_group;

@@ -43,20 +43,31 @@ std::set<std::uint32_t> without_free_edges(std::span<const Triangle> triangles,
 std::set<Side> overlapping_neighbours(const EdgeSides& edges,
                                       const IndexLists<std::uint32_t>& parents_of,
                                       std::span<const Triangle> corners) {
+    struct WithSide {
+        Side side;
+        std::uint32_t parent;
+        std::size_t count; ///< of triangles at the edge with this parent
+        auto operator<=>(const WithSide&) const = default;
+    };
     std::set<Side> pairs;
+    std::vector<std::uint32_t> parents;
+    std::vector<WithSide> with;
     edges.for_each([&](std::uint32_t, std::uint32_t, std::span<const EdgeSides::Side> sides) {
         if (sides.size() < 3) return;
-        std::map<std::uint32_t, unsigned> count; // per parent
+        parents.clear();
         for (const auto& side : sides)
-            for (const std::uint32_t p : parents_of[side.triangle]) ++count[p];
-        std::map<Side, std::vector<std::uint32_t>> with; // parents, by their sides
-        for (const auto& [p, of_p] : count)
-            for (unsigned i = 0; i < 3; ++i) {
-                auto& others = with[side_of(corners[p], i)];
-                for (const std::uint32_t q : others)
-                    if (of_p + count[q] > 2) pairs.insert({q, p});
-                others.push_back(p);
-            }
+            for (const std::uint32_t p : parents_of[side.triangle]) parents.push_back(p);
+        std::sort(parents.begin(), parents.end());
+        with.clear();
+        for (std::size_t k = 0, end = 0; k < parents.size(); k = end) {
+            while (end < parents.size() && parents[end] == parents[k]) ++end;
+            for (unsigned i = 0; i < 3; ++i)
+                with.push_back({side_of(corners[parents[k]], i), parents[k], end - k});
+        }
+        std::sort(with.begin(), with.end());
+        for (auto p = with.begin(); p != with.end(); ++p)
+            for (auto q = p; q != with.begin() && (--q)->side == p->side;)
+                if (p->count + q->count > 2) pairs.insert({q->parent, p->parent});
     });
     return pairs;
 }

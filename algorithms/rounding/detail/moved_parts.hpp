@@ -30,8 +30,8 @@ struct MovedParts {
 /// `meeting`): the pair is in `pairs`, or one of them is in `parts`. Two parts of one face of such a
 /// pair, whatever other faces contain them: `ill_conditioned` has both.
 struct Unproven {
-    std::vector<CandidatePair> pairs;           ///< pairs of parts; sorted, unique
-    std::vector<std::uint32_t> parts;           ///< ascending
+    std::vector<CandidatePair> pairs; ///< pairs of parts; repeated where parts have several faces
+    std::vector<std::uint32_t> parts; ///< ascending
     std::vector<std::uint32_t> ill_conditioned; ///< ascending
 };
 

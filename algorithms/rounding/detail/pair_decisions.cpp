@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include <terrane/algorithms/core/disjoint_sets.hpp>
 #include <terrane/kernel/assertion.hpp>
 
 namespace terrane::rounding::detail {
@@ -64,6 +65,7 @@ FirstSearch::FirstSearch(std::vector<CandidatePair> tested_pairs,
                          std::vector<std::uint32_t> patches_of, Pools pools_of) :
     pairs(std::move(tested_pairs)),
     flags(patches_of.size(), 0), patches(std::move(patches_of)), pools(std::move(pools_of)) {
+    sort_unique(pairs);
     for (const std::uint32_t t : parts) flags[t] |= is_part;
     for (const std::uint32_t t : dirty) flags[t] |= is_dirty;
     for (const CandidatePair& pair : pairs)

@@ -44,7 +44,7 @@ struct Pools {
 /// to decide, since no corner had moved.
 struct FirstSearch {
     FirstSearch() = default;
-    /// The lists are of triangles; `tested` is sorted.
+    /// The lists are of triangles.
     FirstSearch(std::vector<CandidatePair> tested, std::span<const std::uint32_t> parts,
                 std::span<const std::uint32_t> dirty, std::vector<std::uint32_t> patches_of,
                 Pools pools_of);

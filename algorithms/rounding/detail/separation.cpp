@@ -43,6 +43,10 @@ public:
         moved_(moved), meeting_(meeting), faces_(moved, meeting, most_of(moved.moves), run) {}
 
     [[nodiscard]] Unproven operator()(const Run& run);
+    /// Returns how many pairs are not clear as a whole; 0 if find_common would cost much.
+    [[nodiscard]] std::size_t count_doubtful(const Run& run) const {
+        return has_few_common() ? find_doubtful(run).size() : 0;
+    }
 
 private:
     [[nodiscard]] Cut cut(std::uint32_t f_slot, std::uint32_t g_slot, const Point3& origin,
@@ -244,10 +248,34 @@ Unproven Prover::operator()(const Run& run) {
         all.parts.insert(all.parts.end(), b.parts.begin(), b.parts.end());
     }
     for (const Face& f : faces_.faces) add_restless(f, all.ill_conditioned);
-    sort_unique(all.pairs);
     sort_unique(all.parts);
     sort_unique(all.ill_conditioned);
     return all;
+}
+
+/// Tells from a sample of one in 32 whether more pairs are in doubt than there are parts, so that a
+/// test of all pairs of parts would follow: see Prover::is_affordable().
+bool are_mostly_doubtful(const MovedParts& moved, std::span<const CandidatePair> meeting,
+                         const Run& run) {
+    constexpr std::size_t every = 32;
+    if (meeting.size() <= moved.parts.size()) return false;
+    std::vector<CandidatePair> sample;
+    for (const CandidatePair& p : meeting)
+        if (p.first % every == 0) sample.push_back(p);
+    const std::size_t doubtful = Prover(moved, sample, run).count_doubtful(run);
+    return doubtful * meeting.size() > sample.size() * moved.parts.size();
+}
+
+/// Returns the parts of all faces in pairs, ascending.
+std::vector<std::uint32_t> parts_of_pairs(const MovedParts& moved,
+                                          std::span<const CandidatePair> meeting) {
+    std::vector<bool> is_in_pair(moved.faces.size(), false);
+    for (const CandidatePair& p : meeting) is_in_pair[p.first] = is_in_pair[p.second] = true;
+    std::vector<std::uint32_t> parts;
+    for (std::uint32_t t = 0; t < moved.parts.size(); ++t)
+        if (std::ranges::any_of(moved.faces_of[t], [&](std::uint32_t f) { return is_in_pair[f]; }))
+            parts.push_back(t);
+    return parts;
 }
 
 } // namespace
@@ -279,6 +307,10 @@ std::vector<bool> ill_conditioned_in_pools(const MovedParts& moved,
 
 Unproven find_unproven(const MovedParts& moved, std::span<const CandidatePair> meeting,
                        const Run& run) {
+    if (are_mostly_doubtful(moved, meeting, run)) {
+        const auto parts = parts_of_pairs(moved, meeting);
+        return {{}, parts, parts};
+    }
     return Prover(moved, meeting, run)(run);
 }
 

@@ -8,6 +8,17 @@
 #include <terrane/algorithms/rounding/detail/state.hpp>
 
 namespace terrane::rounding::detail {
+namespace {
+
+/// Returns the number of different points.
+std::size_t distinct(std::span<const Point3> points) {
+    PointTable table(points.size());
+    std::size_t count = 0;
+    for (std::uint32_t p = 0; p < points.size(); ++p) count += table.enter(points, p) == p;
+    return count;
+}
+
+} // namespace
 
 double SnapGrid::reach() const {
     return length_bound(step[0], step[1], step[2]) / 2;
@@ -121,9 +132,7 @@ std::vector<Surface> SnappedInput::surfaces_at(std::span<const Point3> places) {
                                 places.begin() + in.first_vertex[s + 1]);
     }
     const auto inputs = arrangement_.state->points.inputs();
-    const std::unordered_set<Point3, PointHash> before(inputs.begin(), inputs.end()),
-        after(places.begin(), places.end());
-    how_.merged = before.size() - after.size();
+    how_.merged = distinct(inputs) - distinct(places);
     // Corners are numbered through all surfaces and may name a vertex of an earlier surface with
     // the same coordinates. Each triangle gets corners in its own surface.
     for (std::size_t s = 0; s + 1 < in.first.size(); ++s)

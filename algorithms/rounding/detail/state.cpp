@@ -321,16 +321,16 @@ void RoundingState::join_equal(std::span<const std::uint32_t> dirty, std::vector
     parents.offsets.reserve(parents_of.offsets.size());
     parents.values.reserve(parents_of.values.size());
     std::size_t kept = 0;
+    auto more = extra.begin();
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         if (gone[t]) continue;
         if (!origins.empty()) origins[kept] = origins[t];
         triangles[kept++] = triangles[t];
-        const auto more = extra.find(t);
-        if (more == extra.end()) {
+        if (more == extra.end() || more->first != t) {
             parents.push_back(parents_of[t]);
             continue;
         }
-        auto& list = more->second;
+        auto& list = more++->second;
         list.insert(list.end(), parents_of[t].begin(), parents_of[t].end());
         sort_unique(list);
         parents.push_back(list);

@@ -14,6 +14,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 namespace {
 
@@ -107,7 +109,8 @@ bool is_listed(const Arrangement& a, const Unproven& unproven, const CandidatePa
     const auto has = [](const auto& list, const auto& value) {
         return std::binary_search(list.begin(), list.end(), value);
     };
-    if (has(unproven.pairs, p) || has(unproven.parts, p.first) || has(unproven.parts, p.second))
+    if (std::find(unproven.pairs.begin(), unproven.pairs.end(), p) != unproven.pairs.end() ||
+        has(unproven.parts, p.first) || has(unproven.parts, p.second))
         return true;
     const auto faces = a.parents_of[p.first], others = a.parents_of[p.second];
     const bool within_a_face = std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) {
@@ -153,7 +156,49 @@ Surface much_cut(Random& random) {
     return s;
 }
 
+/// Returns a sheet of n by n cells whose vertices are moved up or down by `by`, at random.
+Surface rough_sheet(Random& random, std::uint32_t n, double by) {
+    Surface s;
+    for (std::uint32_t v = 0; v <= n; ++v)
+        for (std::uint32_t u = 0; u <= n; ++u)
+            s.vertices.push_back(
+                {u * 1.0, v * 1.0, std::sin(u + 2.0 * v) + by * random_int(random, -1, 1)});
+    for (std::uint32_t v = 0; v < n; ++v)
+        for (std::uint32_t u = 0; u < n; ++u) {
+            const std::uint32_t a = (n + 1) * v + u, b = a + n + 1;
+            s.triangles.push_back({a, a + 1, b});
+            s.triangles.push_back({a + 1, b + 1, b});
+        }
+    return s;
+}
+
 } // namespace
+
+TEST_CASE("clearance: sheets that are in doubt everywhere are left to tests as a whole") {
+    Random random(115);
+    int improper = 0;
+    for (int i = 0; i < 4; ++i) {
+        const Arrangement a =
+            arrange(std::vector{rough_sheet(random, 16, 0), rough_sheet(random, 16, 0x1p-50)})
+                .value();
+        const std::span meeting(a.state->neighbours);
+        REQUIRE(meeting.size() > a.triangles.size()); // otherwise each pair is looked at
+        const Moved m = moved(random, a, 0x1p-50);
+        const Unproven unproven =
+            find_unproven({a.state->points.inputs(), a.state->corners, a.vertices, m.points,
+                           m.moves, a.triangles, a.parents_of},
+                          meeting, {});
+        for (const CandidatePair& p :
+             candidate_pairs({m.points, a.triangles}, {}, Search::automatic)) {
+            if (!improper_contact(m.points, a.triangles[p.first], a.triangles[p.second])) continue;
+            ++improper;
+            REQUIRE(is_listed(a, unproven, p));
+        }
+        CHECK(unproven.pairs.empty());
+        CHECK(unproven.parts.size() > a.triangles.size() / 2);
+    }
+    CHECK(improper > 100);
+}
 
 TEST_CASE("clearance: the same of a face with so many parts that far ones are left out") {
     Random random(113);
