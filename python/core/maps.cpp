@@ -41,8 +41,8 @@ Nodes nodes_in(const py::object& path, const HowToRun& how) {
     return nodes_of(run_stage(how, [from = to_path(path)](const Run&) { return read_grid(from); }));
 }
 
-py::tuple map(const py::sequence& surfaces, const std::string& number, const Nodes& nodes,
-              const py::sequence& to, const HowToRun& how) {
+py::tuple map_numbers(const py::sequence& surfaces, const std::string& number, const Nodes& nodes,
+                      const py::sequence& to, const HowToRun& how) {
     const auto kind = map_kind_named(number);
     if (!kind)
         refuse("is not mapped: height, depth, dip, azimuth, thickness, distance",
@@ -66,8 +66,8 @@ py::array map_thickness(const MeshPointer& mesh, const VolumesPointer& volumes,
     return owned(std::move(made.values));
 }
 
-void write(const Nodes& nodes, const py::array& values, const py::object& path,
-           const std::optional<std::string>& format, const HowToRun& how) {
+void write_map(const Nodes& nodes, const py::array& values, const py::object& path,
+               const std::optional<std::string>& format, const HowToRun& how) {
     auto grid = std::make_shared<Grid>(to_grid(nodes));
     grid->values = copied<double>(values);
     run_stage(how, [grid, to = to_path(path), chosen = to_format(format)](const Run&) {
@@ -80,10 +80,10 @@ void write(const Nodes& nodes, const py::array& values, const py::object& path,
 void bind_maps(py::module_& module) {
     module.def("nodes_over", &nodes_over, "surfaces"_a, "step"_a);
     module.def("nodes_in", &nodes_in, "path"_a, "how"_a);
-    module.def("map", &map, "surfaces"_a, "number"_a, "nodes"_a, "to"_a, "how"_a);
+    module.def("map", &map_numbers, "surfaces"_a, "number"_a, "nodes"_a, "to"_a, "how"_a);
     module.def("map_thickness", &map_thickness, "mesh"_a, "volumes"_a, "blocks"_a, "nodes"_a,
                "how"_a);
-    module.def("write_grid", &write, "nodes"_a, "values"_a, "path"_a, "format"_a, "how"_a);
+    module.def("write_grid", &write_map, "nodes"_a, "values"_a, "path"_a, "format"_a, "how"_a);
 }
 
 } // namespace terrane::python
