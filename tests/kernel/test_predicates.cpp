@@ -260,10 +260,10 @@ TEST_CASE("middles and parallelograms agree with exact integers, whether rounded
         std::array<Sign, 3> turns{};
         for (const Axis axis : all_axes)
             turns[static_cast<unsigned>(axis)] = turn2d(axis, p[0], p[1], p[2], p[3]);
-        const Sign turn = orient2d(Axis::z, p[0], p[1], p[2]);
+        const Sign seen_from_z = orient2d(Axis::z, p[0], p[1], p[2]);
         std::fesetround(callers);
         REQUIRE(volume == oracle::orient3d(q[0], q[1], q[2], q[3]));
-        REQUIRE(turn == oracle::orient2d(Axis::z, q[0], q[1], q[2]));
+        REQUIRE(seen_from_z == oracle::orient2d(Axis::z, q[0], q[1], q[2]));
         for (const Axis axis : all_axes)
             REQUIRE(turns[static_cast<unsigned>(axis)] ==
                     oracle::turn2d(axis, q[0], q[1], q[2], q[3]));

@@ -8,6 +8,7 @@
 
 #include <terrane/algorithms/judge/judge.hpp>
 #include <terrane/algorithms/verify/verify.hpp>
+#include <terrane/io/certificate.hpp>
 #include <terrane/io/certify.hpp>
 #include <terrane/io/gocad/gocad_model.hpp>
 #include <terrane/io/judgement/judgement.hpp>
