@@ -31,6 +31,7 @@
 #include <terrane/algorithms/tetrahedra/split_nodes.hpp>
 #include <terrane/algorithms/tolerance/tolerance.hpp>
 #include <terrane/algorithms/verify/certificate.hpp>
+#include <terrane/algorithms/verify/verdict.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 #include <terrane/io/grids/grid.hpp>

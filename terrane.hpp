@@ -12,7 +12,6 @@
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/pipeline/build.hpp>
 #include <terrane/algorithms/pipeline/project.hpp>
-#include <terrane/algorithms/structure/relations.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/tetgen/tetrahedra.hpp>
 #include <terrane/algorithms/verify/verify.hpp>

@@ -26,7 +26,7 @@
 //                                    parallel when seen along this axis
 //       "triangles": [[u, v, w]],    three vertices, by position in "vertices"
 //       "parents": [[p, ...]],       per triangle: all input triangles that contain it, ascending
-//       "intersection_edges": [[u, v]],  u < v, ascending; rule R7 says which (verify.hpp)
+//       "intersection_edges": [[u, v]],  u < v, ascending; rule R7 says which (verdict.hpp)
 //       "degenerate": [t, ...],      input triangles without area, ascending
 //       "duplicates": [[t, first]] },  input triangle t has the three points of an earlier one
 //     "rounded": {                   the mesh of doubles, as written to files; or null

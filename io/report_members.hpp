@@ -18,7 +18,7 @@
 #include <terrane/algorithms/rounding/rounding.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
 #include <terrane/algorithms/simplification/simplify.hpp>
-#include <terrane/algorithms/structure/relations.hpp>
+#include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/tiles/tile.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 

@@ -47,7 +47,6 @@
 #include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/plausibility/plausibility.hpp>
 #include <terrane/algorithms/sealing/sealing.hpp>
-#include <terrane/algorithms/structure/relations.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/io/text/json.hpp>
 

@@ -17,7 +17,6 @@
 #include <terrane/algorithms/model/arrange_within.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
 #include <terrane/algorithms/structure/block_names.hpp>
-#include <terrane/algorithms/structure/relations.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 

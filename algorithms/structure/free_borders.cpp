@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/structure/relations.hpp>
+#include <terrane/algorithms/structure/structure.hpp>
 
 #include <algorithm>
 #include <climits>

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <terrane/algorithms/model/model.hpp>
-#include <terrane/algorithms/structure/relations.hpp>
+#include <terrane/algorithms/structure/structure.hpp>
 
 namespace terrane::cli {
 

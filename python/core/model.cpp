@@ -9,7 +9,6 @@
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/pipeline/build.hpp>
 #include <terrane/algorithms/quality/improve.hpp>
-#include <terrane/algorithms/structure/relations.hpp>
 #include <terrane/algorithms/structure/structure.hpp>
 #include <terrane/io/report_members.hpp>
 #include <terrane/io/results.hpp>

@@ -182,7 +182,7 @@ def instances():
                   "FillReport": made["Filled"].holes[0].report, "LayerReport": made["Layered"].reports[0],
                   "SelectedPiece": made["Selected"].pieces[0],
                   "SectionPolygon": made["Section"].polygons[0],
-                  "SectionLine": made["Section"].lines[0],
+                  "SectionLine": made["Section"].lines[0], "PartAbove": made["Model"].blocks[1].above_contact(0),
                   "Leak": terrane.Leak("a", "b", 1.0, 2.0, 3.0, (0.0, 1.0, 2.0), "wide"), "Relation": made["Model"].relations[0],
                   "Juxtaposition": made["Model"].juxtapositions[0], "SurfaceCut": made["VolumeOfInterest"].surfaces[0],
                   "SealAdvice": terrane.suggest_seal(stack()),

@@ -71,7 +71,7 @@ TEST_CASE("cli: convert reads a grid with its holes, depth or elevation", "[cli]
     CHECK(contains(wrong.err, "unknown format grid"));
     const auto out = folder.run("convert " + in + " out.irap");
     CHECK(out.status == 2);
-    CHECK(contains(out.err, "this format is read, not written"));
+    CHECK(contains(out.err, "this format is for grids, which terrane map writes"));
     CHECK(folder.run("check --depth " + in).status == 0);
     // A certificate is about files as they were read.
     REQUIRE(

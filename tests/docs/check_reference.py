@@ -376,7 +376,7 @@ def check_names(findings):
     findings.compare("errors.md", set(documented), codes)
     findings += [f"errors.md: the status of {code} is {status}"
                  for code, status in statuses(codes).items() if documented.get(code, status) != status]
-    rules = {r.split("_")[0] for r in enumerators(source("verify.hpp"), "Rule")}
+    rules = {r.split("_")[0] for r in enumerators(source("verdict.hpp"), "Rule")}
     findings.compare("certificate.md, rules", first_cells("certificate.md", "rules"), rules)
     listed = set(re.findall(r'{"(\w+)", Format::\w+}', source("formats.cpp")))
     table = rows_of(sections_of((REFERENCE / "formats.md").read_text())["file-formats"])

@@ -13,7 +13,7 @@
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/verify/detail/rational.hpp>
 #include <terrane/algorithms/verify/detail/violations.hpp>
-#include <terrane/algorithms/verify/verify.hpp>
+#include <terrane/algorithms/verify/verdict.hpp>
 
 namespace terrane::verifier {
 

@@ -16,7 +16,7 @@
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/verify/certificate.hpp>
 #include <terrane/algorithms/verify/detail/node.hpp>
-#include <terrane/algorithms/verify/verify.hpp>
+#include <terrane/algorithms/verify/verdict.hpp>
 
 namespace terrane::verifier {
 

@@ -12,7 +12,7 @@
 #include <terrane/algorithms/core/index_lists.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
-#include <terrane/algorithms/verify/verify.hpp>
+#include <terrane/algorithms/verify/verdict.hpp>
 
 namespace terrane::verifier {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Tests the tables of how surfaces end at each other, and of what faces what across them.
-#include <terrane/algorithms/structure/relations.hpp>
+#include <terrane/algorithms/structure/structure.hpp>
 
 #include <algorithm>
 #include <string>

@@ -20,14 +20,14 @@ def texts(folder, pattern):
 
 
 def main():
-    rules = set(ENUMERATOR.findall((ROOT / "algorithms/verify/verify.hpp").read_text()))
+    rules = set(ENUMERATOR.findall((ROOT / "algorithms/verify/verdict.hpp").read_text()))
     documented = set(IN_TABLE.findall((ROOT / "docs/reference/certificate.md").read_text()))
     expected = set(EXPECTED.findall(texts("tests", "test_*.cpp")))
     flaws = [f"{rule} is not in the table of certificate.md" for rule in rules - documented]
     flaws += [f"{rule} of certificate.md is no rule" for rule in documented - rules]
     flaws += [f"no test has a forgery that {rule} alone refuses" for rule in rules - expected]
     if len(rules) < 40:
-        flaws.append(f"only {len(rules)} rules were found in verify.hpp")
+        flaws.append(f"only {len(rules)} rules were found in verdict.hpp")
     for flaw in sorted(flaws):
         print(flaw)
     print(f"{len(rules)} rules, {len(flaws)} flaws")
