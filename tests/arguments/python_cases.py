@@ -230,6 +230,7 @@ METHODS = {
         "tetrahedra": (lambda f: {}, {"edge_length": 2, "improve": None, "quality": 1.8}),
         "map_thickness": (lambda f: dict(blocks=[1], step=0.5), {"step": 0.25, "like": None}),
         "save": (lambda f: dict(folder="m"), {"format": "obj"}), "report": (lambda f: dict(path="m.html"), {})}),
+    "Block": (lambda f: f.model.blocks[1], {"above_contact": (lambda f: dict(contact=0.5), {})}),
     "Blocks": (lambda f: f.model.blocks, {"get": (lambda f: dict(key=1), {"default": None})}),
     "Tetrahedra": (lambda f: f.cells, {
         "of_block": (lambda f: dict(block=1), {}), "report": (lambda f: dict(path="t.html"), {}),
