@@ -43,8 +43,8 @@ TERRANE_API terrane_code terrane_select_options_init(terrane_select_options* opt
 /// Selects a region by an expression over the surfaces, by their names, such as "(a | b) - c" or
 /// "salt & below(topography)", or a part of an open surface: "fault & inside(body)". Free it with
 /// terrane_selected_free. Errors: BAD_OPTION (a mistake in the expression, with its column; a name
-/// of no surface; a region without an end), NOT_CLOSED (a surface that bounds no solid, or does not
-/// divide what it is to divide), those of terrane_arrange and terrane_round.
+/// of no surface; a region without an end), NOT_CLOSED (a closed operand that bounds no solid, an open
+/// one that ends inside a part), those of terrane_arrange and terrane_round.
 TERRANE_API terrane_code terrane_select(const terrane_surfaces* surfaces, const char* expression,
                                         const terrane_select_options* options,
                                         const terrane_run* run, terrane_selected** out,

@@ -90,9 +90,9 @@ struct Selected {
 /// expression.hpp describes expressions: a | b (union), a & b (intersection), a - b (difference), a ^ b (symmetric
 /// difference), ~a (complement), below(s), above(s), west(s), east(s), south(s), north(s) (sides of a surface), hull(s)
 /// (all that it keeps from infinity), brackets, and names in double quotes. A region without points has an empty mesh.
-/// Errors: bad_option with the column (syntax, an unknown name) or if the region has no end; not_closed for a
-/// surface that bounds no solid, or does not divide what it is to divide, with the place; those of arrange(),
-/// find_volumes() and round_to_doubles().
+/// Errors: bad_option with the column (syntax, an unknown name) or if the region has no end; not_closed, with the
+/// place, for a closed operand that bounds no solid, and for an open one that ends inside a part; those of
+/// arrange(), find_volumes() and round_to_doubles().
 Result<Selected> select(std::span<const Surface> surfaces, std::string_view expression,
                         const SelectOptions& options = {}, const Run& run = {});
 

@@ -144,8 +144,8 @@ def select(surfaces: Any, expression: str, *, rule: str = "nonzero", fractions: 
     ------
     terrane.Error
         ``bad_option`` for an expression with a mistake, with its column, for a name of no surface, and if the region
-        has no end; ``not_closed`` for a surface that bounds no solid, or does not divide what it is to divide, with the
-        place; those of `arrange` and `round`.
+        has no end; ``not_closed``, with the place, for a closed operand that bounds no solid, and for an open one that
+        ends inside a part; those of `arrange` and `round`.
 
     Notes
     -----

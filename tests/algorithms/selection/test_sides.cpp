@@ -241,7 +241,7 @@ TEST_CASE("select: what lies on a boundary is inside, what lies on a surface is 
     CHECK(none.mesh.triangles.empty());
 }
 
-TEST_CASE("select: a surface that does not divide what it is to divide is named with the place") {
+TEST_CASE("select: an open surface that ends inside a part is named with the place") {
     const std::vector<Surface> s{cube(0, 2, "a"), level(1, -1, -1, 1, 3, "short"),
                                  quad({1, -1, -1}, {1, 3, -1}, {1, 3, 3}, {1, -1, 3}, "wall"),
                                  level(9, 5, 5, 6, 6, "far"), box({0.5, 0.5, -2}, {1, 1, 4}, "b")};
