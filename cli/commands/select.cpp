@@ -157,7 +157,12 @@ ExitStatus select_files(SelectCommand& command, const CLI::App& app, Session& se
     if (!made.rounding.clean) print(stderr, places_of(made.rounding, inputs.quantities()));
     const bool writes = made.rounding.clean && !made.mesh.triangles.empty() &&
                         stl_is_conforming(made.mesh, files, outputs, session);
-    if (!writes) print(stderr, complaint("nothing written"));
+    const bool vanished =
+        made.rounding.clean && !made.pieces.empty() && made.mesh.triangles.empty();
+    if (!writes)
+        print(stderr,
+              complaint(vanished ? "nothing written: all of it vanishes where points become doubles"
+                                 : "nothing written"));
     if (writes) write_selected(made, inputs, command, outputs, session);
     write_statistics(std::move(statistics), files.stats, session);
     return writes ? ExitStatus::done : ExitStatus::negative;

@@ -57,6 +57,8 @@ class Card:
     def judge(self, *words):
         """The properties that `terrane judge` names; none if it can't judge, as a file is no mesh."""
         _, text = limited([self.arguments.terrane, "judge", *map(str, words), "--json"], 600, 0)
+        if text.startswith("terrane: inputs: "):  # the inputs, and so no result, can be judged
+            return [{"property": "inputs", "verdict": "not judged", "sentence": text}]
         return [json.loads(line) for line in text.splitlines() if line.startswith("{")]
 
     def lacks(self, name):
@@ -68,7 +70,7 @@ class Card:
             alone = self.judge(path, path, "--operation", "union")
             text = path.read_text().split()
             numbers = map(float, text[4:4 + 3 * int(text[1])])
-            self.sound[name] = (lacks | (set() if alone and all(p["verdict"] != "fails" for p in alone) else {"solid"})
+            self.sound[name] = (lacks | (set() if alone and all(p["verdict"] != "fails" and p["property"] != "inputs" for p in alone) else {"solid"})
                                 | ({"single"} if any(x != to_single(x) for x in numbers) else set()))
         return self.sound[name]
 

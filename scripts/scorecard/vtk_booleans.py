@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """VTK's filters for the score card: vtk_booleans.py boolean|loop|intersection OPERATION OUTPUT.off A.off B.off"""
 import sys
+import time
 
 import off
 import vtk
@@ -33,6 +34,7 @@ def triangles_of(data):
 def main(method, operation, output, first, *others):
     failed = []
     data = poly_data(first)
+    seconds = 0.0
     for path in others:
         if method == "intersection":
             made = vtk.vtkIntersectionPolyDataFilter()
@@ -43,7 +45,9 @@ def main(method, operation, output, first, *others):
         made.SetInputData(0, data)
         other = poly_data(path)
         made.SetInputData(1, other)
+        begin = time.process_time()
         made.Update()
+        seconds += time.process_time() - begin
         if method == "intersection":
             both = vtk.vtkAppendPolyData()
             for port, given in ((1, data), (2, other)):
@@ -54,6 +58,7 @@ def main(method, operation, output, first, *others):
         else:
             data = made.GetOutput()
     off.write(output, *triangles_of(data))
+    print(f"operation: {seconds} s")
     if failed:
         sys.exit(failed[0])
 

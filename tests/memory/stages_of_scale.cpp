@@ -65,12 +65,12 @@ std::vector<Stage> simplifying() {
 /// A needle one unit in the last place wide, in a sheet, and a wall that cuts its tip off: that has no area
 /// when it is rounded.
 const std::vector<Surface>& needle() {
-    static const double wide = 1 + 0x1p-52;
+    static const double above = 1 + 0x1p-52;
     static const std::vector<Surface> surfaces{
-        {"needle", Role::unknown, {{0, 1, 0}, {1, 1, 0}, {0.5, wide, 0}}, {{0, 1, 2}}},
+        {"needle", Role::unknown, {{0, 1, 0}, {1, 1, 0}, {0.5, above, 0}}, {{0, 1, 2}}},
         {"sheet",
          Role::unknown,
-         {{0, 1, 0}, {0.5, 0, 0}, {1, 1, 0}, {0.5, wide, 0}, {0.5, 2, 0}},
+         {{0, 1, 0}, {0.5, 0, 0}, {1, 1, 0}, {0.5, above, 0}, {0.5, 2, 0}},
          {{0, 1, 2}, {0, 3, 4}, {3, 2, 4}}},
         {"wall", Role::unknown, {{0.1, 0.5, -1}, {0.1, 1.5, -1}, {0.1, 1, 1}}, {{0, 1, 2}}}};
     return surfaces;
@@ -212,13 +212,11 @@ std::vector<Stage> drawing() {
     return stages;
 }
 
-std::string text_of(const SectionSurface& made) {
-    return made.surface.name + " " + std::to_string(made.sheets.size());
-}
-
-std::vector<Stage> cutting() {
+std::vector<Stage> sections() {
     static const Fixture& f = Fixture::get();
-    const auto text = [](const SectionSurface& made) { return text_of(made); };
+    const auto text = [](const SectionSurface& made) {
+        return made.surface.name + " " + std::to_string(made.sheets.size());
+    };
     static const std::vector<std::array<double, 2>> line{{0, 0}, {4, 2}, {8, 0}};
     static const std::vector<double> heights{2, 4};
     static const SectionSurface fence = needed(section_fence(*f.mesh, line));
@@ -265,7 +263,7 @@ std::vector<Stage> cutting() {
 
 std::vector<Stage> stages_of_scale() {
     std::vector<Stage> stages;
-    for (const auto& part : {simplifying(), dividing(), drawing(), cutting()})
+    for (const auto& part : {simplifying(), dividing(), drawing(), sections()})
         stages.insert(stages.end(), part.begin(), part.end());
     return stages;
 }
