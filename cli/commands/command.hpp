@@ -24,6 +24,7 @@ Command completion_command(CLI::App& program);
 Command convert_command(CLI::App& program);
 Command ensemble_command(CLI::App& program);
 Command fill_command(CLI::App& program);
+Command grid_command(CLI::App& program);
 Command improve_command(CLI::App& program);
 Command judge_command(CLI::App& program);
 Command layer_command(CLI::App& program);
