@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+//
+// Tests `terrane grid`; cell_files.py reads its files back.
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "program.hpp"
+
+using namespace program_test;
+
+namespace {
+
+const std::string in_box = " --box 0,0,0,8,8,8 ";
+
+} // namespace
+
+TEST_CASE("cli: grid states cells, and the volume in them", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("flat.obj", level("flat", "3"));
+    const auto r =
+        folder.run("grid " + in + in_box + "--cells 2,2,4 -o out.csv -o out.vti --stats s.json");
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "grid: 2 x 2 x 4 cells, 16 with the centre in a block, 4 divided; volume "
+                          "of blocks 512\n"));
+    CHECK(contains(r.out, "wrote out.csv\nwrote out.vti\n"));
+    // the centre of the second layer is on the surface, and counts to the block above
+    CHECK(contains(folder.read("out.csv"), "1,1,2,2,2,3,1,below flat,,0.5,0\n"
+                                           "1,1,2,2,2,3,2,above flat,,0.5,1\n"));
+    const auto grid = Json::parse(folder.read("s.json"))["grid"];
+    CHECK(grid["cells"] == 16);
+    CHECK(grid["inside"] == 16);
+    CHECK(grid["divided"] == 4);
+    CHECK(grid["volume"] == 512);
+    const auto outside = folder.run("grid " + in + in_box + "--step 3 -o out.vtr");
+    CHECK(contains(outside.out, "grid: 3 x 3 x 3 cells, "));
+    CHECK(contains(outside.out, "volume of blocks 512\n"));
+    CHECK(folder.run("grid " + in + in_box + "--step 3 --z 0,1,8 -o out.grdecl").status == 0);
+}
+
+TEST_CASE("cli: grid refuses what makes no sense", "[cli]") {
+    const Folder folder;
+    const auto in = folder.input("flat.obj", level("flat", "3"));
+    const auto refused = [&](const std::string& options) {
+        const auto r = folder.run("grid " + in + in_box + options);
+        CHECK(r.status == 2);
+        CHECK(folder.left().count("no.vti") == 0);
+        return r.err;
+    };
+    CHECK(contains(refused("-o no.vti"), "give either --step or --cells"));
+    CHECK(contains(refused("-o no.vti --step 1 --cells 1,1,1"), "give either --step or --cells"));
+    CHECK(contains(refused("-o no.vti --step 1,2"), "needs one number, or three"));
+    CHECK(contains(refused("-o no.vti --cells 1,2"), "needs three numbers"));
+    CHECK(contains(refused("-o no.vti --cells 1,2,1.5"), "needs whole numbers"));
+    CHECK(contains(refused("-o no.vti --step -1"), "--step: a step of the grid is not positive"));
+    CHECK(contains(refused("-o no.vti --step 1e-9"), "more than 10^9 cells"));
+    CHECK(contains(refused("-o no.vti --step 2 --z 0,1,8"), ".vtr has such"));
+    CHECK(contains(refused("-o no.vti --step 2 --z 1,0"), "not ascending"));
+    CHECK(contains(refused("-o no.obj --step 2"), ".vti, .vtr, .grdecl or .csv"));
+    const auto open = folder.run("grid " + in + " --step 2 -o no.vti");
+    CHECK(open.status == 1);
+    CHECK(contains(open.err, "nothing written: no block has volume in the grid"));
+    CHECK(folder.left().count("no.vti") == 0);
+}
