@@ -95,8 +95,9 @@ Json json_of_gaps(const PrismMesh& mesh) {
 std::string text_of(const PrismMesh& mesh, const Quantities& quantities) {
     std::array<std::size_t, 7> of_size{};
     for (const PrismCell& cell : mesh.cells) ++of_size[cell.size];
-    return fmt::format("prisms: {}, {}, {}; {}; volume {}\n", counted(of_size[6], "prism"),
-                       counted(of_size[5], "pyramid"), counted(of_size[4], "tetrahedron"),
+    return fmt::format("prisms: {}, {}, {} {}; {}; volume {}\n", counted(of_size[6], "prism"),
+                       counted(of_size[5], "pyramid"), of_size[4],
+                       of_size[4] == 1 ? "tetrahedron" : "tetrahedra",
                        counted(mesh.vertices.size(), "node"), quantities.volume(mesh.volume));
 }
 

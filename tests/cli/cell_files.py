@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Reads back what `terrane grid` writes: with VTK, with Python's csv, and corner-point grids by the description of their keywords.
+"""Reads back what `terrane grid` and `terrane prisms` write: with VTK, with Python's csv, and corner-point grids and Gmsh's meshes
+by the descriptions of their formats.
 
     tests/cli/cell_files.py TERRANE
 
@@ -16,7 +17,8 @@ from collections import defaultdict
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLRectilinearGridReader
+from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLRectilinearGridReader, vtkXMLUnstructuredGridReader
 
 LOW, HIGH = np.array([461000.1, 5932000.7, -2000.0]), np.array([461800.1, 5932600.7, -1500.0])
 SIZE = HIGH - LOW
@@ -97,6 +99,63 @@ def corner_points(path):
     return centres, thickness * areas, *arrays
 
 
+TENT = """v 0 0 0
+v 4 0 2
+v 4 4 2
+v 0 4 0
+v 8 0 0
+v 8 4 0
+f 1 2 3
+f 1 3 4
+f 2 5 6
+f 2 6 3
+"""
+#: Faces of Gmsh's prisms, pyramids and tetrahedra, counterclockwise from outside.
+GMSH_FACES = {6: ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)),
+              7: ((3, 2, 1, 0), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)), 4: ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3))}
+
+
+def volume_of_faces(points, faces):
+    """The volume within faces, by the divergence theorem."""
+    return sum(np.dot(points[f[0]], np.cross(points[f[k]], points[f[k + 1]])) for f in faces for k in range(1, len(f) - 1)) / 6
+
+
+def check_prisms(program, folder, floor, expected, types):
+    (folder / "tent.obj").write_text(TENT)
+    (folder / "floor.obj").write_text("".join(f"v {x} {y} {floor}\n" for x, y in ((-1, -1), (9, -1), (9, 9), (-1, 9)))
+                                      + "f 1 2 3\nf 1 3 4\n")
+    subprocess.run([program, "prisms", "tent.obj", "floor.obj", "--layers", "3", "-o", "p.vtu", "-o", "p.msh", "--quiet"], cwd=folder,
+                   check=True, stdout=subprocess.DEVNULL)
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(folder / "p.vtu"))
+    sizes = vtkCellSizeFilter()
+    sizes.SetInputConnection(reader.GetOutputPort())
+    sizes.Update()
+    grid = sizes.GetOutput()
+    volumes = vtk_to_numpy(grid.GetCellData().GetArray("Volume"))
+    kinds = [grid.GetCellType(c) for c in range(grid.GetNumberOfCells())]
+    check(set(kinds) == types and len(kinds) == 12, "types of cells")
+    layers = vtk_to_numpy(grid.GetCellData().GetArray("layer"))
+    check((volumes > 0).all() and abs(volumes.sum() - expected) < 1e-12 * expected, "VTK finds the volume of the tent, and no cell turned over")
+    check([round(volumes[layers == n].sum(), 9) for n in (1, 2, 3)] == 3 * [round(expected / 3, 9)], "layers are equally thick")
+    lines = iter((folder / "p.msh").read_text().splitlines())
+    points, total = {}, 0
+    for line in lines:
+        if line == "$Nodes":
+            for _ in range(int(next(lines))):
+                number, *place = next(lines).split()
+                points[int(number)] = np.array(place, float)
+        if line == "$Elements":
+            for cell in range(int(next(lines))):
+                _, kind, tags, *rest = map(int, next(lines).split())
+                check(rest[0] == layers[cell], "both number the layers alike")
+                nodes = [points[n] for n in rest[tags:]]
+                volume = volume_of_faces(nodes, GMSH_FACES[kind])
+                check(abs(volume - volumes[cell]) < 1e-12, "cells of Gmsh have the volumes that VTK finds")
+                total += volume
+    check(abs(total - expected) < 1e-12 * expected, "the volume of the tent in Gmsh's format")
+
+
 def main():
     program = str(pathlib.Path(sys.argv[1]).absolute())
     with tempfile.TemporaryDirectory() as name:
@@ -127,6 +186,8 @@ def main():
         check((active == 1).all() and (parts == 1).all(), "the box is full of blocks")
         check(np.allclose(centres[::-1].reshape(-1, 3), images[0].centres, rtol=1e-12), "cells are in the same places")
         check(abs(volumes.sum() - np.prod(SIZE)) < 1e-9 * np.prod(SIZE), "cells fill the box")
+        check_prisms(program, folder, 0, 32, {10, 14})  # tetrahedra and pyramids
+        check_prisms(program, folder, -3, 128, {13})  # wedges
 
 
 if __name__ == "__main__":

@@ -63,3 +63,48 @@ TEST_CASE("cli: grid refuses what makes no sense", "[cli]") {
     CHECK(contains(open.err, "nothing written: no block has volume in the grid"));
     CHECK(folder.left().count("no.vti") == 0);
 }
+
+TEST_CASE("cli: prisms states cells, gaps and the volume", "[cli]") {
+    const Folder folder;
+    const auto top = folder.input("top.obj", polygon("top", "0 0 4, 8 0 4, 8 8 4, 0 8 4"));
+    const auto base = folder.input("base.obj", level("base", "1"));
+    const auto r = folder.run("prisms " + top + " " + base +
+                              " --layers 3 -o out.vtu -o out.msh --stats s.json");
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "prisms: 6 prisms, 0 pyramids, 0 tetrahedra; 16 nodes; volume 192\n"));
+    CHECK(contains(r.out, "wrote out.vtu\nwrote out.msh\n"));
+    CHECK(Json::parse(folder.read("s.json"))["prisms"]["volume"] == 192);
+    CHECK(contains(folder.read("out.msh"), "3 1 \"layer 1\""));
+    const auto parallel = folder.run("prisms " + top + " " + base +
+                                     " --layers 3 --follow top --thickness 2 -o out.vtu");
+    CHECK(contains(parallel.out, "prisms: 4 prisms, "));
+    const auto gaps = folder.run("prisms " + base + " " + top + " -o none.vtu");
+    CHECK(gaps.status == 1);
+    CHECK(contains(gaps.err, "nothing written: there is no space between the surfaces"));
+    CHECK(folder.left().count("none.vtu") == 0);
+    const auto half = folder.input("half.obj", polygon("half", "0 0 1, 8 0 1, 8 8 1"));
+    CHECK(contains(folder.run("prisms " + top + " " + half + " -o out.vtu").err,
+                   "the base is missing below a corner of 1 triangle, on which no prism stands; "
+                   "the first is 1 of the top, at x = "));
+}
+
+TEST_CASE("cli: prisms refuses what makes no sense", "[cli]") {
+    const Folder folder;
+    const auto top = folder.input("top.obj", level("top", "4"));
+    const auto base = folder.input("base.obj", level("base", "1"));
+    const auto refused = [&](const std::string& options) {
+        const auto r = folder.run("prisms " + options);
+        CHECK(r.status == 2);
+        return r.err;
+    };
+    CHECK(contains(refused(top + " -o no.vtu"), "needs two surfaces, the top first, and has 1"));
+    const std::string both = top + " " + base;
+    CHECK(contains(refused(both + " -o no.obj"), "prisms are .vtu or .msh"));
+    CHECK(contains(refused(both + " -o no.vtu --layers 0"), "--layers: "));
+    CHECK(contains(refused(both + " -o no.vtu --follow top"), "--thickness: "));
+    CHECK(contains(refused(both + " -o no.vtu --thickness 1"), "--thickness: "));
+    folder.input("wall.obj", polygon("wall", "0 0 0, 8 0 0, 8 0 8"));
+    CHECK(contains(refused(top + " in/wall.obj -o no.vtu"), "wall"));
+    CHECK(folder.left().count("no.vtu") == 0);
+}

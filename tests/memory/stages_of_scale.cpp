@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <terrane/algorithms/cells/cells.hpp>
+#include <terrane/algorithms/cells/prisms.hpp>
 #include <terrane/algorithms/maps/maps.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/sections/sections.hpp>
@@ -238,6 +239,15 @@ std::vector<Stage> drawing() {
                           [format = *cell_format(extension)](const std::filesystem::path& path) {
                               return write_cells(cells, in_cells, cell_names, format, path);
                           }));
+    static const Surface lid{
+        "lid", Role::horizon, {{0, 0, 9}, {8, 0, 9}, {8, 8, 8}, {0, 8, 9}}, {{0, 1, 2}, {0, 2, 3}}};
+    static const Surface floor{"floor",
+                               Role::horizon,
+                               {{-1, -1, 0}, {9, -1, 1}, {9, 9, 0}, {-1, 9, 0}},
+                               {{0, 1, 2}, {0, 2, 3}}};
+    stages.push_back(stage(
+        "make_prisms", [] { return make_prisms(lid, floor, {.layers = 40}); },
+        [](const PrismMesh& made) { return shown(made.volume); }));
     static constexpr double contact = 4;
     stages.push_back(stage(
         "measure_blocks",

@@ -234,7 +234,13 @@ TEST_CASE("cells: what makes no grid is refused", "[cells]") {
         CHECK(code_of(blocks_in_cells(model.mesh, model.volumes, {bad, {0, 1}, {0, 1}})) ==
               ErrorCode::bad_option);
     auto wrong = model;
-    std::swap(wrong.volumes.of_sides.back()[0], wrong.volumes.of_sides.back()[1]);
+    for (std::size_t t = 0; t < wrong.mesh.triangles.size(); ++t) { // of the plane
+        const auto& [i, j, k] = wrong.mesh.triangles[t];
+        const auto& v = wrong.mesh.vertices;
+        if (v[i].z != 0 || v[j].z != 0 || v[k].z != 0) continue;
+        std::swap(wrong.volumes.of_sides[t][0], wrong.volumes.of_sides[t][1]);
+        break;
+    }
     CHECK(code_of(blocks_in_cells(wrong.mesh, wrong.volumes, {{-5, 5}, {-5, 5}, {-5, 5}})) ==
           ErrorCode::internal);
     std::stop_source stop;

@@ -111,6 +111,13 @@ std::array<std::size_t, 2> faces_of(const PrismMesh& mesh) {
     return found;
 }
 
+/// Tells whether no double is nearer to a number.
+bool is_nearest(double d, const mpq_class& number) {
+    const mpq_class off = abs(mpq_class(d) - number);
+    return off <= abs(mpq_class(std::nextafter(d, HUGE_VAL)) - number) &&
+           off <= abs(mpq_class(std::nextafter(d, -HUGE_VAL)) - number);
+}
+
 std::size_t count_of_size(const PrismMesh& mesh, int size) {
     return std::size_t(std::count_if(mesh.cells.begin(), mesh.cells.end(),
                                      [&](const PrismCell& c) { return c.size == size; }));
@@ -178,7 +185,7 @@ TEST_CASE("prisms: the nodes on random bases are the nearest doubles", "[prisms]
         const auto mesh = prisms_of(top, base);
         CHECK(mesh.gaps.empty());
         CHECK(mesh.cells.size() == 72);
-        std::map<std::pair<double, double>, double> heights;
+        std::map<std::pair<double, double>, mpq_class> heights;
         for (const Triangle& t : base.triangles)
             for (const Point3& p : top.vertices) {
                 const RationalPoint place{mpq_class(p.x), mpq_class(p.y), 0};
@@ -189,14 +196,11 @@ TEST_CASE("prisms: the nodes on random bases are the nearest doubles", "[prisms]
                                 d = determinant(c[0], c[1], up);
                 if (a < 0 || b < 0 || d < 0) continue;
                 const mpq_class z = (a * c[0][2] + b * c[1][2] + d * c[2][2]) / (a + b + d);
-                double nearest = z.get_d();
-                for (const double other :
-                     {std::nextafter(nearest, HUGE_VAL), std::nextafter(nearest, -HUGE_VAL)})
-                    if (abs(mpq_class(other) - z) < abs(mpq_class(nearest) - z)) nearest = other;
-                heights[{p.x, p.y}] = nearest;
+                heights[{p.x, p.y}] = z;
             }
         std::size_t on_base = 0;
-        for (const Point3& p : mesh.vertices) on_base += p.z == heights.at({p.x, p.y}) ? 1 : 0;
+        for (const Point3& p : mesh.vertices)
+            on_base += is_nearest(p.z, heights.at({p.x, p.y})) ? 1 : 0;
         CHECK(on_base == 49);
         const mpq_class volume = volume_of(mesh);
         CHECK(abs(volume - mpq_class(mesh.volume)) <= volume * 0x1p-53);
