@@ -9,8 +9,7 @@
 #include <string>
 #include <utility>
 
-#include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/cells/detail/base_below.hpp>
+#include <terrane/algorithms/cells/base_below.hpp>
 #include <terrane/algorithms/core/guarded.hpp>
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/kernel/nearest.hpp>
@@ -18,7 +17,7 @@
 
 namespace terrane {
 
-using namespace cells::detail;
+using namespace cells;
 
 namespace {
 
@@ -38,29 +37,6 @@ Status check_options(const PrismOptions& options, const Surface& top) {
         return bad("layers that follow a surface need a thickness above 0", "thickness");
     if (double(top.triangles.size()) * options.layers > most_prisms)
         return bad("makes more than 10^9 prisms", "layers");
-    return Done{};
-}
-
-/// Refuses a surface that a vertical meets in several triangles.
-Status check_folds(const Surface& surface, const Run& run) {
-    Surface map{surface.name, surface.role, surface.vertices, {}};
-    for (Point3& p : map.vertices) p.z = 0;
-    for (const Triangle& t : surface.triangles)
-        if (orient2d(Axis::z, map.vertices[t[0]], map.vertices[t[1]], map.vertices[t[2]]) !=
-            Sign::Zero)
-            map.triangles.push_back(t);
-    if (map.triangles.empty())
-        return Error{ErrorCode::improper_contact, "the surface is vertical", surface.name};
-    const auto arranged = arrange(std::span(&map, 1), {}, run);
-    if (!arranged) return arranged.error();
-    for (std::size_t t = 0; t < arranged->triangles.size(); ++t)
-        if (arranged->parents_of[t].size() > 1) {
-            const Point3& p = arranged->nearest(VertexId(arranged->triangles[t][0]));
-            return Error{ErrorCode::improper_contact,
-                         "the surface folds over: verticals near x = " + std::to_string(p.x) +
-                             ", y = " + std::to_string(p.y) + " meet it more than once",
-                         surface.name};
-        }
     return Done{};
 }
 

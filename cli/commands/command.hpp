@@ -30,6 +30,7 @@ Command judge_command(CLI::App& program);
 Command layer_command(CLI::App& program);
 Command manual_command(CLI::App& program);
 Command minimise_command(CLI::App& program);
+Command pillars_command(CLI::App& program);
 Command prisms_command(CLI::App& program);
 Command report_command(CLI::App& program);
 Command section_command(CLI::App& program);

@@ -156,6 +156,28 @@ def check_prisms(program, folder, floor, expected, types):
     check(abs(total - expected) < 1e-12 * expected, "the volume of the tent in Gmsh's format")
 
 
+def check_pillars(program, folder):
+    """Two levels with a throw of 30 at x = 200, on pillars there: each side keeps its depth, and volumes are those of boxes."""
+    for name, z in (("top", -100), ("base", -200)):
+        corners = [(x, y, z - down) for down, xs in ((0, (0, 200)), (30, (200, 400))) for x, y in
+                   ((xs[0], 0), (xs[1], 0), (xs[1], 400), (xs[0], 400))]
+        (folder / f"{name}.obj").write_text("".join(f"v {x} {y} {h}\n" for x, y, h in corners)
+                                            + "f 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\n")
+    subprocess.run([program, "pillars", "top.obj", "base.obj", "--step", "100", "--layers", "5", "-o", "f.grdecl", "--quiet"],
+                   cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    found = keywords((folder / "f.grdecl").read_text())
+    check(found["SPECGRID"][:3] == ["4", "4", "5"], "the size of the grid")
+    check(set(found["ACTNUM"]) == {"1"} and set(found["FIPNUM"]) == {"1"}, "all cells are active, in one unit")
+    depths = np.array(found["ZCORN"], float).reshape(5, 2, 4, 2, 4, 2)
+    pillars = np.array(found["COORD"], float).reshape(5, 5, 2, 3)
+    check((pillars[:, :, 0, 0] == np.arange(5) * 100).all() and (pillars[:, :, 0, 1].T == np.arange(5) * 100).all(), "pillars")
+    for side, columns in ((0, depths[..., :2, :]), (30, depths[..., 2:, :])):
+        for layer in range(5):
+            check((columns[layer, 0] == 100 + side + 20 * layer).all() and (columns[layer, 1] == 120 + side + 20 * layer).all(),
+                  "nodes on the fault are split")
+    check((depths[..., 1, 1] != depths[..., 2, 0]).all(), "columns on both sides of the fault differ on its pillars")
+
+
 def main():
     program = str(pathlib.Path(sys.argv[1]).absolute())
     with tempfile.TemporaryDirectory() as name:
@@ -186,6 +208,7 @@ def main():
         check((active == 1).all() and (parts == 1).all(), "the box is full of blocks")
         check(np.allclose(centres[::-1].reshape(-1, 3), images[0].centres, rtol=1e-12), "cells are in the same places")
         check(abs(volumes.sum() - np.prod(SIZE)) < 1e-9 * np.prod(SIZE), "cells fill the box")
+        check_pillars(program, folder)
         check_prisms(program, folder, 0, 32, {10, 14})  # tetrahedra and pyramids
         check_prisms(program, folder, -3, 128, {13})  # wedges
 

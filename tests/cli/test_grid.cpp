@@ -11,7 +11,7 @@ using namespace program_test;
 
 namespace {
 
-const std::string in_box = " --box 0,0,0,8,8,8 ";
+const std::string in_cube = " --box 0,0,0,8,8,8 ";
 
 } // namespace
 
@@ -19,7 +19,7 @@ TEST_CASE("cli: grid states cells, and the volume in them", "[cli]") {
     const Folder folder;
     const auto in = folder.input("flat.obj", level("flat", "3"));
     const auto r =
-        folder.run("grid " + in + in_box + "--cells 2,2,4 -o out.csv -o out.vti --stats s.json");
+        folder.run("grid " + in + in_cube + "--cells 2,2,4 -o out.csv -o out.vti --stats s.json");
     INFO(r.err);
     REQUIRE(r.status == 0);
     CHECK(contains(r.out, "grid: 2 x 2 x 4 cells, 16 with the centre in a block, 4 divided; volume "
@@ -33,17 +33,17 @@ TEST_CASE("cli: grid states cells, and the volume in them", "[cli]") {
     CHECK(grid["inside"] == 16);
     CHECK(grid["divided"] == 4);
     CHECK(grid["volume"] == 512);
-    const auto outside = folder.run("grid " + in + in_box + "--step 3 -o out.vtr");
+    const auto outside = folder.run("grid " + in + in_cube + "--step 3 -o out.vtr");
     CHECK(contains(outside.out, "grid: 3 x 3 x 3 cells, "));
     CHECK(contains(outside.out, "volume of blocks 512\n"));
-    CHECK(folder.run("grid " + in + in_box + "--step 3 --z 0,1,8 -o out.grdecl").status == 0);
+    CHECK(folder.run("grid " + in + in_cube + "--step 3 --z 0,1,8 -o out.grdecl").status == 0);
 }
 
 TEST_CASE("cli: grid refuses what makes no sense", "[cli]") {
     const Folder folder;
     const auto in = folder.input("flat.obj", level("flat", "3"));
     const auto refused = [&](const std::string& options) {
-        const auto r = folder.run("grid " + in + in_box + options);
+        const auto r = folder.run("grid " + in + in_cube + options);
         CHECK(r.status == 2);
         CHECK(folder.left().count("no.vti") == 0);
         return r.err;
@@ -107,4 +107,32 @@ TEST_CASE("cli: prisms refuses what makes no sense", "[cli]") {
     folder.input("wall.obj", polygon("wall", "0 0 0, 8 0 0, 8 0 8"));
     CHECK(contains(refused(top + " in/wall.obj -o no.vtu"), "wall"));
     CHECK(folder.left().count("no.vtu") == 0);
+}
+
+TEST_CASE("cli: pillars states cells, and names what is missing", "[cli]") {
+    const Folder folder;
+    const auto top = folder.input("top.obj", level("top", "4"));
+    const auto base = folder.input("base.obj", polygon("base", "0 0 1, 8 0 1, 8 8 1, 0 8 1"));
+    const std::string both = top + " " + base;
+    const auto r =
+        folder.run("pillars " + both + " --step 4 --layers 3 -o out.grdecl --stats s.json");
+    INFO(r.err);
+    REQUIRE(r.status == 0);
+    CHECK(contains(r.out, "pillars: 2 x 2 x 3 cells, 12 active\nwrote out.grdecl\n"));
+    CHECK(Json::parse(folder.read("s.json"))["pillars"]["active"] == 12);
+    CHECK(contains(folder.read("out.grdecl"), "SPECGRID\n2 2 3 1 F /"));
+    const auto wide = folder.run("pillars " + both + " --x 0,4,9 --y 0,4 -o out.grdecl");
+    CHECK(contains(wide.out, "pillars: 2 x 1 x 1 cells, 1 active\n"));
+    CHECK(contains(wide.err,
+                   "a horizon is missing at pillars of 1 column; the first is column 2, 1, base"));
+    const auto none = folder.run("pillars " + base + " " + top + " --step 4 -o none.grdecl");
+    CHECK(none.status == 1);
+    CHECK(contains(none.err, "nothing written: no cell is active"));
+    for (const std::string options :
+         {"", "--step 4 --x 0,1", "--x 0,1", "--x 0,1 --y 1,0", "--step 4 --layers 0", "--step -1",
+          "--step 4 --layers 1,2,3"})
+        CHECK(folder.run("pillars " + both + " -o none.grdecl " + options).status == 2);
+    CHECK(folder.run("pillars " + top + " --step 4 -o none.grdecl").status == 2);
+    CHECK(folder.run("pillars " + both + " --step 4 -o none.vtu").status == 2);
+    CHECK(folder.left().count("none.grdecl") == 0);
 }

@@ -19,6 +19,7 @@
 #include <terrane/algorithms/uncertainty/measures.hpp>
 #include <terrane/algorithms/uncertainty/realisations.hpp>
 #include <terrane/io/cell_files.hpp>
+#include <terrane/io/grids/pillar_grid.hpp>
 #include <terrane/io/sections/section_text.hpp>
 
 #include "fixture.hpp"
@@ -248,6 +249,13 @@ std::vector<Stage> drawing() {
     stages.push_back(stage(
         "make_prisms", [] { return make_prisms(lid, floor, {.layers = 40}); },
         [](const PrismMesh& made) { return shown(made.volume); }));
+    static const std::vector<Surface> horizons{lid, floor};
+    stages.push_back(stage(
+        "make_pillar_grid",
+        [] {
+            return make_pillar_grid(horizons, {{0, 2, 4, 6}, {0, 3, 6}, {7}});
+        },
+        [](const PillarGrid& made) { return std::to_string(made.active); }));
     static constexpr double contact = 4;
     stages.push_back(stage(
         "measure_blocks",

@@ -8,12 +8,18 @@
 #include <optional>
 #include <vector>
 
+#include <terrane/algorithms/core/result.hpp>
+#include <terrane/algorithms/core/run.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/kernel/numbers.hpp>
 #include <terrane/kernel/point.hpp>
 #include <terrane/kernel/sign.hpp>
 
-namespace terrane::cells::detail {
+namespace terrane::cells {
+
+/// Checks that no vertical meets several triangles of a surface that are not vertical. Errors: improper_contact at its name;
+/// those of arrange().
+Status check_folds(const Surface& surface, const Run& run);
 
 /// Finds the triangle of a surface on a vertical, in a lattice of squares in the map.
 class BaseBelow {
@@ -38,4 +44,4 @@ private:
 /// Returns the double nearest to the height of a triangle's plane on the vertical through p. The triangle is not vertical.
 double height_on(const std::array<Point3, 3>& triangle, const Point3& p);
 
-} // namespace terrane::cells::detail
+} // namespace terrane::cells

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/cells/detail/base_below.hpp>
+#include <terrane/algorithms/cells/base_below.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <string>
 #include <utility>
 
+#include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/kernel/nearest.hpp>
 #include <terrane/kernel/polynomials.hpp>
 #include <terrane/kernel/predicates.hpp>
 
-namespace terrane::cells::detail {
+namespace terrane::cells {
 namespace {
 
 using MapVector = polynomial::Vector2<Exact>;
@@ -34,6 +37,28 @@ std::size_t slot(double x, double low, double high, std::size_t count) {
 }
 
 } // namespace
+
+Status check_folds(const Surface& surface, const Run& run) {
+    Surface map{surface.name, surface.role, surface.vertices, {}};
+    for (Point3& p : map.vertices) p.z = 0;
+    for (const Triangle& t : surface.triangles)
+        if (orient2d(Axis::z, map.vertices[t[0]], map.vertices[t[1]], map.vertices[t[2]]) !=
+            Sign::Zero)
+            map.triangles.push_back(t);
+    if (map.triangles.empty())
+        return Error{ErrorCode::improper_contact, "the surface is vertical", surface.name};
+    const auto arranged = arrange(std::span(&map, 1), {}, run);
+    if (!arranged) return arranged.error();
+    for (std::size_t t = 0; t < arranged->triangles.size(); ++t)
+        if (arranged->parents_of[t].size() > 1) {
+            const Point3& p = arranged->nearest(VertexId(arranged->triangles[t][0]));
+            return Error{ErrorCode::improper_contact,
+                         "the surface folds over: verticals near x = " + std::to_string(p.x) +
+                             ", y = " + std::to_string(p.y) + " meet it more than once",
+                         surface.name};
+        }
+    return Done{};
+}
 
 BaseBelow::BaseBelow(const Surface& surface) {
     low_ = {HUGE_VAL, HUGE_VAL, 0};
@@ -92,4 +117,4 @@ double height_on(const std::array<Point3, 3>& triangle, const Point3& p) {
     return nearest_quotient(Exact(a.z) * area + rise, area);
 }
 
-} // namespace terrane::cells::detail
+} // namespace terrane::cells
