@@ -17,8 +17,8 @@
 
 namespace terrane::cells {
 
-/// Checks that no vertical meets several triangles of a surface that are not vertical. Errors: improper_contact at its name;
-/// those of arrange().
+/// Checks that no vertical meets several triangles of a surface that are not vertical. Errors: improper_contact at its
+/// name; those of arrange().
 Status check_folds(const Surface& surface, const Run& run);
 
 /// Finds the triangle of a surface on a vertical, in a lattice of squares in the map.
@@ -26,8 +26,8 @@ class BaseBelow {
 public:
     explicit BaseBelow(const Surface& surface);
 
-    /// Returns the triangle on the vertical through p, moved by an infinitely small way towards the middle of the triangle
-    /// p, q, r in the map; nothing if there is none. Its corners are counterclockwise in the map.
+    /// Returns the triangle on the vertical through p, moved by an infinitely small way towards the middle of the
+    /// triangle p, q, r in the map; nothing if there is none. Its corners are counterclockwise in the map.
     [[nodiscard]] std::optional<std::array<Point3, 3>> at(const Point3& p, const Point3& q,
                                                           const Point3& r) const;
 
@@ -41,7 +41,8 @@ private:
     std::vector<std::vector<std::uint32_t>> squares_; ///< triangles whose boxes reach into them
 };
 
-/// Returns the double nearest to the height of a triangle's plane on the vertical through p. The triangle is not vertical.
+/// Returns the double nearest to the height of a triangle's plane on the vertical through p. The triangle is not
+/// vertical.
 double height_on(const std::array<Point3, 3>& triangle, const Point3& p);
 
 } // namespace terrane::cells

@@ -55,7 +55,8 @@ struct CellGrid {
 /// nothing_to_do for a mesh without triangles.
 Result<CellGrid> cells_with_steps(const Mesh& mesh, const std::array<double, 3>& steps);
 
-/// Returns these numbers of cells along x, y and z, of one size but for rounding, that fill the least box around the mesh.
+/// Returns these numbers of cells along x, y and z, of one size but for rounding, that fill the least box around the
+/// mesh.
 /// Errors: bad_option for a number of 0, cells thinner than doubles can tell, and more than 10^9 cells; nothing_to_do
 /// for a mesh without triangles.
 Result<CellGrid> cells_by_count(const Mesh& mesh, const std::array<std::uint32_t, 3>& counts);

@@ -50,8 +50,8 @@ struct PrismGap {
 
 /// A prism, pyramid or tetrahedron.
 struct PrismCell {
-    /// 6 nodes: the lower triangle, counterclockwise from above, then the upper one. 5: a quadrilateral, counterclockwise
-    /// from the last node. 4: the first three are counterclockwise from the last.
+    /// 6 nodes: the lower triangle, counterclockwise from above, then the upper one. 5: a quadrilateral,
+    /// counterclockwise from the last node. 4: the first three are counterclockwise from the last.
     std::array<std::uint32_t, 6> nodes{};
     std::uint8_t size = 6;      ///< nodes in use
     std::uint32_t layer = 0;    ///< from 0 at the top
@@ -66,7 +66,8 @@ struct PrismMesh {
     double volume = 0;            ///< the double nearest to the exact sum of all cells
 };
 
-/// Makes prisms between a top and a base, neither of which folds over in the map; their vertical triangles do not count.
+/// Makes prisms between a top and a base, neither of which folds over in the map; their vertical triangles do not
+/// count.
 /// Errors: bad_option for options out of bounds; improper_contact for a surface that folds over; nothing_to_do if no
 /// prism stands anywhere; those of validate(); interrupted.
 Result<PrismMesh> make_prisms(const Surface& top, const Surface& base,

@@ -28,9 +28,9 @@ struct GridCommand {
 
 constexpr auto grid_footer =
     R"(The surfaces are arranged, cut by a volume of interest and rounded as `terrane volume` does, and its options and
-names of blocks are the same. Each cell gets the block that contains its centre, and the part of the cell that each block
-fills. Both are decided exactly: a fraction is the double nearest to the true one. A centre on a surface counts to the
-block on the side of greater x; where the surface is parallel to x, of greater y, and then of greater z.
+names of blocks are the same. Each cell gets the block that contains its centre, and the part of the cell that each
+block fills. Both are decided exactly: a fraction is the double nearest to the true one. A centre on a surface counts to
+the block on the side of greater x; where the surface is parallel to x, of greater y, and then of greater z.
 
 --step has one length, or one for x, y and z: planes between cells are at its multiples, and the grid contains the
 model. --cells divides the box around the model. --x, --y and --z list the planes across one axis, ascending.

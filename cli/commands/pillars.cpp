@@ -31,13 +31,13 @@ struct PillarCommand {
 };
 
 constexpr auto pillars_footer =
-    R"(IN are horizons from the top down. Pillars are vertical, at multiples of --step in the map of the first horizon, or
-where the lines of --x and --y cross. Each column of cells has nodes on each horizon at its four pillars; --layers divides
-each unit between two horizons evenly.
+    R"(IN are horizons from the top down. Pillars are vertical, at multiples of --step in the map of the first horizon,
+or where the lines of --x and --y cross. Each column of cells has nodes on each horizon at its four pillars; --layers
+divides each unit between two horizons evenly.
 
-A vertical fault that runs along lines of pillars splits its nodes: columns on both sides have different heights there. No
-horizon may fold over. Cells are not active where a horizon is missing at a pillar of the column, where a horizon is below
-the next one, and where they have no thickness. If none is active, nothing is written, and the exit status is 1.
+A vertical fault that runs along lines of pillars splits its nodes: columns on both sides have different heights there.
+No horizon may fold over. Cells are not active where a horizon is missing at a pillar of the column, where a horizon is
+below the next one, and where they have no thickness. If none is active, nothing is written, and the exit status is 1.
 
 OUT is .grdecl: SPECGRID, COORD, ZCORN, ACTNUM, and FIPNUM, which is the number of the unit from the top.
 

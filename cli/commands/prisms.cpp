@@ -27,17 +27,18 @@ struct PrismCommand {
 };
 
 constexpr auto prisms_footer =
-    R"(IN are two surfaces, the top first, in one file or in two. Prisms stand on the triangles of the top. Which triangle of
-the base is below a vertex is decided exactly; its height there is rounded once. At a vertical fault each triangle of the
-top has the part of the base on its own side. Neither surface may fold over; vertical triangles do not count.
+    R"(IN are two surfaces, the top first, in one file or in two. Prisms stand on the triangles of the top. Which
+triangle of the base is below a vertex is decided exactly; its height there is rounded once. At a vertical fault each
+triangle of the top has the part of the base on its own side. Neither surface may fold over; vertical triangles do not
+count.
 
 --follow both      divides each vertical evenly
 --follow top       layers of --thickness below the top; the base cuts them, and the last one has the rest
 --follow base      layers of --thickness above the base; the top cuts them, and the first one has the rest
 
-Where a layer has no thickness at one corner, a prism becomes a pyramid, at two a tetrahedron. Where the base is missing,
-or above the top, no prism stands; these triangles are named, and --stats lists them. If none is left, the exit status is
-1.
+Where a layer has no thickness at one corner, a prism becomes a pyramid, at two a tetrahedron. Where the base is
+missing, or above the top, no prism stands; these triangles are named, and --stats lists them. If none is left, the exit
+status is 1.
 
 OUT is .vtu or .msh (Gmsh 2.2): layers are numbered from 1 at the top.
 

@@ -2,13 +2,13 @@
 //
 // Corner-point grids of horizons, on vertical pillars.
 //
-// (1) Pillars stand where lines across x and y cross. Each column of cells has a node on each horizon at each of its four
-//     pillars. Which triangle of the horizon is there is decided exactly, as seen from the column: where a vertical fault
-//     runs through a pillar, columns on both sides have nodes in different heights. The height is the double nearest to
-//     the exact one.
+// (1) Pillars stand where lines across x and y cross. Each column of cells has a node on each horizon at each of its
+//     four pillars. Which triangle of the horizon is there is decided exactly, as seen from the column: where a
+//     vertical fault runs through a pillar, columns on both sides have nodes in different heights. The height is the
+//     double nearest to the exact one.
 // (2) Between two horizons layers divide each pillar evenly.
-// (3) Cells are not active where a horizon is missing at one of the column's pillars, where a horizon is below the next one
-//     at one of them, and where they have no thickness at all four.
+// (3) Cells are not active where a horizon is missing at one of the column's pillars, where a horizon is below the next
+//     one at one of them, and where they have no thickness at all four.
 // Cost: linear in the cells, and in the triangles whose boxes in the map contain a pillar.
 #pragma once
 
@@ -49,7 +49,8 @@ struct PillarGrid {
 
 /// Makes a corner-point grid of horizons from the top down.
 /// Errors: bad_option for fewer than two horizons, lines or layers that make no grid, and more than 10^8 cells;
-/// improper_contact for a horizon that folds over; nothing_to_do if no cell is active; those of validate(); interrupted.
+/// improper_contact for a horizon that folds over; nothing_to_do if no cell is active; those of validate();
+/// interrupted.
 Result<PillarGrid> make_pillar_grid(std::span<const Surface> horizons, const PillarOptions& options,
                                     const Run& run = {});
 

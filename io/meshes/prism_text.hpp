@@ -14,8 +14,8 @@ namespace terrane {
 /// layer, from 1 at the top, and triangle, of the top, from 0.
 std::string to_vtu(const PrismMesh& mesh);
 
-/// Returns Gmsh's format 2.2 as text: prisms, pyramids and tetrahedra. Physical volumes are the layers, "layer 1" at the
-/// top.
+/// Returns Gmsh's format 2.2 as text: prisms, pyramids and tetrahedra. Physical volumes are the layers, "layer 1" at
+/// the top.
 std::string to_msh22(const PrismMesh& mesh);
 
 } // namespace terrane

@@ -42,8 +42,8 @@ public:
         }
     }
 
-    /// Appends the shares in the layers of a column, from the top down, and calls set_block(layer, block) with the blocks
-    /// of the centres. `located` are those of the layers that for_located() tells.
+    /// Appends the shares in the layers of a column, from the top down, and calls set_block(layer, block) with the
+    /// blocks of the centres. `located` are those of the layers that for_located() tells.
     template <class SetBlock>
     void operator()(std::uint64_t column, std::span<const CellPiece> pieces,
                     std::span<const std::uint32_t> located, std::vector<LayerShare>& out,

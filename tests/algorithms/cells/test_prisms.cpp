@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Prisms between surfaces: volumes of all cells in rationals against closed forms and the base by brute force; faces that
-// cells share; faults, pinch-outs, gaps and crossings.
+// Prisms between surfaces: volumes of all cells in rationals against closed forms and the base by brute force; faces
+// that cells share; faults, pinch-outs, gaps and crossings.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
