@@ -78,7 +78,8 @@ ExitStatus run(int argc, char** argv) {
         improve_command(program),  build_command(program),      ensemble_command(program),
         info_command(program),     check_command(program),      fill_command(program),
         layer_command(program),    select_command(program),     map_command(program),
-        section_command(program),  report_command(program),     view_command(program),
+        section_command(program),  grid_command(program),       prisms_command(program),
+        pillars_command(program),  report_command(program),     view_command(program),
         convert_command(program),  verify_command(program),     judge_command(program),
         minimise_command(program), completion_command(program), manual_command(program)};
     for (const Command& command : commands) {

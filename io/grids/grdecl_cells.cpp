@@ -6,38 +6,12 @@
 
 #include <fmt/format.h>
 
+#include <terrane/io/grids/detail/keyword_text.hpp>
 #include <terrane/io/text/names.hpp>
 
 namespace terrane {
 
-namespace {
-
-constexpr std::size_t longest_line = 78; ///< Eclipse reads 128 characters
-
-template <class ValueOf>
-void append_keyword(std::string& out, std::string_view keyword,
-                    std::span<const std::uint32_t> blocks, const ValueOf& value_of) {
-    out += keyword;
-    std::string line;
-    const auto end_line = [&] {
-        out += '\n' + line;
-        line.clear();
-    };
-    for (std::size_t c = 0; c < blocks.size();) {
-        const std::uint32_t value = value_of(blocks[c]);
-        std::size_t end = c;
-        while (end < blocks.size() && value_of(blocks[end]) == value) ++end;
-        const auto word =
-            end - c == 1 ? fmt::format(" {}", value) : fmt::format(" {}*{}", end - c, value);
-        if (line.size() + word.size() > longest_line) end_line();
-        line += word;
-        c = end;
-    }
-    end_line();
-    out += "\n/\n";
-}
-
-} // namespace
+using grids::detail::append_keyword;
 
 std::string cells_to_grdecl(std::span<const std::uint32_t> blocks,
                             std::span<const std::string> names, std::string_view grid) {

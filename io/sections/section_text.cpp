@@ -46,11 +46,6 @@ Json feature(std::string_view type, Json coordinates, Json properties) {
                  {"properties", std::move(properties)}});
 }
 
-std::string cell(std::string_view text) {
-    if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
-    return '"' + replaced_texts(text, "\"", "\"\"") + '"';
-}
-
 /// Layers of DXF: of all blocks, then of all surfaces.
 std::vector<std::string> layers_of(const SectionNames& names) {
     std::vector<SurfaceInfo> all;
@@ -203,16 +198,16 @@ std::string section_csv(const Section& section, const SectionNames& names) {
         std::string_view kind = "outer";
         for (std::vector<std::uint32_t> ring : polygon.rings) {
             ring.push_back(ring.front());
-            rows(fmt::format("{},{},{},{},", kind, cell(names.blocks[polygon.block]),
-                             cell(names.blocks[polygon.behind]),
-                             cell(names.units[names.shown(polygon)])),
+            rows(fmt::format("{},{},{},{},", kind, detail::csv_field(names.blocks[polygon.block]),
+                             detail::csv_field(names.blocks[polygon.behind]),
+                             detail::csv_field(names.units[names.shown(polygon)])),
                  ring);
             kind = "hole";
         }
     }
     for (const SectionLine& line : section.lines) {
         ++part;
-        rows("line,,,," + cell(names.surfaces[line.surface].name), line.vertices);
+        rows("line,,,," + detail::csv_field(names.surfaces[line.surface].name), line.vertices);
     }
     return out;
 }

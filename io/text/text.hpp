@@ -30,6 +30,9 @@ constexpr bool is_blank(char c) {
 [[nodiscard]] std::string replaced_texts(std::string_view text, std::string_view from,
                                          std::string_view to);
 
+/// Returns a text as a field of CSV: in quotes if it has a comma, a quote or a line break, as RFC 4180 says.
+[[nodiscard]] std::string csv_field(std::string_view text);
+
 /// Quotes a token for a message: at most 40 characters of it, with '?' for unprintable ones.
 [[nodiscard]] std::string shown(std::string_view token);
 

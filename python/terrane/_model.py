@@ -12,6 +12,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrangement import as_move
 from ._arrays import Path, as_count, as_flag, as_list, as_number, as_pair, as_text, as_word
+from ._cells import CellGrid, cells_wanted, grid_of
 from ._errors import Doubt, bad_option, doubts_of
 from ._interop import meshio_mesh, package
 from ._maps import Map, nodes_of
@@ -248,6 +249,37 @@ class Model(Parts):
         nodes = nodes_of(parts_of_surfaces(self.mesh.split()), ", ".join(b.name for b in chosen), step, like)
         return Map(nodes, _core.map_thickness(self._core.mesh, self._core.volumes, [b.number for b in chosen], nodes,
                                               how(threads, progress)))
+
+    def grid(self, *, step: Any = None, cells: Any = None, x: Any = None, y: Any = None, z: Any = None,
+             threads: Optional[int] = None, progress: Any = None) -> CellGrid:
+        """Fill the cells of a rectilinear grid with blocks: that of each centre, and the part of each cell that a block fills.
+
+        Parameters
+        ----------
+        step : float or (float, float, float), optional
+            Sizes of cells, at whose multiples the planes between them are.
+        cells : (int, int, int), optional
+            Numbers of cells along x, y and z that divide the box around the model.
+        x, y, z : sequence of float, optional
+            Planes across an axis, ascending; all three, or in place of those of `step` or `cells`.
+
+        Raises
+        ------
+        terrane.Error
+            ``bad_option`` for what makes no grid, or more than 10^9 cells.
+
+        Notes
+        -----
+        A centre on a surface counts to the block on the side of greater x; where the surface is parallel to x, of greater
+        y, and then of greater z.
+
+        Examples
+        --------
+        >>> m = ...
+        >>> m.grid(step=1).fraction(1).sum()
+        16.0
+        """
+        return grid_of(self._core, cells_wanted(step, cells, (x, y, z)), threads, progress)
 
     def to_meshio(self) -> Any:
         """Return a ``meshio.Mesh`` of the surfaces, with the blocks on both sides. Needs meshio.

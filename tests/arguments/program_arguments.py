@@ -32,7 +32,7 @@ BASES = {
     "tetrahedralize": f"top.ts -o out.vtu {BOX}", "improve": "top.ts fault.ts -o out.stl --edge-length=300",
     "build": "project.json -o out", "ensemble": "project.json -o out --realisations=2 --grid=5 --engine=serial",
     "info": "top.ts fault.ts", "check": "top.ts fault.ts", "fill": "dish.obj -o out.stl", "layer": "--hard=salt.ts --soft=shale.ts --keep=upper -o out.stl",
-    "select": "body body.ts -o out.stl", "map": "depth top.ts --step=100 -o out.asc", "section": f"top.ts base.ts fault.ts -o out.svg --level=-1000 {BOX}", "report": f"top.ts fault.ts -o out.html {BOX}", "view": f"top.ts fault.ts {BOX}", "convert": "top.ts out.stl",
+    "select": "body body.ts -o out.stl", "map": "depth top.ts --step=100 -o out.asc", "section": f"top.ts base.ts fault.ts -o out.svg --level=-1000 {BOX}", "grid": f"top.ts base.ts fault.ts -o out.vti --cells=4,4,4 {BOX}", "prisms": "top.ts base.ts -o out.vtu --layers=2", "pillars": "top.ts base.ts -o out.grdecl --step=200 --layers=2", "report": f"top.ts fault.ts -o out.html {BOX}", "view": f"top.ts fault.ts {BOX}", "convert": "top.ts out.stl",
     "verify": "certificate.json", "judge": "arranged.obj top.ts fault.ts", "minimise": "top.ts --test=false -o out.stl",
     "completion": "bash", "manual": "arrange"}
 #: Commands that are not run, with the reason; their options are only refused.
@@ -66,10 +66,18 @@ SENSE = {
     "--plane": ("1000,750,0,0,-1,0", f"BASE=top.ts base.ts fault.ts -o out.svg {BOX}"), "--fence": ("100,100,1500,900", f"BASE=top.ts base.ts fault.ts -o out.svg {BOX}"),
     "--level": ("-1100", f"BASE=top.ts base.ts fault.ts -o out.svg {BOX}"), "--contours": ("100", f"BASE=top.ts base.ts fault.ts -o out.svg {BOX}"),
     "--by": ("fault", f"BASE=top.ts base.ts fault.ts -o out.svg {BOX}"), "--exaggeration": ("2", ""),
+    "--x": ("0,300,900", ""), "--y": ("0,300,900", ""), "--z": ("-1700,-1200,-700", ""),
     "--rule": ("odd", "BASE=body body.ts body.ts -o out.stl"), "--fractions": ("", ""),
     "--layer": ("salt=2", "BASE=salt.ts shale.ts -o out.stl --layer=shale=1")}
 #: The same option of another command.
 ALSO = {("ensemble", "--grid"): ("7", ""), ("layer", "--certificate"): ("c.json", "OUT=out.obj"),
+        ("grid", "--step"): ("400", f"BASE=top.ts base.ts fault.ts -o out.vti {BOX}"), ("grid", "--cells"): ("3,3,3", f"BASE=top.ts base.ts fault.ts -o out.vti {BOX}"),
+        ("prisms", "--layers"): ("3", ""), ("prisms", "--follow"): ("top", "--thickness=20"), ("prisms", "--thickness"): ("30", "--follow=base"),
+        ("prisms", "--depth"): None, ("prisms", "--max-edge"): None, ("prisms", "--columns"): None,
+        ("pillars", "--layers"): ("3", ""), ("pillars", "--x"): ("0,300,900", "BASE=top.ts base.ts -o out.grdecl --y=0,300,900"),
+        ("pillars", "--y"): ("0,300,900", "BASE=top.ts base.ts -o out.grdecl --x=0,300,900"), ("pillars", "--step"): ("90", ""),
+        ("pillars", "--depth"): None, ("pillars", "--max-edge"): None, ("pillars", "--columns"): None,
+        ("grid", "--depth"): None, ("grid", "--max-edge"): None, ("grid", "--columns"): None,
         ("convert", "--msh"): ("2.2", "BASE=top.ts out.msh"), ("convert", "--depth"): ("", "BASE=seabed.asc out.stl"),
         ("convert", "--max-edge"): ("90", "BASE=points.csv out.stl"), ("convert", "--columns"): ("1,3,2", "BASE=points.csv out.stl"),
         ("tetrahedralize", "--msh"): ("2.2", "OUT=out.msh"),

@@ -223,12 +223,16 @@ METHODS = {
         "save": (lambda f: dict(path="m.irap"), {"format": "vti"})}),
     "Section": (lambda f: terrane.section(f.model, level=0), {
         "save": (lambda f: dict(path="s.svg"), {"title": "a title", "exaggeration": 2.0})}),
+    "CellGrid": (lambda f: f.model.grid(cells=(2, 2, 2)), {
+        "save": (lambda f: dict(path="g.vti"), {}), "fraction": (lambda f: dict(block=1), {})}),
     "Layered": (lambda f: f.layered, {"save": (lambda f: dict(path="l.vtp"), {"format": "obj", "compress": False, "ascii": None})}),
     "Model": (lambda f: f.model, {
         "block_of": (lambda f: dict(points=[(1, 1, 0)]), {}), "names_of": (lambda f: dict(points=[(1, 1, 0)]), {}),
         "improved": (lambda f: {}, {"edge_length": 2, "passes": 1, "max_deviation": 1e-3}),
         "tetrahedra": (lambda f: {}, {"edge_length": 2, "improve": None, "quality": 1.8}),
         "map_thickness": (lambda f: dict(blocks=[1], step=0.5), {"step": 0.25, "like": None}),
+        "grid": (lambda f: dict(step=0.5), {
+            "step": 0.25, "cells": ((2, 2, 2), {"step": None}), "x": [-1, 0, 1], "y": [-1, 0, 1], "z": [-1, 0, 1]}),
         "save": (lambda f: dict(folder="m"), {"format": "obj"}), "report": (lambda f: dict(path="m.html"), {})}),
     "Block": (lambda f: f.model.blocks[1], {"above_contact": (lambda f: dict(contact=0.5), {})}),
     "Blocks": (lambda f: f.model.blocks, {"get": (lambda f: dict(key=1), {"default": None})}),

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <terrane/algorithms/cells/cells.hpp>
+#include <terrane/algorithms/cells/prisms.hpp>
 #include <terrane/algorithms/maps/maps.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/sections/sections.hpp>
@@ -16,6 +18,8 @@
 #include <terrane/algorithms/tiles/volumes_in_tiles.hpp>
 #include <terrane/algorithms/uncertainty/measures.hpp>
 #include <terrane/algorithms/uncertainty/realisations.hpp>
+#include <terrane/io/cell_files.hpp>
+#include <terrane/io/grids/pillar_grid.hpp>
 #include <terrane/io/sections/section_text.hpp>
 
 #include "fixture.hpp"
@@ -204,6 +208,54 @@ std::vector<Stage> drawing() {
             return map_blocks(*f.mesh, f.volumes, std::span(&block, 1), grid);
         },
         [](const Grid& made) { return shown(made.values.back()); }));
+    const auto size = [](const CellGrid& made) { return std::to_string(made.size()); };
+    stages.push_back(stage(
+        "cells_with_steps",
+        [&f] {
+            return cells_with_steps(*f.mesh, {2, 2, 2});
+        },
+        size));
+    stages.push_back(stage(
+        "cells_by_count",
+        [&f] {
+            return cells_by_count(*f.mesh, {3, 4, 5});
+        },
+        size));
+    static const CellGrid cells = needed(cells_by_count(*f.mesh, {3, 4, 5}));
+    stages.push_back(stage(
+        "blocks_in_cells", [&f] { return blocks_in_cells(*f.mesh, f.volumes, cells); },
+        [](const BlocksInCells& made) { return shown(made.shares.back().fraction); }));
+    static const BlocksInCells in_cells = needed(blocks_in_cells(*f.mesh, f.volumes, cells));
+    static const CellNames cell_names = [&f] {
+        CellNames made{{}, {}, "a model with a long name"};
+        for (const ModelBlock& block : f.model.structure.blocks) {
+            made.blocks.push_back(block.name);
+            made.units.push_back(block.unit);
+        }
+        return made;
+    }();
+    for (const std::string extension : {".vti", ".vtr", ".grdecl", ".csv"})
+        stages.push_back(
+            writing_stage("write_cells, " + extension.substr(1), "cells" + extension, true,
+                          [format = *cell_format(extension)](const std::filesystem::path& path) {
+                              return write_cells(cells, in_cells, cell_names, format, path);
+                          }));
+    static const Surface lid{
+        "lid", Role::horizon, {{0, 0, 9}, {8, 0, 9}, {8, 8, 8}, {0, 8, 9}}, {{0, 1, 2}, {0, 2, 3}}};
+    static const Surface floor{"floor",
+                               Role::horizon,
+                               {{-1, -1, 0}, {9, -1, 1}, {9, 9, 0}, {-1, 9, 0}},
+                               {{0, 1, 2}, {0, 2, 3}}};
+    stages.push_back(stage(
+        "make_prisms", [] { return make_prisms(lid, floor, {.layers = 40}); },
+        [](const PrismMesh& made) { return shown(made.volume); }));
+    static const std::vector<Surface> horizons{lid, floor};
+    stages.push_back(stage(
+        "make_pillar_grid",
+        [] {
+            return make_pillar_grid(horizons, {{0, 2, 4, 6}, {0, 3, 6}, {7}});
+        },
+        [](const PillarGrid& made) { return std::to_string(made.active); }));
     static constexpr double contact = 4;
     stages.push_back(stage(
         "measure_blocks",

@@ -139,12 +139,21 @@ void VtkWriter::strings(std::string_view name, const std::vector<std::string_vie
                             xml_escaped(name), count, lines);
 }
 
+void VtkWriter::begin_field() {
+    text("<FieldData>");
+    in_field_ = true;
+}
+
+void VtkWriter::end_field() {
+    in_field_ = false;
+    text("</FieldData>");
+}
+
 void VtkWriter::field(const std::vector<SurfaceInfo>& surfaces,
                       const IndexLists<std::uint32_t>& surfaces_of, std::string_view name_of_names,
                       std::span<const std::string> further_names,
                       std::span<const ValueArray> values) {
-    text("<FieldData>");
-    in_field_ = true;
+    begin_field();
     std::vector<std::string_view> names, roles;
     for (const auto& surface : surfaces) {
         names.push_back(surface.name);
@@ -172,8 +181,7 @@ void VtkWriter::field(const std::vector<SurfaceInfo>& surfaces,
         strings("value_unit", units);
         array("value_no_data", no_data);
     }
-    in_field_ = false;
-    text("</FieldData>");
+    end_field();
 }
 
 void VtkWriter::begin_piece(std::size_t points, std::size_t cells) {

@@ -42,6 +42,9 @@ public:
     /// grids they are arrays of codes, as meshio reads no grid with arrays of strings.
     void strings(std::string_view name, const std::vector<std::string_view>& values);
 
+    /// Field arrays are written between these.
+    void begin_field();
+    void end_field();
     /// `values`: the arrays of values(), whose units and numbers without value it lists.
     void field(const std::vector<SurfaceInfo>& surfaces,
                const IndexLists<std::uint32_t>& surfaces_of, std::string_view name_of_names,
