@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/file_set.hpp>
@@ -46,11 +47,6 @@ Json feature(std::string_view type, Json coordinates, Json properties) {
                  {"properties", std::move(properties)}});
 }
 
-std::string cell(std::string_view text) {
-    if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
-    return '"' + replaced_texts(text, "\"", "\"\"") + '"';
-}
-
 /// Layers of DXF: of all blocks, then of all surfaces.
 std::vector<std::string> layers_of(const SectionNames& names) {
     std::vector<SurfaceInfo> all;
@@ -85,6 +81,18 @@ void append_polyline(std::string& out, const Section& section, const std::string
 }
 
 } // namespace
+
+SectionNames names_in(const Model& model) {
+    SectionNames names;
+    for (const ModelBlock& block : model.structure.blocks) {
+        names.blocks.push_back(block.name);
+        names.units.push_back(block.unit);
+    }
+    names.surfaces = model.mesh.mesh()->surfaces;
+    const auto labels = unique_labels(names.surfaces);
+    for (std::size_t s = 0; s < labels.size(); ++s) names.surfaces[s].name = labels[s];
+    return names;
+}
 
 std::optional<SectionFormat> section_format(std::string_view extension) {
     for (const auto& [name, format] : formats)
@@ -203,16 +211,16 @@ std::string section_csv(const Section& section, const SectionNames& names) {
         std::string_view kind = "outer";
         for (std::vector<std::uint32_t> ring : polygon.rings) {
             ring.push_back(ring.front());
-            rows(fmt::format("{},{},{},{},", kind, cell(names.blocks[polygon.block]),
-                             cell(names.blocks[polygon.behind]),
-                             cell(names.units[names.shown(polygon)])),
+            rows(fmt::format("{},{},{},{},", kind, csv_cell(names.blocks[polygon.block]),
+                             csv_cell(names.blocks[polygon.behind]),
+                             csv_cell(names.units[names.shown(polygon)])),
                  ring);
             kind = "hole";
         }
     }
     for (const SectionLine& line : section.lines) {
         ++part;
-        rows("line,,,," + cell(names.surfaces[line.surface].name), line.vertices);
+        rows("line,,,," + csv_cell(names.surfaces[line.surface].name), line.vertices);
     }
     return out;
 }

@@ -83,6 +83,11 @@ bool same_ignoring_case(std::string_view a, std::string_view b) {
                       [](char x, char y) { return to_lower(x) == to_lower(y); });
 }
 
+std::string csv_cell(std::string_view text) {
+    if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
+    return '"' + replaced_texts(text, "\"", "\"\"") + '"';
+}
+
 std::string shown(std::string_view token) {
     constexpr std::size_t longest = 40;
     std::string result = "\"";

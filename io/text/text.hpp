@@ -30,6 +30,9 @@ constexpr bool is_blank(char c) {
 [[nodiscard]] std::string replaced_texts(std::string_view text, std::string_view from,
                                          std::string_view to);
 
+/// Returns a text as a cell of CSV: in double quotes if it has a comma, a quote or a line end.
+[[nodiscard]] std::string csv_cell(std::string_view text);
+
 /// Quotes a token for a message: at most 40 characters of it, with '?' for unprintable ones.
 [[nodiscard]] std::string shown(std::string_view token);
 
