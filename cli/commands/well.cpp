@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -88,6 +89,31 @@ std::vector<WellPaths> read_paths(const WellCommand& command) {
     return files;
 }
 
+/// Returns the format of an output. Errors: unknown_format.
+WellFormat format_of(const FileOptions& files, const std::string& path) {
+    const auto extension = files.output_format.empty()
+                               ? std::filesystem::path(path).extension().string()
+                               : "." + files.output_format;
+    if (const auto format = well_format(extension)) return *format;
+    refuse(ErrorCode::unknown_format, "logs of wells are .csv or .las", path);
+}
+
+/// Refuses outputs that would replace a file with paths.
+void check_names(const WellCommand& command, std::span<const WellPaths> files) {
+    std::vector<std::string> wells;
+    for (const WellPaths& file : files)
+        for (const WellPath& well : file.paths) wells.push_back(well.name);
+    for (const std::string& output : command.model.files.outputs) {
+        if (output == "-") continue;
+        for (const auto& path : well_files(wells, format_of(command.model.files, output), output))
+            for (const std::string& input : command.paths) {
+                std::error_code none;
+                if (std::filesystem::equivalent(path, input, none))
+                    refuse("would replace " + input + ", which is read", "--output");
+            }
+    }
+}
+
 /// Refuses wells whose unit is known to be another one than that of the model.
 std::vector<WellPath> paths_of(std::vector<WellPaths> files, const std::string& unit) {
     std::vector<WellPath> paths;
@@ -127,15 +153,6 @@ std::string text_of(std::span<const WellLog> logs, const SectionNames& names,
     if (intervals > most_intervals)
         text += fmt::format("  and {} more\n", counted(intervals - most_intervals, "interval"));
     return text;
-}
-
-/// Returns the format of an output. Errors: unknown_format.
-WellFormat format_of(const FileOptions& files, const std::string& path) {
-    const auto extension = files.output_format.empty()
-                               ? std::filesystem::path(path).extension().string()
-                               : "." + files.output_format;
-    if (const auto format = well_format(extension)) return *format;
-    refuse(ErrorCode::unknown_format, "logs of wells are .csv or .las", path);
 }
 
 void check_outputs(const WellCommand& command) {
@@ -182,6 +199,7 @@ Json json_of(std::span<const WellLog> logs, const SectionNames& names) {
 ExitStatus log_files(const WellCommand& command, const CLI::App& app, Session& session) {
     check_outputs(command);
     auto files = read_paths(command);
+    check_names(command, files);
     auto run = ModelRun::begin(command.model, session);
     const auto paths = paths_of(std::move(files), run.inputs().unit);
     run.make();

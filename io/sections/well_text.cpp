@@ -202,6 +202,17 @@ std::string well_las(const WellLog& log, const SectionNames& names, double step)
     return out;
 }
 
+std::vector<std::filesystem::path> well_files(std::span<const std::string> wells, WellFormat format,
+                                              const std::filesystem::path& path) {
+    if (format == WellFormat::csv || wells.size() == 1) return {path};
+    std::vector<std::filesystem::path> paths;
+    WordNames words;
+    for (const std::string& well : wells)
+        paths.push_back(path.parent_path() / (path.stem().string() + '_' + words.add(well, "well") +
+                                              path.extension().string()));
+    return paths;
+}
+
 Result<std::vector<std::filesystem::path>> write_wells(std::span<const WellLog> logs,
                                                        const SectionNames& names, WellFormat format,
                                                        const std::filesystem::path& path,
@@ -215,17 +226,12 @@ Result<std::vector<std::filesystem::path>> write_wells(std::span<const WellLog> 
                          "standard output"};
         std::optional<FileSet> together;
         if (texts->size() > 1 && !FileSet::current()) together.emplace();
-        WordNames words;
-        Paths paths;
-        for (std::size_t i = 0; i < texts->size(); ++i) {
-            paths.push_back(texts->size() == 1
-                                ? path
-                                : path.parent_path() / (path.stem().string() + '_' +
-                                                        words.add(logs[i].name, "well") +
-                                                        path.extension().string()));
-            if (auto written = write_file(paths.back(), (*texts)[i]); !written)
+        std::vector<std::string> wells;
+        for (const WellLog& log : logs) wells.push_back(log.name);
+        Paths paths = well_files(wells, format, path);
+        for (std::size_t i = 0; i < texts->size(); ++i)
+            if (auto written = write_file(paths[i], (*texts)[i]); !written)
                 return written.error();
-        }
         if (together)
             if (auto published = together->publish(); !published) return published.error();
         return paths;

@@ -39,6 +39,10 @@ std::string wells_csv(std::span<const WellLog> logs, const SectionNames& names);
 /// unit, numbers are NULL. Intervals too short for doubles are left out.
 std::string well_las(const WellLog& log, const SectionNames& names, double step = 0);
 
+/// Returns the files that write_wells() writes for wells with these names.
+std::vector<std::filesystem::path> well_files(std::span<const std::string> wells, WellFormat format,
+                                              const std::filesystem::path& path);
+
 /// Writes logs; all wells are one table, and one LAS file each: of several, with their names after that of the file.
 /// All files are written, or none. Returns their paths. Errors: bad_option for several files on standard output, and for
 /// a step that makes more than 10^7 rows; those of write_file().

@@ -68,6 +68,7 @@ void bind_layers(py::module_& module);
 void bind_selection(py::module_& module);
 void bind_maps(py::module_& module);
 void bind_sections(py::module_& module);
+void bind_wells(py::module_& module);
 void bind_tetrahedra(py::module_& module);
 void bind_verify(py::module_& module);
 void bind_judge(py::module_& module);

@@ -206,6 +206,7 @@ def write_json_files(program, folder):
     run("select", "west - body", "units.obj", "body.ts", "-o", "rest.vtp", "--fractions", "--stats", "select.json")
     run("map", "depth", "top.ts", "--step", "100", "-o", "depth.asc", "--stats", "map.json")
     run("section", *model, *box, "-o", "s.svg", "--level", "-1000", "--stats", "section.json")
+    run("well", *model, *box, "--path", "wells.csv", "-o", "log.csv", "--stats", "well.json")
     run("select", "fault & inside(west)", "units.obj", "fault.ts", "-o", "rest.vtp", "--stats", "select_part.json")
     run("info", "top.ts", "fault.ts", "--json", out="info.json")
     run("check", "twice.obj", "--json", out="check.json")
@@ -232,7 +233,7 @@ def write_json_files(program, folder):
     with (folder / "top.ts").open("a") as changed:
         changed.write("\n")
     run("verify", "certificate.json", "--json", out="refuted.json")
-    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "joined_statistics.json", "fill.json", "rbf.json", "select.json", "select_part.json", "map.json", "section.json",
+    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "joined_statistics.json", "fill.json", "rbf.json", "select.json", "select_part.json", "map.json", "section.json", "well.json",
                   "in_tiles.json", "resolution.json", "open.json", "arrange.json", "stl.json"]
     if has_tetgen(program):
         run("tetrahedralize", *model, *box, "-o", "t.vtu", "--stats", "tetrahedra.json")
