@@ -27,6 +27,7 @@ class WellPath(NamedTuple):
 
     Examples
     --------
+    >>> import terrane
     >>> terrane.WellPath("A-1", [(1, 1, 9), (1, 1, 0)], None).name
     'A-1'
     """
@@ -55,7 +56,7 @@ class WellInterval(NamedTuple):
     Examples
     --------
     >>> m = ...
-    >>> terrane.log_well(m, [(1, 1, 4), (1, 1, 2)]).intervals[-1].blocks
+    >>> terrane.log_well(m, [(1, 1, 1), (1, 1, 0.5)]).intervals[-1].blocks
     ['above flat']
     """
 
@@ -83,7 +84,7 @@ class WellMarker(NamedTuple):
     Examples
     --------
     >>> m = ...
-    >>> [marker.surface for marker in terrane.log_well(m, [(1, 1, 2), (1, 1, 0.5)]).markers]
+    >>> [marker.surface for marker in terrane.log_well(m, [(1, 1, 1), (1, 1, -0.5)]).markers]
     ['flat']
     """
 
@@ -108,7 +109,7 @@ class WellLog(Result):
     Examples
     --------
     >>> m = ...
-    >>> terrane.log_well(m, [(1, 1, 2), (1, 1, 0.5)], name="A-1")
+    >>> terrane.log_well(m, [(1, 1, 1), (1, 1, -0.5)], name="A-1")
     <WellLog: A-1, 2 intervals, 1 marker>
     """
 
@@ -138,7 +139,7 @@ class WellLog(Result):
         --------
         >>> import os
         >>> m = ...
-        >>> terrane.log_well(m, [(1, 1, 2), (1, 1, 0.5)], name="A-1").save("A-1.las")
+        >>> terrane.log_well(m, [(1, 1, 1), (1, 1, -0.5)], name="A-1").save("A-1.las")
         >>> os.path.exists("A-1.las")
         True
         """
@@ -179,7 +180,7 @@ def log_well(model: Model, points: Any, *, depths: Any = None, name: str = "well
     Examples
     --------
     >>> m = ...
-    >>> [(i.blocks[0], i.top, i.base) for i in terrane.log_well(m, [(1, 1, 2), (1, 1, 0.5)]).intervals]
+    >>> [(i.blocks[0], i.top, i.base) for i in terrane.log_well(m, [(1, 1, 1), (1, 1, -0.5)]).intervals]
     [('above flat', 0.0, 1.0), ('below flat', 1.0, 1.5)]
     """
     if not isinstance(model, Model):
@@ -207,6 +208,7 @@ def read_wells(path: Path, *, heads: Any = None) -> List[WellPath]:
 
     Examples
     --------
+    >>> import terrane
     >>> with open("survey.csv", "w") as file:
     ...     _ = file.write("md,inclination,azimuth\\n0,0,0\\n4,0,0\\n")
     >>> terrane.read_wells("survey.csv", heads=(1, 1, 3))[0].points[-1].tolist()
