@@ -74,14 +74,15 @@ ExitStatus run(int argc, char** argv) {
     program.footer(main_footer);
     const std::array commands{
         // as --help lists them: what people use most comes first
-        arrange_command(program),  volume_command(program),     tetrahedralize_command(program),
-        improve_command(program),  build_command(program),      ensemble_command(program),
-        info_command(program),     check_command(program),      fill_command(program),
-        layer_command(program),    select_command(program),     map_command(program),
-        section_command(program),  grid_command(program),       prisms_command(program),
-        pillars_command(program),  report_command(program),     view_command(program),
-        convert_command(program),  verify_command(program),     judge_command(program),
-        minimise_command(program), completion_command(program), manual_command(program)};
+        arrange_command(program), volume_command(program),   tetrahedralize_command(program),
+        improve_command(program), build_command(program),    ensemble_command(program),
+        info_command(program),    check_command(program),    fill_command(program),
+        layer_command(program),   select_command(program),   map_command(program),
+        section_command(program), well_command(program),     grid_command(program),
+        prisms_command(program),  pillars_command(program),  report_command(program),
+        view_command(program),    convert_command(program),  verify_command(program),
+        judge_command(program),   minimise_command(program), completion_command(program),
+        manual_command(program)};
     for (const Command& command : commands) {
         round_numbers_once(*command.options);
         offer_output_options(*command.options);

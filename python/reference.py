@@ -16,12 +16,12 @@ import terrane  # noqa: E402
 GROUPS = [
     ("Input", "Surface Frame ROLES as_surface as_surfaces read save mesh"),
     ("Stages", "arrange round check regions volumes structure volume_of_interest box rotated_box polygon closed extend "
-               "seal suggest_seal improve distance holes fill layers select map_surface model section tetrahedralize verify judge build ensemble"),
+               "seal suggest_seal improve distance holes fill layers select map_surface model section log_well read_wells tetrahedralize verify judge build ensemble"),
     ("Models", "Model Block Blocks PartAbove Interface Leak Relation Juxtaposition"),
     ("Results", "Arrangement RoundedMesh RoundingReport Mesh CheckReport Contact Regions Region Volumes Structure "
                 "Corner Line Patch InterfaceParts BlockParts VolumeOfInterest SurfaceCut OpenBorder Sealed "
                 "SealChange ClosedGap OpenGap SealAdvice SealTrial Improved BorderLoop Filled FilledHole FillReport "
-                "Layered LayerReport OutOfOrder Selected SelectedPiece Map Section SectionPolygon SectionLine CellGrid Tetrahedra BlockVolume Violation Verdict VerifiedFile RuleViolation MeshJudgement "
+                "Layered LayerReport OutOfOrder Selected SelectedPiece Map Section SectionPolygon SectionLine WellPath WellLog WellInterval WellMarker CellGrid Tetrahedra BlockVolume Violation Verdict VerifiedFile RuleViolation MeshJudgement "
                 "JudgedProperty PropertyFlaw "
                 "Built Ensemble BlockOutcome Juxtaposed Failure"),
     ("Small things", "IndexLists SurfaceInfo NO_INDEX HAS_REPORTS keep_freed_memory Error OutOfMemory Doubt ERROR_CODES"),

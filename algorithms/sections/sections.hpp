@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Sections of a model: the parts of its blocks and surfaces that lie in a plane, in a fence of vertical panels, in
-// horizontal planes, or in any surface that folds over nowhere.
+// horizontal planes, or in any surface that folds over nowhere; and those along the paths of wells.
 //
 // The section surface is one more surface in an exact arrangement of the model's triangles. So
 // (1) the block of each part of the section, and where it ends, are decided without an epsilon, also where the
@@ -99,5 +99,72 @@ struct Section {
 /// conforming, or the volumes are not its; those of arrange() and find_volumes().
 Result<Section> cut_section(const Mesh& mesh, const Volumes& volumes, const SectionSurface& along,
                             const Run& run = {});
+
+// Logs of wells. A path is a polyline between points of doubles, and is compared with the triangles of the mesh:
+// (4) which triangles a path meets, in which order, and in which block it runs between them are decided exactly, also
+//     where it passes through vertices and along edges, or runs in a surface;
+// (5) intervals cover the path without gaps; each begins at the depth and the point at which the one before ends;
+// (6) points and depths are the doubles nearest to the exact ones. Depths are linear between the points of a path.
+// No arrangement is needed. Cost: n log n for n triangles; per segment log n and the triangles in its box.
+
+/// The path of a well, from its head on.
+struct WellPath {
+    std::string name;
+    std::vector<Point3>
+        points; ///< >= 2, of a polyline, unit of the model; repeated ones count once
+    /// Per point: its measured depth, ascending. No list: the length of the path, from 0 on.
+    std::vector<double> depths{};
+};
+
+/// A station of a deviation survey.
+struct WellStation {
+    double depth = 0;       ///< measured along the well, unit of the model
+    double inclination = 0; ///< in degrees: 0 is down, 90 is level
+    double azimuth = 0;     ///< in degrees, clockwise from y
+};
+
+/// Returns the path through the stations of a survey by the method of minimum curvature: between two stations the well
+/// is the arc that has their directions. The path is the polyline through the stations. The head is at depth 0; above
+/// a first station that is deeper the well begins vertically. Errors: bad_option without stations, for numbers that
+/// are not finite, depths that do not ascend or are below 0, inclinations outside of 0 to 180, and stations that
+/// point against each other.
+Result<WellPath> surveyed_path(std::string name, const Point3& head,
+                               std::span<const WellStation> stations);
+
+/// A part of a path in one block, or upon the same surfaces.
+struct WellInterval {
+    double from = 0; ///< measured depth
+    double to = 0;   ///< measured depth
+    Point3 entry;    ///< point of the path at `from`
+    Point3 exit;     ///< point of the path at `to`
+    std::vector<std::uint32_t>
+        blocks; ///< sorted: the block, 0 outside; upon surfaces all those around it
+    std::vector<std::uint32_t> surfaces; ///< sorted: surfaces in which it runs; mostly none
+};
+
+/// A point in which a path meets a surface, or from which on it runs in one.
+struct WellMarker {
+    double depth = 0; ///< measured
+    Point3 point;
+    SurfaceId surface{};
+    std::uint32_t before = 0; ///< number of the interval above; at the head, the first one
+    std::uint32_t after =
+        0; ///< number of the interval below: the same one if the block does not change
+};
+
+/// What a well meets on its way.
+struct WellLog {
+    std::string name; ///< of the path
+    std::vector<WellInterval>
+        intervals;                   ///< >= 1, by depth; neighbours differ in blocks or surfaces
+    std::vector<WellMarker> markers; ///< by depth, then by surface
+};
+
+/// Logs wells: where each path enters and leaves blocks, and where it meets surfaces. The mesh is conforming, and has
+/// these volumes; without any, all is outside. Wells are logged on several threads.
+/// Errors: bad_option for a path with fewer than two different points or with numbers that are not finite, and for
+/// depths that do not fit to the points; improper_contact if the volumes are not those of the mesh; interrupted.
+Result<std::vector<WellLog>> log_wells(const Mesh& mesh, const Volumes& volumes,
+                                       std::span<const WellPath> paths, const Run& run = {});
 
 } // namespace terrane

@@ -40,5 +40,6 @@ Command tetrahedralize_command(CLI::App& program);
 Command verify_command(CLI::App& program);
 Command view_command(CLI::App& program);
 Command volume_command(CLI::App& program);
+Command well_command(CLI::App& program);
 
 } // namespace terrane::cli

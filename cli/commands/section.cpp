@@ -118,15 +118,7 @@ std::pair<std::string, std::string> place_of(const SectionCommand& command) {
 
 SectionNames names_of(const SectionCommand& command, const SectionSurface& along,
                       const ModelRun& run) {
-    const Model& model = *run.built().model;
-    SectionNames names;
-    for (const ModelBlock& block : model.structure.blocks) {
-        names.blocks.push_back(block.name);
-        names.units.push_back(block.unit);
-    }
-    names.surfaces = model.mesh.mesh()->surfaces;
-    const auto labels = unique_labels(names.surfaces);
-    for (std::size_t s = 0; s < labels.size(); ++s) names.surfaces[s].name = labels[s];
+    SectionNames names = names_in(*run.built().model);
     const auto [option, value] = place_of(command);
     names.title = fmt::format("{}: {} {}", name_of_inputs(command.model.files), option, value);
     names.length_unit = run.inputs().unit;

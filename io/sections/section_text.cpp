@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <terrane/algorithms/core/guarded.hpp>
+#include <terrane/algorithms/mesh/labels.hpp>
 #include <terrane/algorithms/mesh/submesh.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/atomic/file_set.hpp>
@@ -80,6 +81,18 @@ void append_polyline(std::string& out, const Section& section, const std::string
 }
 
 } // namespace
+
+SectionNames names_in(const Model& model) {
+    SectionNames names;
+    for (const ModelBlock& block : model.structure.blocks) {
+        names.blocks.push_back(block.name);
+        names.units.push_back(block.unit);
+    }
+    names.surfaces = model.mesh.mesh()->surfaces;
+    const auto labels = unique_labels(names.surfaces);
+    for (std::size_t s = 0; s < labels.size(); ++s) names.surfaces[s].name = labels[s];
+    return names;
+}
 
 std::optional<SectionFormat> section_format(std::string_view extension) {
     for (const auto& [name, format] : formats)

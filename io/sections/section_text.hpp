@@ -12,6 +12,7 @@
 
 #include <terrane/algorithms/core/result.hpp>
 #include <terrane/algorithms/mesh/mesh.hpp>
+#include <terrane/algorithms/model/model.hpp>
 #include <terrane/algorithms/sections/sections.hpp>
 
 namespace terrane {
@@ -38,6 +39,9 @@ struct SectionNames {
         return first != 0 ? first : shows_behind ? polygon.block : polygon.behind;
     }
 };
+
+/// Returns the names of the blocks, units and surfaces of a model; those of surfaces are made unique.
+SectionNames names_in(const Model& model);
 
 /// The formats of sections that are no formats of meshes.
 enum class SectionFormat : std::uint8_t { svg, geojson, dxf, csv, shp };

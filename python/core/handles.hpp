@@ -69,6 +69,7 @@ void bind_selection(py::module_& module);
 void bind_maps(py::module_& module);
 void bind_sections(py::module_& module);
 void bind_cells(py::module_& module);
+void bind_wells(py::module_& module);
 void bind_tetrahedra(py::module_& module);
 void bind_verify(py::module_& module);
 void bind_judge(py::module_& module);

@@ -40,6 +40,7 @@ PYBIND11_MODULE(_core, module) {
     bind_maps(module);
     bind_sections(module);
     bind_cells(module);
+    bind_wells(module);
     bind_tetrahedra(module);
     bind_verify(module);
     bind_judge(module);

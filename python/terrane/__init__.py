@@ -44,6 +44,7 @@ from ._sealing import (ClosedGap, OpenGap, SealAdvice, SealChange, Sealed, SealT
 from ._section import Section, SectionLine, SectionPolygon, section
 from ._selection import Selected, SelectedPiece, select
 from ._surface import ROLES, Frame, Surface, as_surface, as_surfaces
+from ._wells import WellInterval, WellLog, WellMarker, WellPath, log_well, read_wells
 from ._tetrahedra import BlockVolume, Tetrahedra, Violation, tetrahedralize
 from ._verification import RuleViolation, Verdict, VerifiedFile, verify
 from ._volume_of_interest import (OpenBorder, SurfaceCut, VolumeOfInterest, box, closed, extend, polygon,
@@ -65,9 +66,9 @@ __all__ = [
     "PartAbove", "Patch", "PropertyFlaw", "ROLES", "Region", "Regions", "Relation", "RoundedMesh", "RoundingReport",
     "RuleViolation", "SealAdvice", "SealChange", "SealTrial", "Sealed", "Section", "SectionLine", "SectionPolygon", "Selected", "SelectedPiece", "Structure", "Surface",
     "SurfaceCut", "SurfaceInfo", "Tetrahedra", "Verdict", "VerifiedFile", "Violation",
-    "VolumeOfInterest", "Volumes", "arrange", "as_surface", "as_surfaces", "box", "build", "check",
-    "closed", "distance", "ensemble", "extend", "fill", "holes", "improve", "judge", "keep_freed_memory", "layers", "map_surface", "mesh", "model", "polygon",
-    "read", "regions", "rotated_box", "round", "save", "seal", "section", "select", "structure", "suggest_seal",
+    "VolumeOfInterest", "Volumes", "WellInterval", "WellLog", "WellMarker", "WellPath", "arrange", "as_surface", "as_surfaces", "box", "build", "check",
+    "closed", "distance", "ensemble", "extend", "fill", "holes", "improve", "judge", "keep_freed_memory", "layers", "log_well", "map_surface", "mesh", "model", "polygon",
+    "read", "read_wells", "regions", "rotated_box", "round", "save", "seal", "section", "select", "structure", "suggest_seal",
     "tetrahedralize", "verify", "volume_of_interest", "volumes",
 ]
 

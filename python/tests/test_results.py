@@ -54,6 +54,7 @@ MAKE = {
     "Map": lambda: terrane.map_surface(stack(), "dip", step=1),
     "Section": lambda: terrane.section(terrane.model(stack(), box=BOX), level=0.5),
     "CellGrid": lambda: terrane.model(stack(), box=BOX).grid(cells=(3, 2, 5)),
+    "WellLog": lambda: terrane.log_well(terrane.model(stack(), box=BOX), [(0.5, 0.5, 3), (0.5, 0.5, -1)]),
     "Model": lambda: terrane.model(stack(), box=BOX),
     "Built": lambda: terrane.build(project()),
     "IndexLists": lambda: terrane.round(terrane.arrange(stack())).mesh.surfaces_of,
@@ -83,7 +84,7 @@ def test_repr_is_one_line(results, kind):
 @pytest.mark.parametrize("kind", [k for k in MAKE if k != "IndexLists"])
 def test_html(results, kind):
     text = re.sub('base64,[^"]*', "", results[kind]._repr_html_())
-    assert ("<img" in text) == (kind not in ("CheckReport", "Regions", "Structure"))
+    assert ("<img" in text) == (kind not in ("CheckReport", "Regions", "Structure", "WellLog"))
     assert "<table>" in text and "nan" not in text.lower().replace("inan", "")
 
 

@@ -181,6 +181,8 @@ def instances():
                   "BorderLoop": made["Filled"].holes[0].border, "FilledHole": made["Filled"].holes[0],
                   "FillReport": made["Filled"].holes[0].report, "LayerReport": made["Layered"].reports[0],
                   "SelectedPiece": made["Selected"].pieces[0],
+                  "WellPath": terrane.WellPath("A", [(0.0, 0.0, 1.0), (0.0, 0.0, 0.0)], [0.0, 1.0]),
+                  "WellInterval": made["WellLog"].intervals[0], "WellMarker": made["WellLog"].markers[0],
                   "SectionPolygon": made["Section"].polygons[0],
                   "SectionLine": made["Section"].lines[0], "PartAbove": made["Model"].blocks[1].above_contact(0),
                   "Leak": terrane.Leak("a", "b", 1.0, 2.0, 3.0, (0.0, 1.0, 2.0), "wide"), "Relation": made["Model"].relations[0],

@@ -32,7 +32,7 @@ BASES = {
     "tetrahedralize": f"top.ts -o out.vtu {BOX}", "improve": "top.ts fault.ts -o out.stl --edge-length=300",
     "build": "project.json -o out", "ensemble": "project.json -o out --realisations=2 --grid=5 --engine=serial",
     "info": "top.ts fault.ts", "check": "top.ts fault.ts", "fill": "dish.obj -o out.stl", "layer": "--hard=salt.ts --soft=shale.ts --keep=upper -o out.stl",
-    "select": "body body.ts -o out.stl", "map": "depth top.ts --step=100 -o out.asc", "section": f"top.ts base.ts fault.ts -o out.svg --level=-1000 {BOX}", "grid": f"top.ts base.ts fault.ts -o out.vti --cells=4,4,4 {BOX}", "prisms": "top.ts base.ts -o out.vtu --layers=2", "pillars": "top.ts base.ts -o out.grdecl --step=200 --layers=2", "report": f"top.ts fault.ts -o out.html {BOX}", "view": f"top.ts fault.ts {BOX}", "convert": "top.ts out.stl",
+    "select": "body body.ts -o out.stl", "map": "depth top.ts --step=100 -o out.asc", "section": f"top.ts base.ts fault.ts -o out.svg --level=-1000 {BOX}", "well": f"top.ts base.ts fault.ts --path=wells.csv -o out.csv {BOX}", "grid": f"top.ts base.ts fault.ts -o out.vti --cells=4,4,4 {BOX}", "prisms": "top.ts base.ts -o out.vtu --layers=2", "pillars": "top.ts base.ts -o out.grdecl --step=200 --layers=2", "report": f"top.ts fault.ts -o out.html {BOX}", "view": f"top.ts fault.ts {BOX}", "convert": "top.ts out.stl",
     "verify": "certificate.json", "judge": "arranged.obj top.ts fault.ts", "minimise": "top.ts --test=false -o out.stl",
     "completion": "bash", "manual": "arrange"}
 #: Commands that are not run, with the reason; their options are only refused.
@@ -67,6 +67,7 @@ SENSE = {
     "--level": ("-1100", f"BASE=top.ts base.ts fault.ts -o out.svg {BOX}"), "--contours": ("100", f"BASE=top.ts base.ts fault.ts -o out.svg {BOX}"),
     "--by": ("fault", f"BASE=top.ts base.ts fault.ts -o out.svg {BOX}"), "--exaggeration": ("2", ""),
     "--x": ("0,300,900", ""), "--y": ("0,300,900", ""), "--z": ("-1700,-1200,-700", ""),
+    "--path": ("C-3.csv", "--head=200,200,-600"), "--head": ("C-3=200,200,-600", "--path=C-3.csv"),
     "--rule": ("odd", "BASE=body body.ts body.ts -o out.stl"), "--fractions": ("", ""),
     "--layer": ("salt=2", "BASE=salt.ts shale.ts -o out.stl --layer=shale=1")}
 #: The same option of another command.
@@ -89,7 +90,7 @@ ALSO = {("ensemble", "--grid"): ("7", ""), ("layer", "--certificate"): ("c.json"
         ("judge", "--depth"): None, ("judge", "--max-edge"): None, ("judge", "--columns"): None, ("minimise", "--depth"): None, ("minimise", "--max-edge"): None, ("minimise", "--columns"): None,
         ("volume", "--seal-plot"): ("p.svg", f"BASE=top.ts base.ts fault.ts {BOX} --suggest-seal"),
         ("volume", "--grid"): ("grid.grdecl", "--cells=cells.grdecl"),
-        ("fill", "--max-edge"): None, ("select", "--depth"): None, ("map", "--depth"): None, ("map", "--max-edge"): None, ("map", "--columns"): None, ("select", "--max-edge"): None, ("select", "--columns"): None, ("section", "--columns"): None, ("tetrahedralize", "--seal"): None, ("report", "--seal"): None, ("view", "--seal"): None,
+        ("fill", "--max-edge"): None, ("select", "--depth"): None, ("map", "--depth"): None, ("map", "--max-edge"): None, ("map", "--columns"): None, ("select", "--max-edge"): None, ("select", "--columns"): None, ("section", "--columns"): None, ("well", "--columns"): None, ("well", "--step"): ("90", f"BASE=top.ts base.ts fault.ts --path=wells.csv -o out.las {BOX}"), ("tetrahedralize", "--seal"): None, ("report", "--seal"): None, ("view", "--seal"): None,
         ("tetrahedralize", "--column"): None, ("fill", "--model"): None, ("fill", "--isotropic"): None,
         ("build", "--report"): ("r.html", ""), ("check", "--depth"): None, ("fill", "--holes"): None}
 NONSENSE = ["", "nonsense", "-1", "nan", "inf", "-inf", "1e999", "99999999999999999999999", "1,2", "=", "\x1b[31m", "/dev/null/x.obj",

@@ -102,6 +102,7 @@ class Fixtures:
         for s in self.surfaces:
             s.save(folder / (s.name + ".ts"))
         (folder / "points.xyz").write_text("".join(f"{x + x * y % 3 / 5} {y} {x * y}\n" for x in range(6) for y in range(6)))
+        (folder / "survey.csv").write_text("md,inclination,azimuth\n0,0,0\n4,10,20\n")
         project = {"format": "terrane-project 1", "surfaces": [{"file": f"{s.name}.ts", "role": s.role} for s in self.surfaces],
                    "volume_of_interest": {"box": {"low": BOX[0], "high": BOX[1]}}, "folder": "built",
                    "outputs": {"blocks": "vtp"}, "uncertainty": [{"surface": "top", "shift": 0.1}]}
@@ -165,6 +166,8 @@ FUNCTIONS = {
     "section": (lambda f: dict(model=f.model, level=0), {
         "plane": ([(1, 1, 0), (0, 1, 0)], {"level": None}), "fence": ([(0, 1), (2, 1)], {"level": None}),
         "level": 0.25, "by": ("base", {"level": None})}),
+    "log_well": (lambda f: dict(model=f.model, points=[(1, 1, 3), (1, 1, -2)]), {"depths": [0, 7], "name": "A"}),
+    "read_wells": (lambda f: dict(path=str(f.files / "survey.csv"), heads=(1, 1, 3)), {"heads": {"survey": (1, 1, 2)}}),
     "model": (lambda f: dict(surfaces=f.surfaces, box=BOX), {
         "seal": None, "tolerance": None, "extend": None, "min_volume": 15.0,
         "column": [{"unit": "upper", "surface": "top"}, {"unit": "middle", "surface": "base"}, {"unit": "lower"}], "max_rounds": None,
@@ -225,6 +228,8 @@ METHODS = {
         "save": (lambda f: dict(path="s.svg"), {"title": "a title", "exaggeration": 2.0})}),
     "CellGrid": (lambda f: f.model.grid(cells=(2, 2, 2)), {
         "save": (lambda f: dict(path="g.vti"), {}), "fraction": (lambda f: dict(block=1), {})}),
+    "WellLog": (lambda f: terrane.log_well(f.model, [(1, 1, 3), (1, 1, -2)]), {
+        "save": (lambda f: dict(path="w.las"), {"step": 0.5})}),
     "Layered": (lambda f: f.layered, {"save": (lambda f: dict(path="l.vtp"), {"format": "obj", "compress": False, "ascii": None})}),
     "Model": (lambda f: f.model, {
         "block_of": (lambda f: dict(points=[(1, 1, 0)]), {}), "names_of": (lambda f: dict(points=[(1, 1, 0)]), {}),

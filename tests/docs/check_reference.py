@@ -210,6 +210,7 @@ def write_json_files(program, folder):
     (folder / "small.obj").write_text("v 0 0 -1900\nv 900 0 -1900\nv 900 900 -1900\nv 0 900 0\nf 1 2 3\nf 1 3 4\n")
     run("prisms", "top.ts", "small.obj", "-o", "p.vtu", "--stats", "prisms.json")
     run("pillars", "top.ts", "base.ts", "-o", "g.grdecl", "--step", "100", "--stats", "pillars.json")
+    run("well", *model, *box, "--path", "wells.csv", "-o", "log.csv", "--stats", "well.json")
     run("select", "fault & inside(west)", "units.obj", "fault.ts", "-o", "rest.vtp", "--stats", "select_part.json")
     run("info", "top.ts", "fault.ts", "--json", out="info.json")
     run("check", "twice.obj", "--json", out="check.json")
@@ -236,7 +237,7 @@ def write_json_files(program, folder):
     with (folder / "top.ts").open("a") as changed:
         changed.write("\n")
     run("verify", "certificate.json", "--json", out="refuted.json")
-    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "joined_statistics.json", "fill.json", "rbf.json", "select.json", "select_part.json", "map.json", "section.json", "grid.json", "prisms.json", "pillars.json",
+    statistics = ["built/statistics.json", "improve.json", "suggest.json", "merged.json", "sealed_statistics.json", "joined_statistics.json", "fill.json", "rbf.json", "select.json", "select_part.json", "map.json", "section.json", "well.json", "grid.json", "prisms.json", "pillars.json",
                   "in_tiles.json", "resolution.json", "open.json", "arrange.json", "stl.json"]
     if has_tetgen(program):
         run("tetrahedralize", *model, *box, "-o", "t.vtu", "--stats", "tetrahedra.json")

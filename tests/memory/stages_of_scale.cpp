@@ -20,7 +20,9 @@
 #include <terrane/algorithms/uncertainty/realisations.hpp>
 #include <terrane/io/cell_files.hpp>
 #include <terrane/io/grids/pillar_grid.hpp>
+#include <terrane/io/points/well_paths.hpp>
 #include <terrane/io/sections/section_text.hpp>
+#include <terrane/io/sections/well_text.hpp>
 
 #include "fixture.hpp"
 #include "scratch.hpp"
@@ -264,6 +266,45 @@ std::vector<Stage> drawing() {
     return stages;
 }
 
+std::vector<Stage> logging() {
+    static const Fixture& f = Fixture::get();
+    static const std::vector<WellPath> paths{
+        {"a well with a long name", {{1, 1, 9}, {2, 3, 4}, {1, 1, -9}}},
+        {"B", {{-9, 1, 1}, {9, 1, 1}}}};
+    static const std::vector<WellStation> stations{{0, 0, 0}, {5, 30, 90}, {9, 40, 90}};
+    static const std::string table = "well,x,y,z\nA,1,1,9\nA,1,1,0\n";
+    static const std::string las =
+        "~V\nVERS. 2.0 :\n~W\nX. 1 :\nY. 1 :\n~P\nEKB. 9 :\n~C\nDEPT.M :\n"
+        "INCL. :\nAZIM. :\n~A\n0 0 0\n9 0 0\n";
+    std::vector<Stage> stages;
+    stages.push_back(stage(
+        "log_wells", [] { return log_wells(*f.mesh, f.volumes, paths); },
+        [](const std::vector<WellLog>& made) {
+            return std::to_string(made.back().intervals.size()) + " " +
+                   std::to_string(made.back().markers.size());
+        }));
+    stages.push_back(stage(
+        "surveyed_path",
+        [] {
+            return surveyed_path("a well with a long name", {0, 0, 9}, stations);
+        },
+        [](const WellPath& made) { return std::to_string(made.points.size()); }));
+    for (const auto& [name, text] : {std::pair{"table", &table}, std::pair{"las", &las}})
+        stages.push_back(stage(
+            std::string("read_well_paths, ") + name,
+            [text = text] { return read_well_paths(*text, "a file with a long name", "well", {}); },
+            [](const WellPaths& made) { return made.paths.back().name; }));
+    static const std::vector<WellLog> logs = needed(log_wells(*f.mesh, f.volumes, paths));
+    static const SectionNames names = names_in(f.model);
+    for (const std::string extension : {".csv", ".las"})
+        stages.push_back(writing_stage("write_wells, " + extension.substr(1), "wells" + extension,
+                                       true, [extension](const std::filesystem::path& path) {
+                                           return write_wells(std::span(logs).first(1), names,
+                                                              *well_format(extension), path);
+                                       }));
+    return stages;
+}
+
 std::vector<Stage> sections() {
     static const Fixture& f = Fixture::get();
     const auto text = [](const SectionSurface& made) {
@@ -291,14 +332,7 @@ std::vector<Stage> sections() {
             return std::to_string(made.polygons.size()) + " " + std::to_string(made.lines.size());
         }));
     static const Section section = needed(cut_section(*f.mesh, f.volumes, fence));
-    static const SectionNames names = [] {
-        SectionNames made{{}, {}, f.mesh->surfaces, "a fence with a long title"};
-        for (const ModelBlock& block : f.model.structure.blocks) {
-            made.blocks.push_back(block.name);
-            made.units.push_back(block.unit);
-        }
-        return made;
-    }();
+    static const SectionNames names = names_in(f.model);
     for (const std::string extension : {".svg", ".geojson", ".dxf", ".csv", ".shp"}) {
         const auto format = *section_format(extension);
         if (!section_files(section, names, format)) continue; // without shapelib
@@ -315,7 +349,7 @@ std::vector<Stage> sections() {
 
 std::vector<Stage> stages_of_scale() {
     std::vector<Stage> stages;
-    for (const auto& part : {simplifying(), dividing(), drawing(), sections()})
+    for (const auto& part : {simplifying(), dividing(), drawing(), sections(), logging()})
         stages.insert(stages.end(), part.begin(), part.end());
     return stages;
 }
