@@ -17,7 +17,7 @@ namespace terrane {
 /// distance that the points of both triangles may be rounded to the nearest doubles.
 ///
 /// Laws (a test carries each number):
-/// (1) If is_beside or is_beyond holds for a triangle, its distance from this one is at least
+/// (1) If is_beside, is_beyond or is_apart holds for a triangle, its distance from this one is at least
 ///     2^-51 (M + N), where M and N are the largest absolute coordinates of the two triangles, in
 ///     any rounding mode. Rounding to nearest moves a point of a triangle by at most
 ///     sqrt(3) 2^-53 M.
@@ -59,6 +59,14 @@ public:
                 return true;
         }
         return false;
+    }
+
+    /// Whether this filter or that of p, q, r shows by law (1) that the two triangles are apart.
+    [[nodiscard]] bool is_apart(const Point3& p, const Point3& q, const Point3& r) const {
+        if (is_beside(p, q, r)) return true;
+        const SeparationFilter other(p, q, r);
+        const auto& [a, b, c] = at_;
+        return other.is_beside(a, b, c) || is_beyond(p, q, r) || other.is_beyond(a, b, c);
     }
 
     static constexpr double least_distance = 0x1p-51; ///< of law (1), per M + N

@@ -94,14 +94,7 @@ PairBlock test_pairs(const TriangleSoup& soup, const PlanePools& pools,
         if (f != last) first.emplace(at(f, 0), at(f, 1), at(f, 2));
         last = f;
         const bool joined = have_common_vertex(soup.triangles[f], soup.triangles[g]);
-        if (!joined) {
-            if (first->is_beside(at(g, 0), at(g, 1), at(g, 2))) continue;
-            const SeparationFilter second(at(g, 0), at(g, 1), at(g, 2));
-            if (second.is_beside(at(f, 0), at(f, 1), at(f, 2)) ||
-                first->is_beyond(at(g, 0), at(g, 1), at(g, 2)) ||
-                second.is_beyond(at(f, 0), at(f, 1), at(f, 2)))
-                continue;
-        }
+        if (!joined && first->is_apart(at(g, 0), at(g, 1), at(g, 2))) continue;
         const auto contact = improper_contact(soup.points, soup.triangles[f], soup.triangles[g],
                                               joined ? Filters::all : Filters::none);
         block.near.push_back(p);

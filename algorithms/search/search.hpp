@@ -88,7 +88,8 @@ using CrowdFinder = std::function<std::vector<std::uint32_t>(std::span<const std
 /// Returns all pairs of overlapping boxes except those within one group; sorted, unique.
 /// groups: per box, or empty for no_group throughout. Boxes of one group are known not to meet (or
 /// need no test). With Search::bvh, pairs of triangles with a crowded vertex in common are left out
-/// if they certainly meet in common corners and the edge between them only. With any method,
+/// if they certainly meet in common corners and the edge between them only; where there are very many pairs, so
+/// are pairs that are certainly apart, even after rounding to the nearest doubles. With any method,
 /// find_crowds (if any) is called where some boxes overlap very many others, with the same ones. Once a
 /// stop is requested, pairs are missing. Search::bvh reports its progress as stage "search".
 /// *any_crowded (if any) tells whether pairs with a crowded vertex in common may have been left out.
@@ -102,8 +103,9 @@ using PairFilter = std::function<bool(const CandidatePair&)>;
 
 /// Returns all pairs of overlapping boxes of which at least one is active, except those within one
 /// group, those that the filter (if any) rejects, and those at crowded vertices that candidate_pairs
-/// leaves out; sorted, unique. active: ascending indices of boxes. Cost: one test per box, then that of candidate_pairs for the boxes near active ones;
-/// rejected pairs take no memory. Reports its progress as stage "search".
+/// leaves out; with a filter, perhaps triangles that are certainly apart, too; sorted, unique. active: ascending
+/// indices of boxes. Cost: one test per box, then that of candidate_pairs for the boxes near active
+/// ones; rejected pairs take no memory. Reports its progress as stage "search".
 std::vector<CandidatePair> candidate_pairs_of(const BoxSource& boxes,
                                               std::span<const std::uint32_t> active,
                                               std::span<const std::uint32_t> groups = {},

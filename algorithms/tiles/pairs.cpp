@@ -112,15 +112,9 @@ public:
         const bool joined = std::any_of(t.begin(), t.end(), [&](std::uint32_t v) {
             return v == u[0] || v == u[1] || v == u[2];
         });
-        if (!joined) {
-            const SeparationFilter first(at(t[0]), at(t[1]), at(t[2]));
-            if (first.is_beside(at(u[0]), at(u[1]), at(u[2]))) return std::nullopt;
-            const SeparationFilter second(at(u[0]), at(u[1]), at(u[2]));
-            if (second.is_beside(at(t[0]), at(t[1]), at(t[2])) ||
-                first.is_beyond(at(u[0]), at(u[1]), at(u[2])) ||
-                second.is_beyond(at(t[0]), at(t[1]), at(t[2])))
-                return std::nullopt;
-        }
+        if (!joined &&
+            SeparationFilter(at(t[0]), at(t[1]), at(t[2])).is_apart(at(u[0]), at(u[1]), at(u[2])))
+            return std::nullopt;
         return improper_contact(soup_.points, t, u, joined ? Filters::all : Filters::none);
     }
 

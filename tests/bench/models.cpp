@@ -14,6 +14,7 @@
 #include <terrane/io/files.hpp>
 
 #include "paper_models.hpp"
+#include "support/thin_solids.hpp"
 
 namespace bench {
 namespace {
@@ -71,6 +72,10 @@ const std::map<std::string, std::function<Surfaces()>>& makers() {
          [] {
              return Surfaces{ball({0, 0, 0}, 100, "a"), ball({61, 31, 17}, 100, "b")};
          }},
+        {"loft_20k", [] { return Surfaces{thin_solids::solid("loft", 20000)}; }},
+        {"extrusion_20k", [] { return Surfaces{thin_solids::solid("extrusion", 20000)}; }},
+        {"fans_1000k", [] { return Surfaces{thin_solids::solid("fans", 1000000)}; }},
+        {"thread_1000k", [] { return Surfaces{thin_solids::solid("thread", 1000000)}; }},
     };
     return all;
 }

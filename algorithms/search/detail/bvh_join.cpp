@@ -8,6 +8,7 @@
 #include <terrane/algorithms/core/progress.hpp>
 #include <terrane/algorithms/search/detail/packed_tree.hpp>
 #include <terrane/algorithms/search/detail/stars.hpp>
+#include <terrane/algorithms/search/detail/turned_tree.hpp>
 
 namespace terrane::search {
 namespace {
@@ -26,10 +27,11 @@ struct Task {
     std::span<const std::uint32_t> crowds; ///< per box: pairs within a crowd are left out; or empty
     const PairFilter& filter;              ///< may be empty
     const Run& run;
+    bool turns; ///< whether pairs that turned boxes show to be apart may be left out
 
     /// Returns the task with another run.
     [[nodiscard]] Task with(const Run& other) const {
-        return {boxes, groups, crowds, filter, other};
+        return {boxes, groups, crowds, filter, other, turns};
     }
     /// Reports how many of the leaves of a join have been joined.
     void report(std::size_t leaves, std::size_t count) const {
@@ -41,13 +43,67 @@ struct Task {
     [[nodiscard]] bool are_of_one_crowd(std::uint32_t i, std::uint32_t j) const {
         return !crowds.empty() && crowds[i] != no_group && crowds[i] == crowds[j];
     }
+    /// Tells whether two boxes overlap and have no group or crowd in common. inside: see PackedTree::join.
+    [[nodiscard]] bool is_pair(std::uint32_t i, std::uint32_t j, bool inside) const {
+        return !are_of_one_group(i, j) && !are_of_one_crowd(i, j) &&
+               (inside || boxes[i].overlaps(boxes[j]));
+    }
 };
 
+/// Tells whether boxes that are not turned say little of the triangles: whether a sample of the leaves has
+/// many times more pairs than triangles that meet their neighbours only.
+bool say_little(const PackedTree& a, const PackedTree& b, const Task& task) {
+    constexpr std::size_t few = 512, samples = 64, many = 24, most_per_leaf = 8 * 2048;
+    const std::size_t triangles = a.indices().size() + (&a == &b ? 0 : b.indices().size());
+    if (!task.turns || triangles < few) return false;
+    struct Count {
+        const Task& task;
+        std::size_t& pairs;
+        std::size_t end;
+
+        void operator()(std::uint32_t i, std::uint32_t j, bool inside) const {
+            if (task.is_pair(i, j, inside)) ++pairs;
+        }
+        [[nodiscard]] bool is_full() const { return pairs >= end; }
+    };
+    const std::size_t step = std::max<std::size_t>(4, a.leaf_count() / samples);
+    std::size_t pairs = 0, leaves = 0;
+    for (std::size_t l = 0; l < a.leaf_count(); l += step, ++leaves)
+        a.join(static_cast<std::uint32_t>(l), b, Count{task, pairs, pairs + most_per_leaf});
+    return pairs * a.leaf_count() > many * triangles * leaves;
+}
+
+/// Adds the pairs of two trees that the filter accepts, but for those that turned boxes show to be apart.
+void join_turned(const PackedTree& a, const PackedTree& b, const Task& task, PairBlocks& blocks) {
+    const bool same = &a == &b;
+    const UnitMap map(task.boxes, a.indices(),
+                      same ? std::span<const std::uint32_t>{} : b.indices());
+    const Labels labels{task.groups, task.crowds};
+    const TurnedTree here(task.boxes, a.indices(), labels, map);
+    std::optional<TurnedTree> other;
+    if (!same) other.emplace(task.boxes, b.indices(), labels, map);
+    const TurnedTree& there = same ? here : *other;
+    auto found = for_reported_blocks<Pairs>(
+        here.leaf_count(), leaves_per_block, task.run,
+        [&](std::size_t l, std::size_t end) {
+            Pairs pairs;
+            for (; l < end; ++l)
+                here.join(l, there, [&](std::uint32_t i, std::uint32_t j) {
+                    const CandidatePair pair{std::min(i, j), std::max(i, j)};
+                    if (!task.filter || task.filter(pair)) pairs.push_back(pair);
+                });
+            return pairs;
+        },
+        [&](std::size_t done) { task.report(done, here.leaf_count()); });
+    std::move(found.begin(), found.end(), std::back_inserter(blocks));
+}
+
 /// Joins the leaves of one tree with another and adds the pairs that keep(i, j) and the filter
-/// accept.
+/// accept. keep: rejects pairs of one group, if any.
 template <class Keep>
 void join(const PackedTree& a, const PackedTree& b, const Task& task, PairBlocks& blocks,
           const Keep& keep) {
+    if (say_little(a, b, task)) return join_turned(a, b, task, blocks);
     const BoxSource& boxes = task.boxes;
     const PairFilter& filter = task.filter;
     auto found = for_reported_blocks<Pairs>(
@@ -107,19 +163,22 @@ struct LimitedPairs {
     std::vector<std::uint32_t> busy; ///< boxes of leaves with too many
 };
 
-/// Joins a tree with itself, but ends the search of each leaf after `most` pairs.
-std::vector<LimitedPairs> join_limited(const PackedTree& tree, const Task& task, std::size_t most) {
+/// Joins a tree with itself, but ends the search of each leaf after `most` pairs. keeps: whether the pairs
+/// are wanted.
+std::vector<LimitedPairs> join_limited(const PackedTree& tree, const Task& task, std::size_t most,
+                                       bool keeps) {
     struct Report {
         const Task& task;
-        Pairs& pairs;
-        std::size_t end;
+        Pairs* pairs; ///< or null
+        std::size_t& count;
+        std::size_t most;
 
         void operator()(std::uint32_t i, std::uint32_t j, bool inside) const {
-            if (task.are_of_one_group(i, j) || task.are_of_one_crowd(i, j)) return;
-            if (!inside && !task.boxes[i].overlaps(task.boxes[j])) return;
-            pairs.push_back({std::min(i, j), std::max(i, j)});
+            if (!task.is_pair(i, j, inside)) return;
+            ++count;
+            if (pairs != nullptr) pairs->push_back({std::min(i, j), std::max(i, j)});
         }
-        [[nodiscard]] bool is_full() const { return pairs.size() > end; }
+        [[nodiscard]] bool is_full() const { return count > most; }
     };
     return for_reported_blocks<LimitedPairs>(
         tree.leaf_count(), leaves_per_block, task.run,
@@ -127,7 +186,8 @@ std::vector<LimitedPairs> join_limited(const PackedTree& tree, const Task& task,
             LimitedPairs found;
             for (; l < end; ++l) {
                 const auto leaf = static_cast<std::uint32_t>(l);
-                const Report report{task, found.pairs, found.pairs.size() + most};
+                std::size_t count = 0;
+                const Report report{task, keeps ? &found.pairs : nullptr, count, most};
                 tree.join(leaf, tree, report);
                 if (!report.is_full()) continue;
                 const auto busy = tree.indices_of(leaf);
@@ -156,10 +216,12 @@ void join_itself(const Selection& selection, const PackedTree& tree, const Task&
     if (!find_crowds) return join_itself(tree, task, blocks);
     constexpr std::size_t most_per_leaf = std::size_t{8} * 256;
     std::vector<std::uint32_t> busy;
-    auto parts = join_limited(tree, task, most_per_leaf);
+    const bool turns = say_little(tree, tree, task);
+    auto parts = join_limited(tree, task, most_per_leaf, !turns);
     for (const LimitedPairs& part : parts)
         busy.insert(busy.end(), part.busy.begin(), part.busy.end());
     if (busy.empty()) {
+        if (turns) return join_turned(tree, tree, task, blocks);
         for (LimitedPairs& part : parts) blocks.push_back(std::move(part.pairs));
         return;
     }
@@ -168,7 +230,7 @@ void join_itself(const Selection& selection, const PackedTree& tree, const Task&
     const auto crowds = with_crowds(task, find_crowds(busy));
     const Run again = without_progress(task.run); // which has told of all leaves already
     join_itself(PackedTree(selection, crowds),
-                {task.boxes, task.groups, crowds, task.filter, again}, blocks);
+                {task.boxes, task.groups, crowds, task.filter, again, task.turns}, blocks);
 }
 
 PairBlocks join_groups(const std::vector<Selection>& parts, const Task& task,
@@ -267,7 +329,7 @@ std::vector<CandidatePair> bvh_pairs(const BoxSource& boxes, std::span<const std
         groups.empty() ? select_all(boxes) : select_meeting(boxes, groups, run);
     const Stars stars = find_stars(boxes, selection.indices);
     if (any_crowded != nullptr) *any_crowded = !stars.vertices.empty();
-    const Task task{boxes, groups, stars.of, none, run};
+    const Task task{boxes, groups, stars.of, none, run, !boxes.triangles().empty()};
     const auto parts = groups.empty() ? std::vector<Selection>{} : by_group(selection, groups);
     PairBlocks blocks = parts.empty() ? join_all(selection, task, find_crowds)
                                       : join_groups(parts, task, find_crowds);
@@ -292,7 +354,9 @@ std::vector<CandidatePair> active_pairs(const BoxSource& boxes,
                                         const PairFilter& filter, const Run& run) {
     const Selection selection = select_near(boxes, active, run);
     const Stars stars = find_stars(boxes, selection.indices);
-    const Task task{boxes, groups, stars.of, filter, run};
+    // Without a filter, the caller may move points.
+    const bool turns = filter && !boxes.triangles().empty();
+    const Task task{boxes, groups, stars.of, filter, run, turns};
     Selection chosen, others;
     auto next = active.begin();
     for (std::size_t k = 0; k < selection.indices.size(); ++k) {
@@ -325,7 +389,7 @@ std::vector<CandidatePair> pairs_of_crowds(std::span<const Box> boxes,
                                            const PairFilter& filter, const Run& run) {
     const BoxSource source(boxes);
     const Run quiet = without_progress(run);
-    const Task task{source, groups, crowds, filter, quiet};
+    const Task task{source, groups, crowds, filter, quiet, false};
     return concatenated(join_all(select_all(source), task));
 }
 

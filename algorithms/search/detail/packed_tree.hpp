@@ -26,6 +26,8 @@ public:
 
     /// Returns the number of leaves of eight boxes.
     [[nodiscard]] std::uint32_t leaf_count() const { return leaves_; }
+    /// Returns the indices of all boxes, those of a leaf together.
+    [[nodiscard]] std::span<const std::uint32_t> indices() const { return indices_; }
     /// Returns the indices of the boxes of a leaf.
     [[nodiscard]] std::span<const std::uint32_t> indices_of(std::uint32_t leaf) const {
         const std::size_t first = std::size_t{8} * leaf;

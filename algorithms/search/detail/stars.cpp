@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <terrane/algorithms/search/detail/bvh_join.hpp>
+#include <terrane/algorithms/search/detail/vectors.hpp>
 
 namespace terrane {
 namespace {
@@ -33,18 +34,9 @@ std::vector<bool> crowded_vertices(std::size_t vertex_count, std::span<const Tri
 namespace search {
 namespace {
 
-using Vector = std::array<double, 3>;
 using Pairs = std::vector<CandidatePair>;
 
 constexpr Box everywhere{{-2, -2, -2}, {2, 2, 2}};
-
-double dot(const Vector& a, const Vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector sum(double s, const Vector& a, double t, const Vector& b) {
-    return {s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2]};
-}
 
 /// Returns the direction from one point to another as a unit vector, each coordinate with an error of at most
 /// 8 units of 2^-52 of itself (star_direction.g); nothing where the difference overflows.
