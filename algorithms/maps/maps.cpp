@@ -85,13 +85,13 @@ private:
 
 /// The highest points of surfaces on the verticals through the nodes of a grid.
 struct HighestPoints {
-    std::vector<double> z;                ///< per node; NaN: none
-    std::vector<std::uint32_t> triangle;  ///< per node, of the surface
-    std::vector<std::uint32_t> surface;   ///< per node
-    std::vector<std::uint32_t> crossings; ///< per node, of the vertical moved a little
+    std::vector<double> z;               ///< per node; NaN: none
+    std::vector<std::uint32_t> triangle; ///< per node, of the surface; or no_index
+    std::vector<std::uint32_t> surface;  ///< per node; or no_index
+    std::vector<bool> several;           ///< per node: whether there is a lower point, too
 
     explicit HighestPoints(std::size_t nodes) :
-        z(nodes, no_value), triangle(nodes, no_index), surface(nodes, no_index), crossings(nodes) {}
+        z(nodes, no_value), triangle(nodes, no_index), surface(nodes, no_index), several(nodes) {}
 };
 
 std::array<Point3, 3> corners_of(const Surface& surface, std::size_t t) {
@@ -109,12 +109,15 @@ HighestPoints highest_points(std::span<const Surface> surfaces, const Grid& grid
             if (turn == Sign::Zero) continue;
             nodes(corners, [&](std::size_t node, const Point3& p) {
                 if (!meets(corners, turn, p)) return;
-                if (shifted_meets(corners, turn, p)) ++found.crossings[node];
-                double z = height_in_triangle(corners, p);
-                for (const Point3& c : corners)
-                    if (c.x == p.x && c.y == p.y) z = c.z;
-                if (z <= found.z[node]) return;
-                found.z[node] = z;
+                const VerticalHeight height(corners, p);
+                if (found.triangle[node] != no_index) {
+                    const VerticalHeight highest(
+                        corners_of(surfaces[found.surface[node]], found.triangle[node]), p);
+                    const Sign order = height.compare(highest);
+                    if (order != Sign::Zero) found.several[node] = true;
+                    if (order != Sign::Positive) return;
+                }
+                found.z[node] = height.z();
                 found.surface[node] = s;
                 found.triangle[node] = t;
             });
@@ -125,13 +128,10 @@ HighestPoints highest_points(std::span<const Surface> surfaces, const Grid& grid
 /// Returns the dip and the azimuth of a triangle, in degrees.
 std::array<double, 2> dip_and_azimuth(const std::array<Point3, 3>& t) {
     constexpr double degrees = 180 / std::numbers::pi;
-    const Point3 n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
-    const double side = std::hypot(n.x, n.y);
-    if (side == 0) return {0, no_value};
-    const double up = n.z < 0 ? -1 : 1;
-    const double azimuth = std::atan2(up * n.x, up * n.y) * degrees;
-    return {std::atan2(side, std::fabs(n.z)) * degrees,
-            azimuth < 0 ? azimuth + 360 : azimuth + 0.0};
+    const auto [x, y] = fall_of(t);
+    if (x == 0 && y == 0) return {0, no_value};
+    const double azimuth = std::atan2(x, y) * degrees;
+    return {std::atan(std::hypot(x, y)) * degrees, azimuth < 0 ? azimuth + 360 : azimuth + 0.0};
 }
 
 /// Makes values out of the highest points.
@@ -156,18 +156,21 @@ public:
             return Error{ErrorCode::interrupted, "stopped on request", ""};
         for (std::size_t k = 0; k < values.size(); ++k) {
             map_.nodes += std::isnan(values[k]) ? 0 : 1;
-            map_.sheets += at_.crossings[k] > 1 ? 1 : 0;
+            map_.sheets += at_.several[k] ? 1 : 0;
         }
         return Done{};
     }
 
 private:
-    [[nodiscard]] double value_at(std::size_t k, MapKind kind) const {
+    double value_at(std::size_t k, MapKind kind) {
         const double z = at_.z[k];
         if (std::isnan(z) || kind == MapKind::height) return z;
         if (kind == MapKind::depth) return 0 - z;
-        const auto angles = dip_and_azimuth(corners_of(surfaces_[at_.surface[k]], at_.triangle[k]));
-        return angles[kind == MapKind::dip ? 0 : 1];
+        const std::array triangle{at_.surface[k], at_.triangle[k]};
+        if (triangle != seen_)
+            angles_ = dip_and_azimuth(corners_of(surfaces_[triangle[0]], triangle[1]));
+        seen_ = triangle;
+        return angles_[kind == MapKind::dip ? 0 : 1];
     }
 
     void add_distances() {
@@ -197,6 +200,8 @@ private:
     const Run& run_;
     SurfaceMap& map_;
     HighestPoints at_;
+    std::array<std::uint32_t, 2> seen_{no_index, no_index}; ///< surface and triangle of angles_
+    std::array<double, 2> angles_{};                        ///< dip and azimuth
 };
 
 } // namespace

@@ -3,11 +3,10 @@
 // Vertical lines and the triangles that they meet.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <terrane/algorithms/mesh/mesh.hpp>
@@ -16,20 +15,11 @@
 
 namespace terrane {
 
-/// Returns on which side of the line from a to b the point is in the map, moved a little to greater x, and less
-/// to greater y; Zero only if a and b coincide in the map.
-inline Sign shifted_side(const Point3& a, const Point3& b, const Point3& p) {
-    if (const Sign sign = orient2d(Axis::z, a, b, p); sign != Sign::Zero) return sign;
-    if (a.y != b.y) return a.y > b.y ? Sign::Positive : Sign::Negative;
-    if (a.x == b.x) return Sign::Zero;
-    return b.x > a.x ? Sign::Positive : Sign::Negative;
-}
-
-/// Tells whether the vertical through p, moved likewise, meets a triangle that turns so in the map.
-inline bool shifted_meets(const std::array<Point3, 3>& t, Sign turn, const Point3& p) {
-    return shifted_side(t[0], t[1], p) == turn && shifted_side(t[1], t[2], p) == turn &&
-           shifted_side(t[2], t[0], p) == turn;
-}
+/// A way in which a vertical is moved: by (x e, y e^2) in the map, for an infinitely small e > 0.
+struct VerticalShift {
+    int x = 1, y = 1; ///< each 1 or -1
+};
+inline constexpr std::array<VerticalShift, 4> vertical_shifts{{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
 
 /// Tells whether the vertical through p meets a triangle that turns so in the map, or its border.
 inline bool meets(const std::array<Point3, 3>& t, Sign turn, const Point3& p) {
@@ -37,16 +27,32 @@ inline bool meets(const std::array<Point3, 3>& t, Sign turn, const Point3& p) {
            orient2d(Axis::z, t[2], t[0], p) != -turn;
 }
 
-/// Returns the height of the plane of a triangle at a place, within the heights of its corners.
-inline double height_in_triangle(const std::array<Point3, 3>& t, const Point3& p) {
-    const auto& [a, b, c] = t;
-    const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-    const double to_b = ((p.x - a.x) * (c.y - a.y) - (c.x - a.x) * (p.y - a.y)) / area;
-    const double to_c = ((b.x - a.x) * (p.y - a.y) - (p.x - a.x) * (b.y - a.y)) / area;
-    const auto [low, high] = std::minmax({a.z, b.z, c.z});
-    const double z = a.z + to_b * (b.z - a.z) + to_c * (c.z - a.z);
-    return std::isfinite(z) ? std::clamp(z, low, high) : (low + high) / 2;
-}
+/// Returns the set of shifts by which the moved vertical through p meets a triangle that turns so in the map: bit k is
+/// that of vertical_shifts[k].
+std::uint8_t shifts_that_meet(const std::array<Point3, 3>& t, Sign turn, const Point3& p);
+
+/// Returns by how much a triangle, which is not vertical, falls per unit along x and y: the doubles nearest to the
+/// exact numbers.
+std::array<double, 2> fall_of(const std::array<Point3, 3>& t);
+
+/// The height of the plane of a triangle on a vertical that meets the triangle.
+class VerticalHeight {
+public:
+    /// t: not vertical, and with as long a life. The height differs from the exact one by at most 2^-45 of the
+    /// greatest height of a corner; at a corner it is that of the corner.
+    VerticalHeight(const std::array<Point3, 3>& t, const Point3& p);
+
+    [[nodiscard]] double z() const { return z_; }
+    /// Returns how the exact heights of two triangles on the same vertical compare.
+    [[nodiscard]] Sign compare(const VerticalHeight& other) const;
+    /// The same on the vertical moved so; Zero only if the planes of the triangles are the same.
+    [[nodiscard]] Sign compare(const VerticalHeight& other, const VerticalShift& shift) const;
+
+private:
+    std::array<Point3, 3> corners_;
+    Point3 place_;
+    double z_, error_ = 0;
+};
 
 /// A point in which a vertical meets a triangle.
 struct VerticalCrossing {
@@ -54,19 +60,25 @@ struct VerticalCrossing {
     double z = 0;
     std::uint32_t triangle = 0;
     std::uint32_t above = 0; ///< volume
-
-    friend bool operator<(const VerticalCrossing& a, const VerticalCrossing& b) {
-        if (a.node != b.node) return a.node < b.node;
-        return a.z != b.z ? a.z < b.z : a.triangle < b.triangle;
-    }
 };
 
-/// Returns where the verticals through the nodes, moved as shifted_side() says, meet triangles, sorted.
+/// A triangle near a vertical that meets it for some shifts.
+struct VerticalCandidate {
+    VerticalCrossing crossing;
+    VerticalHeight height;
+    std::uint8_t shifts = 0;
+};
+
+/// Returns the crossings of each vertical by the first of the shifts that has any: by node, then upwards. The order is
+/// exact, also where triangles meet on the vertical.
+std::vector<VerticalCrossing> in_order(std::vector<VerticalCandidate> candidates);
+
+/// Returns where the verticals through the nodes, moved as in_order() says, meet triangles.
 /// for_near(corners, visit) calls visit(node, place) for all nodes that may lie in the triangle in the map.
 template <class ForNear>
 std::vector<VerticalCrossing> vertical_crossings(const Mesh& mesh, const Volumes& volumes,
                                                  const ForNear& for_near) {
-    std::vector<VerticalCrossing> found;
+    std::vector<VerticalCandidate> found;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto& [i, j, k] = mesh.triangles[t];
         const std::array corners{mesh.vertices[i], mesh.vertices[j], mesh.vertices[k]};
@@ -74,12 +86,13 @@ std::vector<VerticalCrossing> vertical_crossings(const Mesh& mesh, const Volumes
         if (turn == Sign::Zero) continue;
         const std::uint32_t above = volumes.of_sides[t][turn == Sign::Positive ? 0 : 1];
         for_near(corners, [&](std::size_t node, const Point3& p) {
-            if (shifted_meets(corners, turn, p))
-                found.push_back({node, height_in_triangle(corners, p), t, above});
+            const std::uint8_t shifts = shifts_that_meet(corners, turn, p);
+            if (shifts == 0) return;
+            const VerticalHeight height(corners, p);
+            found.push_back({{node, height.z(), t, above}, height, shifts});
         });
     }
-    std::sort(found.begin(), found.end());
-    return found;
+    return in_order(std::move(found));
 }
 
 } // namespace terrane

@@ -164,10 +164,10 @@ Command judge_command(CLI::App& program) {
         ->check(CLI::NonNegativeNumber.description(""));
     add_value(*app, "--time", options->limits.time, "S",
               "Processor time that it may take, in seconds; 3600 unless given")
-        ->check(CLI::PositiveNumber.description(""));
+        ->check(positive());
     add_value(*app, "--memory", options->limits.memory, "BYTES",
               "Memory that it may take; 16e9 unless given")
-        ->check(CLI::PositiveNumber.description(""));
+        ->check(positive());
     app->add_flag("--all", options->all, "List all flaws, not only the first 10 of each property");
     app->add_flag("--json", options->json, "One line of JSON per property");
     app->add_flag("--tags", options->tags,

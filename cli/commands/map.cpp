@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -86,13 +87,12 @@ std::string map_text(const SurfaceMap& map, MapKind kind, const Quantities& quan
     return text + "\n";
 }
 
-Grid nodes_of(const MapCommand& command, const Inputs& inputs, const CLI::App& app) {
-    if ((command.step > 0) != command.like.empty())
-        refuse("give either --step or --like, for the nodes of the map", "--step");
+Grid nodes_of(const MapCommand& command, std::span<const Surface> surfaces, const std::string& name,
+              const CLI::App& app) {
     Result<Grid> nodes =
-        command.like.empty() ? grid_over(inputs.surfaces, command.step) : read_grid(command.like);
+        command.like.empty() ? grid_over(surfaces, command.step) : read_grid(command.like);
     if (!nodes) throw Failure{at_option(nodes.error(), app)};
-    nodes->name = inputs.labels.front();
+    nodes->name = name;
     return std::move(*nodes);
 }
 
@@ -100,15 +100,21 @@ ExitStatus map_files(const MapCommand& command, const CLI::App& app, Session& se
     const FileOptions& files = command.files;
     const auto outputs = plan_outputs(files, OutputKind::grids);
     const MapKind kind = *map_kind_named(command.kind);
-    const auto inputs = read_inputs(files, session);
-    FileOptions others = files;
-    others.inputs = command.to;
-    const auto to = read_inputs(others, session);
+    if ((command.step > 0) != command.like.empty())
+        refuse("give either --step or --like, for the nodes of the map", "--step");
+    FileOptions all = files; // read together, so that warnings are about them together
+    all.inputs.insert(all.inputs.end(), command.to.begin(), command.to.end());
+    check_streams(all);
+    const auto inputs = read_inputs(all, session);
+    std::size_t mapped = 0; // surfaces
+    for (std::size_t f = 0; f < files.inputs.size(); ++f) mapped += inputs.surfaces_of_file[f];
+    const auto surfaces = std::span(inputs.surfaces).first(mapped);
+    const auto to = std::span(inputs.surfaces).subspan(mapped);
     Json statistics = statistics_of(inputs);
     examine(inputs.surfaces, {}, inputs, session, statistics);
     const auto map = session.timed("map", [&] {
-        return map_surface(inputs.surfaces, kind, nodes_of(command, inputs, app), to.surfaces,
-                           session.run());
+        return map_surface(surfaces, kind, nodes_of(command, surfaces, inputs.labels.front(), app),
+                           to, session.run());
     });
     if (!map) throw Failure{at_option(map.error(), app)};
     std::FILE* const told = summary_stream(files);
@@ -146,8 +152,7 @@ Command map_command(CLI::App& program) {
     add_value(*app, "--to", command->to, "FILE",
               "File with the other surface, for thickness and distance")
         ->allow_extra_args(false);
-    add_value(*app, "--step", command->step, "LENGTH", "Distance of the nodes")
-        ->check(CLI::PositiveNumber.description(""));
+    add_value(*app, "--step", command->step, "LENGTH", "Distance of the nodes")->check(positive());
     add_value(*app, "--like", command->like, "FILE", "File with a grid that has the nodes");
     add_threads(*app, command->files);
     add_stats(*app, command->files);

@@ -141,7 +141,7 @@ Command minimise_command(CLI::App& program) {
     app->add_flag("--ascii", options->files.ascii, "STL as text, with doubles, not float32");
     add_value(*app, "--time", options->seconds, "S",
               "Seconds that COMMAND may take each time; 10 unless given")
-        ->check(CLI::PositiveNumber.description(""));
+        ->check(positive());
     app->footer(minimise_footer);
     return {app, [options] { return minimise_file(*options); }};
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -74,16 +76,42 @@ std::vector<double> levels_of(const Mesh& mesh, double step) {
     return levels;
 }
 
-/// Returns the surface with this name, or in this file. Errors: bad_option; those of reading.
-Surface surface_called(const std::string& name, const Mesh& mesh, const FileOptions& files) {
-    const auto labels = unique_labels(mesh.surfaces);
-    const auto called = surfaces_called(name, mesh.surfaces, labels);
-    if (called.size() > 1) refuse("names several surfaces: " + name, "--by");
-    if (!called.empty()) return surface_of_mesh(mesh, called[0]);
-    if (!std::filesystem::exists(name)) refuse(not_called("surface", name, labels), "--by");
-    auto read = must(read_surfaces(name, std::nullopt, files.read));
-    if (read.size() != 1) refuse("has several surfaces: " + name, "--by");
+/// Where a section is, as far as no model is needed to know it: what the command states of these.
+struct SectionPlace {
+    std::vector<double> plane, levels;
+    std::vector<std::array<double, 2>> fence;
+    std::optional<Surface> by{}; ///< of a file; empty: the surface of the model that has this name
+};
+
+/// Returns the surface in a file.
+Surface surface_in(const std::string& file, const FileOptions& files) {
+    auto read = must(read_surfaces(file, std::nullopt, files.read));
+    if (read.size() != 1) refuse("has several surfaces: " + file, "--by");
     return std::move(read[0]);
+}
+
+/// Reads the options, and refuses mistakes in them before the model is made. Errors: bad_option; those of reading.
+SectionPlace place_in(const SectionCommand& command, ModelRun& run) {
+    SectionPlace place;
+    if (!command.plane.empty()) {
+        place.plane = numbers_of(command.plane, "--plane", "x,y,z,nx,ny,nz");
+        if (place.plane.size() != 6) refuse("needs six numbers: x,y,z,nx,ny,nz", "--plane");
+    }
+    if (!command.fence.empty()) place.fence = corners_of(command.fence, "--fence");
+    if (!command.level.empty()) place.levels = numbers_of(command.level, "--level", "z,z,...");
+    if (command.by.empty()) return place;
+    auto surfaces = run.surfaces();
+    surfaces.insert(surfaces.end(), run.boundary().begin(), run.boundary().end());
+    const auto infos = infos_of(surfaces);
+    const auto labels = unique_labels(infos);
+    const auto called = surfaces_called(command.by, infos, labels).size();
+    if (called > 1) refuse("names several surfaces: " + command.by, "--by");
+    if (called == 1) return place;
+    if (!std::filesystem::exists(command.by))
+        refuse(not_called("surface", command.by, labels), "--by");
+    place.by = surface_in(command.by, run.files());
+    run.examine_with(*place.by);
+    return place;
 }
 
 void check_section(const SectionCommand& command) {
@@ -94,17 +122,28 @@ void check_section(const SectionCommand& command) {
         refuse("one of these must be given", "--plane, --fence, --level, --contours, --by");
 }
 
-Result<SectionSurface> surface_of(const SectionCommand& command, const Mesh& mesh, const Run& run) {
-    if (!command.plane.empty()) {
-        const auto n = numbers_of(command.plane, "--plane", "x,y,z,nx,ny,nz");
-        if (n.size() != 6) refuse("needs six numbers: x,y,z,nx,ny,nz", "--plane");
+Result<SectionSurface> surface_of(const SectionCommand& command, const SectionPlace& place,
+                                  const Mesh& mesh, const Run& run) {
+    if (const auto& n = place.plane; !n.empty())
         return section_plane(mesh, {n[0], n[1], n[2]}, {n[3], n[4], n[5]});
-    }
-    if (!command.fence.empty()) return section_fence(mesh, corners_of(command.fence, "--fence"));
-    if (!command.level.empty())
-        return section_levels(mesh, numbers_of(command.level, "--level", "z,z,..."));
+    if (!place.fence.empty()) return section_fence(mesh, place.fence);
+    if (!place.levels.empty()) return section_levels(mesh, place.levels);
     if (command.contours != 0) return section_levels(mesh, levels_of(mesh, command.contours));
-    return section_along(surface_called(command.by, mesh, command.model.files), run);
+    if (place.by) return section_along(*place.by, run);
+    const auto called = surfaces_called(command.by, mesh.surfaces, unique_labels(mesh.surfaces));
+    if (called.empty()) refuse("nothing is left of this surface: " + command.by, "--by");
+    return section_along(surface_of_mesh(mesh, called[0]), run);
+}
+
+/// Returns a mesh that is as wide as surfaces are.
+Mesh mesh_around(const std::vector<Surface>& surfaces) {
+    Mesh mesh;
+    for (const Surface& s : surfaces)
+        for (const Triangle& t : s.triangles)
+            for (const std::uint32_t v : t) mesh.vertices.push_back(s.vertices[v]);
+    for (std::uint32_t v = 0; v + 2 < mesh.vertices.size(); v += 3)
+        mesh.triangles.push_back({v, v + 1, v + 2});
+    return mesh;
 }
 
 /// Returns the option that says where the section is, and its value.
@@ -165,6 +204,8 @@ std::vector<SectionOutput> plan_section_outputs(const FileOptions& files) {
     FileOptions meshes = files;
     meshes.outputs.clear();
     for (const std::string& path : files.outputs) {
+        if (path == "-" && files.output_format.empty() && !format_named(files.format))
+            refuse("the format must be given: --output-format FORMAT", "standard output");
         const auto extension = files.output_format.empty()
                                    ? std::filesystem::path(path).extension().string()
                                    : "." + files.output_format;
@@ -204,14 +245,20 @@ ExitStatus draw_section(const SectionCommand& command, Session& session) {
     check_section(command);
     const auto outputs = plan_section_outputs(command.model.files);
     auto run = ModelRun::begin(command.model, session);
-    run.make();
-    if (!run.refused().empty()) return run.end(false);
-    const Model& model = *run.built().model;
-    const auto along = surface_of(command, model.mesh, session.run());
+    const SectionPlace place = place_in(command, run);
     const auto at = [&](Error error) {
         if (error.place == "section") error.place = "--" + place_of(command).first;
         return Failure{error};
     };
+    if (command.contours == 0 &&
+        (command.by.empty() || place.by)) { // a mistake shows before the work
+        const auto tried = surface_of(command, place, mesh_around(run.surfaces()), session.run());
+        if (!tried && tried.error().code == ErrorCode::bad_option) throw at(tried.error());
+    }
+    run.make();
+    if (!run.refused().empty()) return run.end(false);
+    const Model& model = *run.built().model;
+    const auto along = surface_of(command, place, model.mesh, session.run());
     if (!along) throw at(along.error());
     const auto section = session.timed(
         "section", [&] { return cut_section(model.mesh, model.volumes, *along, session.run()); });
@@ -245,12 +292,12 @@ Command section_command(CLI::App& program) {
               "Cut by horizontal planes at these heights");
     add_value(*app, "--contours", command->contours, "STEP",
               "Cut by horizontal planes at all multiples of a step")
-        ->check(CLI::PositiveNumber.description(""));
+        ->check(positive());
     add_value(*app, "--by", command->by, "SURFACE",
               "Cut by a surface, such as the topography: its name, or a file with it alone");
     add_value(*app, "--exaggeration", command->exaggeration, "F",
               "Stretch drawings vertically (default: 1)")
-        ->check(CLI::PositiveNumber.description(""));
+        ->check(positive());
     add_naming(*app, command->model);
     add_arranging(*app, command->model);
     add_run(*app, command->model.files);

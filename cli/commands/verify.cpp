@@ -111,10 +111,10 @@ Command verify_command(CLI::App& program) {
         ->check(CLI::NonNegativeNumber.description(""));
     add_value(*app, "--time", options->request.limits.time, "S",
               "Processor time that it may take, in seconds; 3600 unless given")
-        ->check(CLI::PositiveNumber.description(""));
+        ->check(positive());
     add_value(*app, "--memory", options->request.limits.memory, "BYTES",
               "Memory that it may take; 16e9 unless given")
-        ->check(CLI::PositiveNumber.description(""));
+        ->check(positive());
     app->add_flag("--json", options->json, "The verdict as JSON");
     app->footer(verify_footer);
     return {app, [options] { return verify_file(*options); }};

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/cli/options/choices.hpp>
 
+#include <cmath>
 #include <string_view>
+
+#include <terrane/cli/options/roles.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -15,6 +18,15 @@ std::string list_of(const std::vector<std::string>& words) {
 }
 
 } // namespace
+
+CLI::Validator positive() {
+    const auto flaw = [](const std::string& text) -> std::string {
+        const auto number = parse_number(text);
+        if (number && *number > 0 && std::isfinite(*number)) return {};
+        return "needs a number above 0, not " + text;
+    };
+    return CLI::Validator(flaw, "");
+}
 
 CLI::Validator one_of(const std::vector<std::string>& words) {
     return CLI::IsMember(words).description("").name(list_of(words));

@@ -18,6 +18,9 @@ CLI::Option* add_value(CLI::App& app, const std::string& name, T& value,
     return app.add_option(name, value, help)->type_name(placeholder);
 }
 
+/// Checks that a value is a finite number above 0.
+CLI::Validator positive();
+
 /// Checks that a value is one of the words, and lists them.
 CLI::Validator one_of(const std::vector<std::string>& words);
 

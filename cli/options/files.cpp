@@ -43,22 +43,6 @@ bool fits(Format format, OutputKind kind) {
     return holds_surfaces(format) || holds_outlines(format);
 }
 
-void check_streams(const FileOptions& options) {
-    const auto dashes = [](const std::vector<std::string>& names) {
-        return std::count(names.begin(), names.end(), "-");
-    };
-    if (dashes(options.inputs) > 1) refuse("standard input can be read only once");
-    if (dashes(options.outputs) + (options.stats == "-" ? 1 : 0) + (options.report == "-" ? 1 : 0) >
-        1)
-        refuse("standard output can take only one file");
-    if (dashes(options.inputs) == 1 && options.format.empty() && options.input_format.empty())
-        refuse("the format must be given: --format FORMAT", "standard input");
-    if (!options.format.empty() && !format_named(options.format))
-        refuse(ErrorCode::unknown_format, "unknown format " + options.format, "");
-    if (!options.input_format.empty() && !format_named(options.input_format))
-        refuse(ErrorCode::unknown_format, "unknown format " + options.input_format, "");
-}
-
 /// Says why an output that can't hold a kind of output is refused.
 std::string refusal(Format format, OutputKind kind) {
     if (kind == OutputKind::tetrahedra)
@@ -99,6 +83,22 @@ auto write_with(const AnyMesh& mesh, const Output& output, WriteOptions options,
 }
 
 } // namespace
+
+void check_streams(const FileOptions& options) {
+    const auto dashes = [](const std::vector<std::string>& names) {
+        return std::count(names.begin(), names.end(), "-");
+    };
+    if (dashes(options.inputs) > 1) refuse("standard input can be read only once");
+    if (dashes(options.outputs) + (options.stats == "-" ? 1 : 0) + (options.report == "-" ? 1 : 0) >
+        1)
+        refuse("standard output can take only one file");
+    if (dashes(options.inputs) == 1 && options.format.empty() && options.input_format.empty())
+        refuse("the format must be given: --format FORMAT", "standard input");
+    if (!options.format.empty() && !format_named(options.format))
+        refuse(ErrorCode::unknown_format, "unknown format " + options.format, "");
+    if (!options.input_format.empty() && !format_named(options.input_format))
+        refuse(ErrorCode::unknown_format, "unknown format " + options.input_format, "");
+}
 
 // Checks the folder before the work starts, as a missing one would otherwise show only at the end.
 void check_folder(const std::string& path) {
@@ -149,7 +149,7 @@ void add_reading(CLI::App& command, FileOptions& options) {
                      "Grids and points: heights are depths, positive down");
     add_value(command, "--max-edge", options.read.max_edge, "LENGTH",
               "Points: triangles with longer edges are left out (default: twice the median)")
-        ->check(CLI::PositiveNumber.description(""));
+        ->check(positive());
     add_value(
         command, "--columns", options.read.columns, "X,Y,Z",
         "Columns of numbers: those of x, y and z, by number from 1 or as a heading calls them "

@@ -66,6 +66,9 @@ enum class OutputKind { surfaces, tetrahedra, grids };
 /// that can't hold the kind of output, or its order; cannot_open for a missing folder.
 std::vector<Output> plan_outputs(const FileOptions& options, OutputKind kind);
 
+/// Checks the use of standard streams, which plan_outputs() does as well. Errors: bad_option, unknown_format.
+void check_streams(const FileOptions& options);
+
 /// Returns cannot_open if the file can't be written: its folder is missing or not writable, or it
 /// is a folder.
 void check_folder(const std::string& path);

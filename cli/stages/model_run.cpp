@@ -106,6 +106,20 @@ void ModelRun::take(BuildInput input, Inputs inputs, bool needs_blocks) {
     examine(input_.surfaces, {input_.boundary, needs_blocks}, inputs_, session_, statistics_);
 }
 
+void ModelRun::examine_with(const Surface& other) {
+    auto surfaces = input_.surfaces;
+    const auto before = find_doubts(surfaces);
+    surfaces.push_back(other);
+    auto doubts = find_doubts(surfaces);
+    std::erase_if(doubts, [&](const PlausibilityWarning& w) {
+        return w.doubt == Doubt::duplicate_surface || // it is not added to the model
+               std::ranges::count(before, w.doubt, &PlausibilityWarning::doubt) > 0;
+    });
+    auto labels = inputs_.labels;
+    labels.push_back(other.name);
+    report_doubts(doubts, labels, inputs_.strict, statistics_);
+}
+
 void ModelRun::make(BuildObserver observer, const StageStore& store) {
     if (!observer.begins)
         observer.begins = [&](BuildStage stage) {

@@ -66,6 +66,10 @@ public:
     /// Takes the surfaces that were read, and looks for mistakes in them. Errors: bad_option with --strict.
     void take(BuildInput input, Inputs inputs, bool needs_blocks);
 
+    /// Looks for mistakes that one more surface suggests, next to those that were taken. Errors: bad_option with
+    /// --strict.
+    void examine_with(const Surface& other);
+
     /// Builds the project. Errors: those of build(), but for results that are refused(), with the options that
     /// they are about; of doubts about the blocks with --strict.
     void make(BuildObserver observer = {}, const StageStore& store = {});

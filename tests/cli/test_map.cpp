@@ -121,7 +121,7 @@ TEST_CASE("map: where the vertical meets a surface more than once", "[cli][map]"
     CHECK(made.status == 0);
     CHECK(contains(
         made.err,
-        "at 16 nodes the vertical meets the surface more than once: the highest point counts"));
+        "at 25 nodes the vertical meets the surface more than once: the highest point counts"));
     for (const double value : esri(folder.read("h.asc")).values) CHECK(value == 8);
 }
 
@@ -156,4 +156,35 @@ TEST_CASE("map: what cannot be is refused before or after reading, and nothing i
     CHECK(empty.status == 1);
     CHECK(contains(empty.err, "no node has a value: nothing written"));
     CHECK(folder.left().empty());
+}
+
+TEST_CASE("map: other units of the second surface are named, and standard input is read once",
+          "[cli][map]") {
+    const Folder folder;
+    const auto in_unit = [&](const std::string& unit) {
+        return folder.input(unit + ".ts", "GOCAD TSurf 1\nHEADER {\nname:" + unit +
+                                              "\n}\nGOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME x\n"
+                                              "AXIS_NAME X Y Z\nAXIS_UNIT " +
+                                              unit + " " + unit + " " + unit +
+                                              "\nZPOSITIVE Elevation\n"
+                                              "END_ORIGINAL_COORDINATE_SYSTEM\nTFACE\n"
+                                              "VRTX 1 0 0 2\nVRTX 2 4 0 2\nVRTX 3 0 4 2\n"
+                                              "TRGL 1 2 3\nEND\n");
+    };
+    const auto metres = in_unit("m"), feet = in_unit("ft");
+    const auto thickness = "map thickness " + metres + " --to " + feet + " --step 1 -o a.asc";
+    const auto made = folder.run(thickness);
+    CHECK(made.status == 0);
+    CHECK(contains(made.err, "the files state different units for x and y: ft (ft) and m (m)"));
+    CHECK(folder.run(thickness + " --strict").status == 2);
+    const auto converted = folder.run(thickness + " --unit m --strict");
+    CHECK(converted.status == 0);
+    CHECK(contains(converted.out, "1.3904 m to 1.3904 m"));
+    CHECK(contains(folder.run("map thickness - --to - --format ts --step 1 -o a.asc").err,
+                   "standard input can be read only once"));
+    const auto by = folder.run("section " + metres + " --by " + feet + " -o a.svg");
+    CHECK(contains(by.err, "the files state different units for x and y"));
+    for (const std::string number : {"0", "-1", "inf", "some"})
+        CHECK(contains(folder.run("map height " + metres + " --step=" + number + " -o a.asc").err,
+                       "--step: needs a "));
 }

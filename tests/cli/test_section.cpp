@@ -77,6 +77,7 @@ TEST_CASE("cli: section names mistakes with their options", "[cli]") {
     const auto refusal = [&](const std::string& options) {
         const auto r = folder.run("section " + in + in_box + options);
         CHECK(r.status == 2);
+        CHECK((r.out.empty() || contains(options, "contours"))); // before the model is made
         return r.err;
     };
     CHECK(contains(refusal(""), "one of these must be given"));
@@ -90,6 +91,7 @@ TEST_CASE("cli: section names mistakes with their options", "[cli]") {
     CHECK(contains(refusal("--contours 1e-9"), "--contours: makes more than 10000"));
     CHECK(contains(refusal("--contours 100 --box 0,0,1,8,8,8"), "--box"));
     CHECK(contains(refusal("--by uper"), "did you mean upper?"));
+    CHECK(contains(refusal("--level 1 -o -"), "must be given: --output-format"));
     folder.input("cube.obj", level("a", "1") + level("b", "2"));
     CHECK(contains(refusal("--by in/cube.obj"), "--by: has several surfaces"));
     CHECK(contains(refusal("--level 1 -o out.xyz"), "this format is read, not written"));

@@ -27,50 +27,6 @@ std::array<InputPoint, 3> corners_of(const Arrangement& exact, std::uint32_t inp
     return {at(0), at(1), at(2)};
 }
 
-/// Returns the middle of a triangle of an arrangement.
-ExactPoint middle_of(const Arrangement& exact, std::size_t t) {
-    const auto at = [&](unsigned i) {
-        return exact.state->points.exact(exact.vertices[exact.triangles[t][i]]);
-    };
-    const ExactPoint a = at(0), b = at(1), c = at(2);
-    const auto sum = [&](const Exact& x, const Exact& y, const Exact& z) {
-        return x * b.w * c.w + y * c.w * a.w + z * a.w * b.w;
-    };
-    return {sum(a.x, b.x, c.x), sum(a.y, b.y, c.y), sum(a.z, b.z, c.z), a.w * b.w * c.w * 3};
-}
-
-/// Returns the box around the doubles nearest to three points.
-Ranges box_of(const Arrangement& exact, const std::array<PointIndex, 3>& points) {
-    Ranges box{};
-    constexpr std::array coordinates{&Point3::x, &Point3::y, &Point3::z};
-    for (unsigned k = 0; k < 3; ++k) {
-        const auto at = [&](unsigned i) {
-            return exact.state->points.nearest(points[i]).*coordinates[k];
-        };
-        const auto [low, high] = std::minmax({at(0), at(1), at(2)});
-        box[k] = {low, high};
-    }
-    return box;
-}
-
-/// Whether boxes meet in the projection along an axis. If those of nearest doubles do not, those of the exact points
-/// do not: rounding to nearest keeps the order.
-bool meet_along(Axis axis, const Ranges& a, const Ranges& b) {
-    for (unsigned k = 0; k < 3; ++k)
-        if (k != static_cast<unsigned>(axis) && (a[k][0] > b[k][1] || b[k][0] > a[k][1]))
-            return false;
-    return true;
-}
-
-/// Returns the side of a directed edge on which a point is in the projection; a point on its line is shifted by
-/// (e, e^2) for an infinitely small e. Zero only if the ends coincide.
-Sign turn(Axis axis, const InputPoint& a, const InputPoint& b, const ExactPoint& p) {
-    if (const Sign s = exact_sign(polynomial::orient2d(axis, a, b, p)); s != Sign::Zero) return s;
-    const auto d = polynomial::difference(axis, b, a);
-    const Sign first = -exact_sign(d.v);
-    return first != Sign::Zero ? first : exact_sign(d.u);
-}
-
 Point3 least_corner(const Arrangement& exact, std::size_t t) {
     const auto at = [&](unsigned i) { return exact.nearest(VertexId(exact.triangles[t][i])); };
     return std::min({at(0), at(1), at(2)});
@@ -88,7 +44,6 @@ SidedSurface::SidedSurface(const Arrangement& exact, const std::vector<bool>& is
                 inputs_.push_back(p);
             }
     sort_unique(inputs_);
-    for (const std::uint32_t p : inputs_) boxes_.push_back(box_of(exact, exact.input_corners()[p]));
     turn_alike();
     mark_fronts();
 }
@@ -164,24 +119,6 @@ void SidedSurface::mark_fronts() {
     }
 }
 
-std::uint8_t SidedSurface::along_line(std::size_t triangle) const {
-    const ExactPoint middle = middle_of(exact_, triangle);
-    const auto& [u, v, w] = exact_.triangles[triangle];
-    const Ranges box = box_of(exact_, {exact_.vertices[u], exact_.vertices[v], exact_.vertices[w]});
-    int above = 0, below = 0;
-    for (std::size_t i = 0; i < inputs_.size(); ++i) {
-        const std::uint32_t p = inputs_[i];
-        if (upper_[p] == 0 || !meet_along(axis_, box, boxes_[i])) continue;
-        const auto [a, b, c] = corners_of(exact_, p);
-        const Sign side = turn(axis_, a, b, middle);
-        if (turn(axis_, b, c, middle) != side || turn(axis_, c, a, middle) != side) continue;
-        const bool is_above = exact_sign(polynomial::orient3d(a, b, c, middle)) != side;
-        (is_above ? above : below) += (side == Sign::Positive) == (upper_[p] > 0) ? 1 : -1;
-    }
-    if (above != 0 && below == 0) return low_side;
-    return above == 0 && below != 0 ? high_side : no_side;
-}
-
 namespace {
 
 constexpr std::uint8_t both_sides = low_side | high_side;
@@ -206,20 +143,8 @@ public:
             parts.push_back(sets_.find(c));
             triangles.push_back(t);
         }
-        constexpr std::size_t most_lines = 64, enough = 8;
-        const auto lists = lists_by_key<std::uint32_t>(sides_.size(), parts,
-                                                       [&](std::size_t i) { return triangles[i]; });
-        for (std::uint32_t part = 0; part < lists.size(); ++part) {
-            const auto own = lists[part];
-            const std::size_t lines = std::min(most_lines, own.size());
-            std::size_t told = 0;
-            for (std::size_t i = 0; i < lines && told < enough; ++i) {
-                const std::uint32_t t = own[i * own.size() / lines];
-                const std::uint8_t sides = surface.along_line(t);
-                if (sides != no_side) ++told;
-                add(part, sides, t);
-            }
-        }
+        const auto sides = surface.along_lines(triangles);
+        for (std::size_t i = 0; i < parts.size(); ++i) add(parts[i], sides[i], triangles[i]);
     }
 
     /// Returns the sides of the part of a cell.

@@ -8,25 +8,25 @@
 // (2) A part, which is a volume of the arrangement or a region of another surface, is on the side that it touches.
 // (3) One that does not touch the surface is on its lower side if lines along the axis pass through the surface above
 //     the part only, and on its upper side if below the part only. Passages up and down through the same surface cancel
-//     out. Lines go through up to 64 triangles of the part, until 8 tell; those beside the surface do not.
+//     out. There is a line for each two triangles, of the part's boundary and of the surface, that overlap as seen
+//     along the axis, so that the answer depends neither on the order of triangles nor on how the part is divided.
 // (4) A part that is on both sides, as the surface ends inside of it, or on none, is an error.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
 #include <terrane/algorithms/core/result.hpp>
-#include <terrane/kernel/point.hpp>
+#include <terrane/kernel/point_store.hpp>
 
 namespace terrane::selection {
 
 /// Sides of a surface, as bits.
 enum Sides : std::uint8_t { no_side = 0, low_side = 1, high_side = 2 };
-
-using Ranges = std::array<std::array<double, 2>, 3>; ///< per coordinate: the least, the most
 
 /// A surface with a lower and an upper side, in an arrangement, which must outlive it.
 class SidedSurface {
@@ -43,19 +43,23 @@ public:
         const unsigned f = front_[triangle];
         return static_cast<std::uint8_t>((f & 1U) << 1U | f >> 1U);
     }
-    /// Returns the sides on which the middle of another triangle of the arrangement is, by (3).
-    [[nodiscard]] std::uint8_t along_line(std::size_t triangle) const;
+    /// Returns the sides on which other triangles of the arrangement are, by (3). Cost: that of candidate_pairs().
+    [[nodiscard]] std::vector<std::uint8_t>
+    along_lines(const std::vector<std::uint32_t>& triangles) const;
 
 private:
     void turn_alike();
     void find_upper(const std::vector<std::uint32_t>& patch_of, std::uint32_t patches);
     void mark_fronts();
+    [[nodiscard]] std::uint8_t along_lines(std::uint32_t triangle,
+                                           std::span<const std::uint32_t> near) const;
+    [[nodiscard]] std::uint8_t along_line(const ExactPoint& place,
+                                          std::span<const std::uint32_t> near) const;
 
     const Arrangement& exact_;
     const std::vector<bool>& surfaces_;
     Axis axis_;
     std::vector<std::uint32_t> inputs_; ///< its input triangles that have parts, ascending
-    std::vector<Ranges> boxes_;         ///< of these
     std::vector<int> upper_;            ///< per input triangle: 1 (front), -1 (back), 0 (unknown)
     std::vector<bool> is_of_;           ///< per triangle
     std::vector<std::uint8_t> front_;   ///< per triangle: Sides

@@ -101,7 +101,7 @@ TEST_CASE("maps: the highest of several sheets counts, and each node is counted"
         CHECK(map.grid.values[k] == (is_high ? 7 : 0));
     }
     CHECK(high == 18);
-    CHECK(map.sheets == 15); // those on the border y = 100 are met once only, or not at all
+    CHECK(map.sheets == 18); // with those on borders
 }
 
 TEST_CASE("maps: thickness within a box", "[maps]") {
@@ -134,7 +134,7 @@ TEST_CASE("maps: thickness within a box", "[maps]") {
     CHECK(empty->values == std::vector<double>(81));
     double sum = 0;
     for (const double value : map->values) sum += value;
-    CHECK(sum == 25 * 3); // 0, 2, .. 8: the border counts on one side
+    CHECK(sum == 36 * 3); // 0, 2, .. 10: with the border, on all sides
     CHECK(refusal_of_map(map_blocks(mesh, volumes, none, grid)) == ErrorCode::bad_option);
 }
 

@@ -222,6 +222,41 @@ TEST_CASE("select: a part that does not touch a surface is on the side where it 
     CHECK(picked(hinge, "t & below(f)").mesh.triangles.size() == 2);
 }
 
+TEST_CASE("select: a part that reaches round the end of a surface is on no side of it") {
+    const std::vector<Surface> arms{box({0, 0, -3}, {10, 4, -1}, "a"),
+                                    box({8, 0, -3}, {10, 4, 3}, "b"),
+                                    box({0, 0, 1}, {10, 4, 3}, "c")};
+    const Mesh round = picked(arms, "a | b | c").mesh;
+    for (const bool divides_below : {false, true}) // many triangles on one side
+        for (const bool reversed : {false, true}) {
+            Surface body{"body", Role::unknown, round.vertices, round.triangles};
+            for (unsigned k = 0; k < 4; ++k) {
+                const auto before = std::exchange(body.triangles, {});
+                for (const auto& [i, j, l] : before) {
+                    const auto &p = body.vertices[i], &q = body.vertices[j], &r = body.vertices[l];
+                    if (p.z != q.z || p.z != r.z || p.z != (divides_below ? -1 : 1)) {
+                        body.triangles.push_back({i, j, l});
+                        continue;
+                    }
+                    const auto middle = static_cast<std::uint32_t>(body.vertices.size());
+                    body.vertices.push_back({(p.x + q.x + r.x) / 3, (p.y + q.y + r.y) / 3, p.z});
+                    body.triangles.insert(body.triangles.end(),
+                                          {{i, j, middle}, {j, l, middle}, {l, i, middle}});
+                }
+            }
+            if (reversed) std::reverse(body.triangles.begin(), body.triangles.end());
+            const std::vector<Surface> s{body, level(0, 1, 1, 3, 3, "t")};
+            for (const char* side : {"below", "above"})
+                CHECK(refusal(s, "body & " + std::string(side) + "(t)")
+                          .find("t: does not divide the part at") == 0);
+        }
+    // Small triangles beside large ones: no middle of the one is within the other.
+    const std::vector<Surface> s{box({0, 0, -90}, {90, 90, -80}, "deep"),
+                                 level(0, 1, 80, 2, 81, "t")};
+    CHECK(picked(s, "deep & below(t)").exact_volume == "81000");
+    CHECK(picked(s, "deep & above(t)").pieces.empty());
+}
+
 TEST_CASE("select: what lies on a boundary is inside, what lies on a surface is below it") {
     const std::vector<Surface> s{cube(0, 2, "a"), level(0, -1, -1, 3, 3, "f"),
                                  level(0, 0, 0, 1, 1, "t")};
