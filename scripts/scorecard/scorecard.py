@@ -55,11 +55,12 @@ class Card:
         self.sound = {}
 
     def judge(self, *words):
-        """The properties that `terrane judge` names; none if it can't judge, as a file is no mesh."""
+        """The properties that `terrane judge` names; none if the first file is no mesh."""
         _, text = limited([self.arguments.terrane, "judge", *map(str, words), "--json"], 600, 0)
-        if text.startswith("terrane: inputs: "):  # the inputs, and so no result, can be judged
-            return [{"property": "inputs", "verdict": "not judged", "sentence": text}]
-        return [json.loads(line) for line in text.splitlines() if line.startswith("{")]
+        found = [json.loads(line) for line in text.splitlines() if line.startswith("{")]
+        if found or text.startswith(f"terrane: {words[0]}"):
+            return found
+        return [{"property": "inputs", "verdict": "not judged", "sentence": text}]  # or the bound is too wide for them
 
     def lacks(self, name):
         """What an input is not: conforming, closed, manifold, oriented, solid (the union of itself) or single (precision)."""
