@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
-#include <ranges>
+#include <utility>
 
 #include <tbb/parallel_sort.h>
 
@@ -63,14 +63,25 @@ private:
         const auto begin = std::size_t(std::max<std::ptrdiff_t>(above - 1, 0));
         const auto end =
             std::max(begin, std::size_t(std::min<std::ptrdiff_t>(below, std::ssize(at) - 1)));
-        const auto all = std::views::iota(begin, end);
-        const auto first = std::ranges::partition_point(all, [&](std::size_t s) {
-            return !part.reaches({axis, at[s + 1]}, Sign::Negative);
+        const std::size_t first = first_that(begin, end, [&](std::size_t s) {
+            return part.reaches({axis, at[s + 1]}, Sign::Negative);
         });
-        const auto last = std::ranges::partition_point(first, all.end(), [&](std::size_t s) {
-            return part.reaches({axis, at[s]}, Sign::Positive);
-        });
-        return {begin + std::size_t(first - all.begin()), begin + std::size_t(last - all.begin())};
+        return {first, first_that(first, end, [&](std::size_t s) {
+                    return !part.reaches({axis, at[s]}, Sign::Positive);
+                })};
+    }
+
+    /// Returns the first number in [first, last) from which on something holds, or `last`.
+    template <class Holds>
+    static std::size_t first_that(std::size_t first, std::size_t last, const Holds& holds) {
+        while (first < last) {
+            const std::size_t middle = first + (last - first) / 2;
+            if (holds(middle))
+                last = middle;
+            else
+                first = middle + 1;
+        }
+        return first;
     }
 
     template <class Visit>
