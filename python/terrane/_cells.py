@@ -15,7 +15,7 @@ from ._results import Result, counted
 from ._run import how
 
 
-class CellGrid(Result):
+class BlocksInCells(Result):
     """A rectilinear grid of cells, and the blocks in them.
 
     Attributes
@@ -35,7 +35,7 @@ class CellGrid(Result):
     --------
     >>> m = ...
     >>> m.grid(step=1)
-    <CellGrid: 4 x 4 x 3 cells, 48 in blocks>
+    <BlocksInCells: 4 x 4 x 3 cells, 48 in blocks>
     """
 
     __slots__ = ("_values", "x", "y", "z", "block_of", "cells", "blocks", "fractions")
@@ -120,6 +120,6 @@ def _planes(given: Any, name: str) -> List[float]:
     return made
 
 
-def grid_of(model: Any, wanted: Dict[str, Any], threads: Optional[int], progress: Any) -> CellGrid:
+def grid_of(model: Any, wanted: Dict[str, Any], threads: Optional[int], progress: Any) -> BlocksInCells:
     """Return the grid of a model's handle."""
-    return CellGrid(_core.cells(model, wanted, how(threads, progress)))
+    return BlocksInCells(_core.cells(model, wanted, how(threads, progress)))
