@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import Float64Array, Path, UInt32Array, as_count, as_list, as_number
 from ._errors import bad_option
-from ._results import Result, counted
+from ._results import Result
 from ._run import how
 
 
@@ -88,7 +88,12 @@ class BlocksInCells(Result):
 
     def _numbers(self) -> Dict[str, Any]:
         return {"cells": self.block_of.size, "in blocks": int(np.count_nonzero(self.block_of)),
-                "shares": counted(len(self.cells), "share")}
+                "shares": len(self.cells)}
+
+    def _shape(self) -> Tuple[Any, Any]:
+        ends = np.array([[self.x[i], self.y[j], self.z[k]] for k in (0, -1) for j in (0, -1) for i in (0, -1)])
+        sides = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+        return ends, np.array([t for a, b, c, d in sides for t in ((a, b, c), (a, c, d))], dtype=np.uint32)
 
 
 def cells_wanted(step: Any, cells: Any, planes: Tuple[Any, Any, Any]) -> Dict[str, Any]:
