@@ -4,8 +4,6 @@
 #pragma once
 
 #include <terrane/algorithms/arrangement/arrangement.hpp>
-#include <terrane/algorithms/cells/cells.hpp>
-#include <terrane/algorithms/cells/prisms.hpp>
 #include <terrane/algorithms/core/fields.hpp>
 #include <terrane/algorithms/core/id.hpp>
 #include <terrane/algorithms/core/index_lists.hpp>

@@ -11,7 +11,7 @@
 namespace terrane {
 namespace {
 
-Result<std::string> text_of_cells(const CellGrid& grid, const BlocksInCells& found,
+Result<std::string> text_of_cells(const RectilinearGrid& grid, const BlocksInCells& found,
                                   const CellNames& names, CellFormat format) {
     switch (format) {
     case CellFormat::vti:
@@ -38,7 +38,7 @@ std::optional<CellFormat> cell_format(std::string_view extension) {
     return std::nullopt;
 }
 
-Status write_cells(const CellGrid& grid, const BlocksInCells& found, const CellNames& names,
+Status write_cells(const RectilinearGrid& grid, const BlocksInCells& found, const CellNames& names,
                    CellFormat format, const std::filesystem::path& path) {
     return guard_memory("", [&]() -> Status {
         const auto text = text_of_cells(grid, found, names, format);

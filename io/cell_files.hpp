@@ -22,7 +22,7 @@ std::optional<CellFormat> cell_format(std::string_view extension);
 
 /// Writes the cells of a grid and their blocks to a file, all or nothing; "-" is standard output. Errors: those of
 /// to_vti() and write_file().
-Status write_cells(const CellGrid& grid, const BlocksInCells& found, const CellNames& names,
+Status write_cells(const RectilinearGrid& grid, const BlocksInCells& found, const CellNames& names,
                    CellFormat format, const std::filesystem::path& path);
 
 } // namespace terrane

@@ -21,7 +21,7 @@ GROUPS = [
     ("Results", "Arrangement RoundedMesh RoundingReport Mesh CheckReport Contact Regions Region Volumes Structure "
                 "Corner Line Patch InterfaceParts BlockParts VolumeOfInterest SurfaceCut OpenBorder Sealed "
                 "SealChange ClosedGap OpenGap SealAdvice SealTrial Improved BorderLoop Filled FilledHole FillReport "
-                "Layered LayerReport OutOfOrder Selected SelectedPiece Map Section SectionPolygon SectionLine WellPath WellLog WellInterval WellMarker CellGrid Tetrahedra BlockVolume Violation Verdict VerifiedFile RuleViolation MeshJudgement "
+                "Layered LayerReport OutOfOrder Selected SelectedPiece Map Section SectionPolygon SectionLine WellPath WellLog WellInterval WellMarker BlocksInCells Tetrahedra BlockVolume Violation Verdict VerifiedFile RuleViolation MeshJudgement "
                 "JudgedProperty PropertyFlaw "
                 "Built Ensemble BlockOutcome Juxtaposed Failure"),
     ("Small things", "IndexLists SurfaceInfo NO_INDEX HAS_REPORTS keep_freed_memory Error OutOfMemory Doubt ERROR_CODES"),

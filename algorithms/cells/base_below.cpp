@@ -46,13 +46,13 @@ Status check_folds(const Surface& surface, const Run& run) {
             Sign::Zero)
             map.triangles.push_back(t);
     if (map.triangles.empty())
-        return Error{ErrorCode::improper_contact, "the surface is vertical", surface.name};
+        return Error{ErrorCode::bad_option, "the surface is vertical", surface.name};
     const auto arranged = arrange(std::span(&map, 1), {}, run);
     if (!arranged) return arranged.error();
     for (std::size_t t = 0; t < arranged->triangles.size(); ++t)
         if (arranged->parents_of[t].size() > 1) {
             const Point3& p = arranged->nearest(VertexId(arranged->triangles[t][0]));
-            return Error{ErrorCode::improper_contact,
+            return Error{ErrorCode::bad_option,
                          "the surface folds over: verticals near x = " + std::to_string(p.x) +
                              ", y = " + std::to_string(p.y) + " meet it more than once",
                          surface.name};

@@ -17,7 +17,7 @@
 
 namespace terrane::cells {
 
-/// Checks that no vertical meets several triangles of a surface that are not vertical. Errors: improper_contact at its
+/// Checks that no vertical meets several triangles of a surface that are not vertical. Errors: bad_option at its
 /// name; those of arrange().
 Status check_folds(const Surface& surface, const Run& run);
 

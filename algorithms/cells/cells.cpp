@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/cells/cells.hpp>
+#include <terrane/algorithms/sections/sections.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ CellBox box_around(const Mesh& mesh) {
     return box;
 }
 
-std::vector<double>& planes_across(CellGrid& grid, std::size_t axis) {
+std::vector<double>& planes_across(RectilinearGrid& grid, std::size_t axis) {
     return axis == 0 ? grid.x : axis == 1 ? grid.y : grid.z;
 }
 
@@ -56,7 +56,7 @@ Status check_planes(const std::vector<double>& planes, const char* axis) {
     return Done{};
 }
 
-Status check_cells(const CellGrid& grid) {
+Status check_cells(const RectilinearGrid& grid) {
     for (const auto& [planes, axis] : {std::pair{&grid.x, "x"}, {&grid.y, "y"}, {&grid.z, "z"}})
         if (const auto status = check_planes(*planes, axis); !status) return status.error();
     const auto [nx, ny, nz] = grid.counts();
@@ -76,8 +76,10 @@ std::vector<std::size_t> first_in_columns(const std::vector<CellPiece>& pieces,
 /// Fills the cells of a grid, column by column.
 class CellFiller {
 public:
-    CellFiller(const Mesh& mesh, const Volumes& volumes, const CellGrid& grid, const Run& run) :
-        mesh_(mesh), volumes_(volumes), grid_(grid), run_(run), places_(grid),
+    CellFiller(const Mesh& mesh, const Volumes& volumes, const RectilinearGrid& grid,
+               const Run& run) :
+        mesh_(mesh),
+        volumes_(volumes), grid_(grid), run_(run), places_(grid),
         pieces_(find_pieces(mesh, volumes, grid, run)), first_(first_in_columns(pieces_, places_)) {
     }
 
@@ -159,7 +161,7 @@ private:
 
     const Mesh& mesh_;
     const Volumes& volumes_;
-    const CellGrid& grid_;
+    const RectilinearGrid& grid_;
     const Run& run_;
     PlacesOfPieces places_;
     std::vector<CellPiece> pieces_;
@@ -179,7 +181,7 @@ std::vector<double> widths_of(const std::vector<double>& planes) {
 }
 
 /// Returns the sum of the fractions of each block, times the sizes of the cells in units of the grid.
-std::vector<double> sums_of_blocks(const BlocksInCells& found, const CellGrid& grid,
+std::vector<double> sums_of_blocks(const BlocksInCells& found, const RectilinearGrid& grid,
                                    std::size_t blocks) {
     const auto x = widths_of(grid.x), y = widths_of(grid.y), z = widths_of(grid.z);
     std::vector<long double> sums(blocks);
@@ -194,7 +196,7 @@ std::vector<double> sums_of_blocks(const BlocksInCells& found, const CellGrid& g
     return {sums.begin(), sums.end()};
 }
 
-bool is_within(const CellBox& box, const CellGrid& grid) {
+bool is_within(const CellBox& box, const RectilinearGrid& grid) {
     return box.low.x >= grid.x.front() && box.high.x <= grid.x.back() &&
            box.low.y >= grid.y.front() && box.high.y <= grid.y.back() &&
            box.low.z >= grid.z.front() && box.high.z <= grid.z.back();
@@ -202,7 +204,7 @@ bool is_within(const CellBox& box, const CellGrid& grid) {
 
 /// Throws unless the fractions of each block add up to its volume. Rounding changes a sum by less than the share.
 void require_sums(const BlocksInCells& found, const Mesh& mesh, const Volumes& volumes,
-                  const CellGrid& grid) {
+                  const RectilinearGrid& grid) {
     constexpr double share = 1e-13, least = 1e-290;
     const auto differ = [](double a, double b) {
         return std::max(a, b) > least && std::fabs(a - b) > share * std::max(a, b);
@@ -223,13 +225,13 @@ void require_sums(const BlocksInCells& found, const Mesh& mesh, const Volumes& v
     }
 }
 
-Result<BlocksInCells> filled(const Mesh& mesh, const Volumes& volumes, const CellGrid& grid,
+Result<BlocksInCells> filled(const Mesh& mesh, const Volumes& volumes, const RectilinearGrid& grid,
                              const Run& run) {
     auto found = CellFiller(mesh, volumes, grid, run).fill();
     if (!found) return found;
-    const CellGrid whole{{grid.x.front(), grid.x.back()},
-                         {grid.y.front(), grid.y.back()},
-                         {grid.z.front(), grid.z.back()}};
+    const RectilinearGrid whole{{grid.x.front(), grid.x.back()},
+                                {grid.y.front(), grid.y.back()},
+                                {grid.z.front(), grid.z.back()}};
     const auto in_whole = CellFiller(mesh, volumes, whole, run).fill();
     if (!in_whole) return in_whole.error();
     found->fractions.resize(volumes.measures.size());
@@ -240,7 +242,7 @@ Result<BlocksInCells> filled(const Mesh& mesh, const Volumes& volumes, const Cel
 
 } // namespace
 
-Point3 CellGrid::centre(std::size_t cell) const {
+Point3 RectilinearGrid::centre(std::size_t cell) const {
     const auto [nx, ny, nz] = counts();
     const auto middle = [](const std::vector<double>& planes, std::size_t i) {
         return std::midpoint(planes[i], planes[i + 1]);
@@ -254,12 +256,12 @@ double BlocksInCells::fraction(std::size_t cell, BlockId block) const {
     return 0;
 }
 
-Result<CellGrid> cells_with_steps(const Mesh& mesh, const std::array<double, 3>& steps) {
-    return guarded("for the grid", "grid", [&]() -> Result<CellGrid> {
+Result<RectilinearGrid> cells_with_steps(const Mesh& mesh, const std::array<double, 3>& steps) {
+    return guarded("for the grid", "grid", [&]() -> Result<RectilinearGrid> {
         if (mesh.triangles.empty())
             return Error{ErrorCode::nothing_to_do, "there is no triangle", "grid"};
         const CellBox box = box_around(mesh);
-        CellGrid grid;
+        RectilinearGrid grid;
         std::array<double, 3> first{}, count{};
         for (std::size_t a = 0; a < 3; ++a) {
             if (!(steps[a] > 0) || !std::isfinite(steps[a]))
@@ -276,13 +278,14 @@ Result<CellGrid> cells_with_steps(const Mesh& mesh, const std::array<double, 3>&
     });
 }
 
-Result<CellGrid> cells_by_count(const Mesh& mesh, const std::array<std::uint32_t, 3>& counts) {
-    return guarded("for the grid", "grid", [&]() -> Result<CellGrid> {
+Result<RectilinearGrid> cells_by_count(const Mesh& mesh,
+                                       const std::array<std::uint32_t, 3>& counts) {
+    return guarded("for the grid", "grid", [&]() -> Result<RectilinearGrid> {
         if (mesh.triangles.empty())
             return Error{ErrorCode::nothing_to_do, "there is no triangle", "grid"};
         if (double(counts[0]) * counts[1] * counts[2] > most_cells) return too_many_cells();
         const CellBox box = box_around(mesh);
-        CellGrid grid;
+        RectilinearGrid grid;
         for (std::size_t a = 0; a < 3; ++a) {
             const double low = along(box.low, a), high = along(box.high, a);
             auto& planes = planes_across(grid, a);
@@ -296,7 +299,7 @@ Result<CellGrid> cells_by_count(const Mesh& mesh, const std::array<std::uint32_t
 }
 
 Result<BlocksInCells> blocks_in_cells(const Mesh& mesh, const Volumes& volumes,
-                                      const CellGrid& grid, const Run& run) {
+                                      const RectilinearGrid& grid, const Run& run) {
     return guarded("for the cells", "grid", [&]() -> Result<BlocksInCells> {
         const StageTimer timer(run, "cells");
         if (const auto status = check_cells(grid); !status) return status.error();

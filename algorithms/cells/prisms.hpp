@@ -68,8 +68,8 @@ struct PrismMesh {
 
 /// Makes prisms between a top and a base, neither of which folds over in the map; their vertical triangles do not
 /// count.
-/// Errors: bad_option for options out of bounds; improper_contact for a surface that folds over; nothing_to_do if no
-/// prism stands anywhere; those of validate(); interrupted.
+/// Errors: bad_option for options out of bounds, and for a surface that folds over; nothing_to_do if no prism stands
+/// anywhere; those of validate(); interrupted.
 Result<PrismMesh> make_prisms(const Surface& top, const Surface& base,
                               const PrismOptions& options = {}, const Run& run = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
-// Sections of a model: the parts of its blocks and surfaces that lie in a plane, in a fence of vertical panels, in
-// horizontal planes, or in any surface that folds over nowhere; and those along the paths of wells.
+// Sections of a model, logs of wells, and blocks in the cells of a grid. Sections are the parts of blocks and surfaces
+// that lie in a plane, in a fence of vertical panels, in horizontal planes, or in any surface that folds over nowhere.
 //
 // The section surface is one more surface in an exact arrangement of the model's triangles. So
 // (1) the block of each part of the section, and where it ends, are decided without an epsilon, also where the
@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -24,6 +25,7 @@
 #include <terrane/algorithms/mesh/mesh.hpp>
 #include <terrane/algorithms/mesh/surface.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
+#include <terrane/kernel/point.hpp>
 
 namespace terrane {
 
@@ -45,7 +47,8 @@ struct SectionSurface {
 
 /// Returns the plane through a point across a normal, as far as the mesh is wide, seen from where the normal points.
 /// Of a vertical plane `up` is the height, and the point is at 0 along the section. The plane is spanned by three
-/// points of doubles; it is the one asked for if they are exact, as for a plane across an axis, and otherwise next to it.
+/// points of doubles; it is the one asked for if they are exact, as for a plane across an axis, and otherwise next to
+/// it.
 /// Errors: bad_option for a normal or a point that is not finite, and for a normal of length 0; nothing_to_do for a
 /// mesh without triangles.
 Result<SectionSurface> section_plane(const Mesh& mesh, const Point3& point, const Point3& normal);
@@ -60,8 +63,8 @@ Result<SectionSurface> section_levels(const Mesh& mesh, std::span<const double> 
 Result<SectionSurface> section_fence(const Mesh& mesh,
                                      std::span<const std::array<double, 2>> corners);
 
-/// Returns a section along a surface, such as a topography or a fault. `along` and `up` are two of its coordinates: x and
-/// y, y and z, or x and z, those in which most of it is seen, of those in which it folds over nowhere.
+/// Returns a section along a surface, such as a topography or a fault. `along` and `up` are two of its coordinates: x
+/// and y, y and z, or x and z, those in which most of it is seen, of those in which it folds over nowhere.
 /// Errors: bad_option if it folds over in all three; those of arrange().
 Result<SectionSurface> section_along(const Surface& surface, const Run& run = {});
 
@@ -94,7 +97,8 @@ struct Section {
 };
 
 /// Cuts a model along a section surface. The mesh is conforming, and has these volumes; without any, there are lines
-/// alone. Vertices that lie straight between two others, and where nothing else begins, are left out of rings and lines.
+/// alone. Vertices that lie straight between two others, and where nothing else begins, are left out of rings and
+/// lines.
 /// Errors: bad_option for a section surface that crosses or touches itself; improper_contact if the mesh is not
 /// conforming, or the volumes are not its; those of arrange() and find_volumes().
 Result<Section> cut_section(const Mesh& mesh, const Volumes& volumes, const SectionSurface& along,
@@ -166,5 +170,77 @@ struct WellLog {
 /// depths that do not fit to the points; improper_contact if the volumes are not those of the mesh; interrupted.
 Result<std::vector<WellLog>> log_wells(const Mesh& mesh, const Volumes& volumes,
                                        std::span<const WellPath> paths, const Run& run = {});
+
+// The blocks in the cells of a rectilinear grid.
+//
+// (1) The block of a centre is decided exactly, as locate_points() decides it.
+// (2) A block has a share in a cell if and only if it has volume there. That is decided exactly.
+// (3) Each fraction is the double nearest to the exact volume of the block within the cell, divided by that of the
+//     cell. So the fractions of a cell add up to 1, and those of a block to its volume, but for that rounding.
+// (4) It is checked that the fractions of each block add up to its volume in the grid as a whole, which is computed
+//     from the triangles once more, and where the grid contains the mesh, to its measure.
+//
+// Each triangle is cut by the planes of the grid, without an epsilon: a corner of a part is named by the edges and
+// planes that meet there, and predicates tell on which side of a plane it is. Along a vertical, the length of a block
+// within a cell is the height of the cell for each triangle above it that has the block below, less that for each that
+// has it above, and likewise the height of a triangle within the cell. Integrated over the cell in the map, these are
+// the areas and moments of parts of triangles. They are summed with about 106 bits and an error bound, from the nearest
+// cell above that no triangle divides; where this does not decide the rounding, rationals do.
+// Cost: that of sorting the parts of triangles in cells, and of locating a point in each divided cell.
+
+/// A rectilinear grid of cells, by the planes between them. Cell (i, j, k) is at (k ny + j) nx + i.
+struct RectilinearGrid {
+    std::vector<double> x; ///< ascending, each once, >= 2; unit of the mesh
+    std::vector<double> y; ///< likewise
+    std::vector<double> z; ///< likewise
+
+    /// Returns the number of cells along x, y and z. Precondition: each axis has a plane.
+    [[nodiscard]] std::array<std::size_t, 3> counts() const {
+        return {x.size() - 1, y.size() - 1, z.size() - 1};
+    }
+    /// Returns the number of all cells.
+    [[nodiscard]] std::size_t size() const {
+        const auto [nx, ny, nz] = counts();
+        return nx * ny * nz;
+    }
+    /// Returns the middle of a cell, each coordinate rounded once.
+    [[nodiscard]] Point3 centre(std::size_t cell) const;
+};
+
+/// Returns the cells whose planes are at multiples of these steps along x, y and z, as few as contain the mesh.
+/// Errors: bad_option for a step that is not positive or too small for the coordinates, and for more than 10^9 cells;
+/// nothing_to_do for a mesh without triangles.
+Result<RectilinearGrid> cells_with_steps(const Mesh& mesh, const std::array<double, 3>& steps);
+
+/// Returns these numbers of cells along x, y and z, of one size but for rounding, that fill the least box around the
+/// mesh.
+/// Errors: bad_option for a number of 0, cells thinner than doubles can tell, and more than 10^9 cells; nothing_to_do
+/// for a mesh without triangles.
+Result<RectilinearGrid> cells_by_count(const Mesh& mesh,
+                                       const std::array<std::uint32_t, 3>& counts);
+
+/// The part of a cell that a block fills.
+struct BlockShare {
+    BlockId block{};     ///< 0: the outside
+    double fraction = 0; ///< of the cell, > 0
+};
+
+/// The blocks in the cells of a grid.
+struct BlocksInCells {
+    std::vector<BlockId> block_of; ///< per cell: the block that contains its centre; 0: the outside
+    std::vector<std::size_t>
+        first; ///< per cell its first share, and one more: the number of shares
+    std::vector<BlockShare> shares; ///< of one cell after the other, by block
+    std::vector<double> fractions;  ///< per block: the part of the whole grid that it fills
+
+    /// Returns the part of a cell that a block fills.
+    [[nodiscard]] double fraction(std::size_t cell, BlockId block) const;
+};
+
+/// Finds the blocks in the cells of a grid. The mesh is conforming, and has these volumes.
+/// Errors: bad_option for a grid without cells, planes that are not ascending or finite, and more than 10^9 cells;
+/// interrupted; out_of_memory; internal if the mesh is not conforming, or the volumes are not its.
+Result<BlocksInCells> blocks_in_cells(const Mesh& mesh, const Volumes& volumes,
+                                      const RectilinearGrid& grid, const Run& run = {});
 
 } // namespace terrane

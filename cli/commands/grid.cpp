@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include <terrane/algorithms/cells/cells.hpp>
+#include <terrane/algorithms/sections/sections.hpp>
 #include <terrane/cli/commands/command.hpp>
 #include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/roles.hpp>
@@ -67,8 +67,8 @@ void check_grid(const GridCommand& command) {
 }
 
 /// Returns the cells that the options ask for. Errors: bad_option; those of cells_with_steps() and cells_by_count().
-CellGrid grid_of(const GridCommand& command, const Mesh& mesh) {
-    CellGrid grid;
+RectilinearGrid grid_of(const GridCommand& command, const Mesh& mesh) {
+    RectilinearGrid grid;
     if (!command.step.empty()) {
         grid = must(cells_with_steps(mesh, three_numbers(command.step, "--step", true)), "--step");
     } else if (!command.cells.empty()) {
@@ -126,7 +126,7 @@ struct CellCounts {
     bool has_blocks = false;
 };
 
-CellCounts counts_of(const CellGrid& grid, const BlocksInCells& found) {
+CellCounts counts_of(const RectilinearGrid& grid, const BlocksInCells& found) {
     CellCounts counts;
     for (std::size_t c = 0; c < found.block_of.size(); ++c) {
         counts.inside += found.block_of[c] == 0 ? 0 : 1;
@@ -158,7 +158,7 @@ ExitStatus fill_grid(const GridCommand& command, Session& session) {
     run.make();
     if (!run.refused().empty()) return run.end(false);
     const Model& model = *run.built().model;
-    const CellGrid grid = grid_of(command, model.mesh);
+    const RectilinearGrid grid = grid_of(command, model.mesh);
     const auto found = must(session.timed(
         "cells", [&] { return blocks_in_cells(model.mesh, model.volumes, grid, session.run()); }));
     const CellCounts counts = counts_of(grid, found);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,6 +15,7 @@
 #include <terrane/cli/options/files.hpp>
 #include <terrane/cli/options/statistics.hpp>
 #include <terrane/cli/session/console.hpp>
+#include <terrane/cli/stages/model_run.hpp>
 #include <terrane/cli/stages/plausibility.hpp>
 #include <terrane/io/atomic/atomic_file.hpp>
 #include <terrane/io/meshes/prism_text.hpp>
@@ -46,12 +49,11 @@ Examples:
   terrane prisms top.ts base.ts --layers 8 -o reservoir.vtu
   terrane prisms top.ts base.ts --layers 20 --follow top --thickness 2 -o reservoir.msh)";
 
-/// Returns the two surfaces. Errors: bad_option if there are others.
-std::pair<const Surface*, const Surface*> top_and_base(const Inputs& inputs) {
+/// Checks that there are a top and a base. Errors: bad_option.
+void check_surfaces(const Inputs& inputs) {
     if (inputs.surfaces.size() != 2)
         refuse(fmt::format("needs two surfaces, the top first, and has {}", inputs.surfaces.size()),
                "IN");
-    return {&inputs.surfaces[0], &inputs.surfaces[1]};
 }
 
 std::vector<Output> plan_prism_outputs(const FileOptions& files) {
@@ -109,11 +111,12 @@ ExitStatus make_prism_files(const PrismCommand& command, const CLI::App& app, Se
                      : command.follow == "top" ? PrismLayers::top
                                                : PrismLayers::base;
     const auto inputs = read_inputs(command.files, session);
-    const auto [top, base] = top_and_base(inputs);
+    check_surfaces(inputs);
+    const Surface &top = inputs.surfaces[0], &base = inputs.surfaces[1];
     Json statistics = statistics_of(inputs);
     examine(inputs.surfaces, {}, inputs, session, statistics);
     const auto mesh =
-        session.timed("prisms", [&] { return make_prisms(*top, *base, options, session.run()); });
+        session.timed("prisms", [&] { return make_prisms(top, base, options, session.run()); });
     if (!mesh && mesh.error().code == ErrorCode::nothing_to_do) {
         print(stderr, complaint("nothing written: " + mesh.error().sentence));
         write_statistics(std::move(statistics), command.files.stats, session);
@@ -124,7 +127,7 @@ ExitStatus make_prism_files(const PrismCommand& command, const CLI::App& app, Se
         if (error.place == "layers" || error.place == "thickness") error.place = "--" + error.place;
         throw Failure{at_option(error, app)};
     }
-    for (const bool is_crossed : {false, true}) warn_of_gaps(*mesh, *top, is_crossed);
+    for (const bool is_crossed : {false, true}) warn_of_gaps(*mesh, top, is_crossed);
     std::FILE* const told = summary_stream(command.files);
     say(told, text_of(*mesh, inputs.quantities()));
     for (const Output& output : outputs) {

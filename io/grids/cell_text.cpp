@@ -23,7 +23,7 @@ double depth_of(double z) {
 
 /// Returns values of cells in the order of a corner-point grid, whose layers run downward.
 template <class T, class ValueOf>
-std::vector<T> from_above(const CellGrid& grid, const ValueOf& value_of) {
+std::vector<T> from_above(const RectilinearGrid& grid, const ValueOf& value_of) {
     const auto [nx, ny, nz] = grid.counts();
     std::vector<T> values;
     values.reserve(grid.size());
@@ -42,7 +42,8 @@ std::string_view unit_in_grdecl(std::string_view unit) {
 
 } // namespace
 
-std::string cells_to_csv(const CellGrid& grid, const BlocksInCells& found, const CellNames& names) {
+std::string cells_to_csv(const RectilinearGrid& grid, const BlocksInCells& found,
+                         const CellNames& names) {
     const auto [nx, ny, nz] = grid.counts();
     std::string out = "i,j,k,x,y,z,block,name,unit,fraction,centre\n";
     for (std::size_t c = 0; c < grid.size(); ++c) {
@@ -65,7 +66,7 @@ std::string cells_to_csv(const CellGrid& grid, const BlocksInCells& found, const
     return out;
 }
 
-CornerPointGrid corner_points_of(const CellGrid& grid, const BlocksInCells& found) {
+CornerPointGrid corner_points_of(const RectilinearGrid& grid, const BlocksInCells& found) {
     const auto [nx, ny, nz] = grid.counts();
     CornerPointGrid made;
     made.nx = static_cast<std::uint32_t>(nx);
@@ -100,7 +101,7 @@ std::string to_grdecl(const CornerPointGrid& grid, std::string_view comment) {
     return out;
 }
 
-std::string cells_to_grdecl(const CellGrid& grid, const BlocksInCells& found,
+std::string cells_to_grdecl(const RectilinearGrid& grid, const BlocksInCells& found,
                             const CellNames& names) {
     CornerPointGrid made = corner_points_of(grid, found);
     made.frame.horizontal_unit = names.length_unit;

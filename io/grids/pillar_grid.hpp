@@ -48,9 +48,8 @@ struct PillarGrid {
 };
 
 /// Makes a corner-point grid of horizons from the top down.
-/// Errors: bad_option for fewer than two horizons, lines or layers that make no grid, and more than 10^8 cells;
-/// improper_contact for a horizon that folds over; nothing_to_do if no cell is active; those of validate();
-/// interrupted.
+/// Errors: bad_option for fewer than two horizons, lines or layers that make no grid, a horizon that folds over, and
+/// more than 10^8 cells; nothing_to_do if no cell is active; those of validate(); interrupted.
 Result<PillarGrid> make_pillar_grid(std::span<const Surface> horizons, const PillarOptions& options,
                                     const Run& run = {});
 

@@ -18,7 +18,7 @@
 namespace terrane {
 namespace {
 
-std::string extent_of_cells(const CellGrid& grid) {
+std::string extent_of_cells(const RectilinearGrid& grid) {
     const auto [nx, ny, nz] = grid.counts();
     return fmt::format("0 {} 0 {} 0 {}", nx, ny, nz);
 }
@@ -72,7 +72,7 @@ void write_shares(detail::VtkWriter& out, const BlocksInCells& found, const Cell
     out.end_field();
 }
 
-void write_cells(detail::VtkWriter& out, const CellGrid& grid, const BlocksInCells& found,
+void write_cells(detail::VtkWriter& out, const RectilinearGrid& grid, const BlocksInCells& found,
                  const CellNames& names) {
     const auto unit_of = units_of(names).first;
     std::vector<std::uint32_t> blocks;
@@ -95,7 +95,7 @@ void write_cells(detail::VtkWriter& out, const CellGrid& grid, const BlocksInCel
 
 } // namespace
 
-Result<std::string> to_vti(const CellGrid& grid, const BlocksInCells& found,
+Result<std::string> to_vti(const RectilinearGrid& grid, const BlocksInCells& found,
                            const CellNames& names) {
     std::array<double, 3> steps{};
     for (const auto& [axis, planes, name] :
@@ -114,7 +114,8 @@ Result<std::string> to_vti(const CellGrid& grid, const BlocksInCells& found,
     return out.end_file("ImageData");
 }
 
-std::string to_vtr(const CellGrid& grid, const BlocksInCells& found, const CellNames& names) {
+std::string to_vtr(const RectilinearGrid& grid, const BlocksInCells& found,
+                   const CellNames& names) {
     detail::VtkWriter out(true);
     out.begin_file("RectilinearGrid", fmt::format(" WholeExtent=\"{}\"", extent_of_cells(grid)));
     write_shares(out, found, names);

@@ -22,9 +22,9 @@ Result<std::string> to_vti(const Grid& grid);
 /// The field arrays block_name and unit_name are character codes (UInt8), each string ended by a 0. share_cell (Int64),
 /// share_block (UInt32) and share_fraction (Float64) list all blocks in the cells that several blocks share.
 /// Errors: unsupported if the planes across an axis are not equally far apart, but for rounding; .vtr has such.
-Result<std::string> to_vti(const CellGrid& grid, const BlocksInCells& found,
+Result<std::string> to_vti(const RectilinearGrid& grid, const BlocksInCells& found,
                            const CellNames& names);
 /// The same with any planes.
-std::string to_vtr(const CellGrid& grid, const BlocksInCells& found, const CellNames& names);
+std::string to_vtr(const RectilinearGrid& grid, const BlocksInCells& found, const CellNames& names);
 
 } // namespace terrane

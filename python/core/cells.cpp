@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <terrane/algorithms/cells/cells.hpp>
+#include <terrane/algorithms/sections/sections.hpp>
 
 #include <algorithm>
 #include <array>
@@ -27,8 +27,8 @@ struct CellsWanted {
     AxisPlanes planes{};
 };
 
-CellGrid cells_wanted(const CellsWanted& wanted, const Mesh& mesh) {
-    CellGrid grid;
+RectilinearGrid cells_wanted(const CellsWanted& wanted, const Mesh& mesh) {
+    RectilinearGrid grid;
     if (const auto& s = wanted.steps; !s.empty())
         grid = must(cells_with_steps(mesh, {s[0], s[1], s[2]}), "step");
     if (const auto& n = wanted.counts; !n.empty())
@@ -39,7 +39,7 @@ CellGrid cells_wanted(const CellsWanted& wanted, const Mesh& mesh) {
     return grid;
 }
 
-py::dict dict_of_cells(CellGrid grid, const BlocksInCells& found, const Model& model) {
+py::dict dict_of_cells(RectilinearGrid grid, const BlocksInCells& found, const Model& model) {
     std::vector<std::uint32_t> centres(found.block_of.begin(), found.block_of.end());
     std::vector<std::int64_t> cells;
     std::vector<std::uint32_t> blocks;
@@ -64,7 +64,7 @@ py::dict cells_of_model(const ModelPointer& model, const py::dict& given, const 
                        given["counts"].cast<std::vector<std::uint32_t>>(),
                        given["planes"].cast<AxisPlanes>()};
     auto made = run_stage(how, [model, wanted](const Run& run) {
-        CellGrid grid = cells_wanted(wanted, model->model.mesh);
+        RectilinearGrid grid = cells_wanted(wanted, model->model.mesh);
         auto found = must(blocks_in_cells(model->model.mesh, model->model.volumes, grid, run));
         return std::pair(std::move(grid), std::move(found));
     });
@@ -72,7 +72,8 @@ py::dict cells_of_model(const ModelPointer& model, const py::dict& given, const 
 }
 
 /// Refuses arrays that do not belong together, as a changed pickle may have.
-BlocksInCells to_blocks_in_cells(const py::dict& given, const CellGrid& grid, std::size_t names) {
+BlocksInCells to_blocks_in_cells(const py::dict& given, const RectilinearGrid& grid,
+                                 std::size_t names) {
     const auto centres = copied<std::uint32_t>(given["centres"].cast<py::array>());
     const auto cells = copied<std::int64_t>(given["cells"].cast<py::array>());
     const auto blocks = copied<std::uint32_t>(given["blocks"].cast<py::array>());
@@ -108,7 +109,7 @@ void save_cells(const py::dict& given, const py::object& file, const HowToRun& h
     const auto planes = [&](const char* axis) {
         return copied<double>(given[axis].cast<py::array>());
     };
-    const CellGrid grid{planes("x"), planes("y"), planes("z")};
+    const RectilinearGrid grid{planes("x"), planes("y"), planes("z")};
     CellNames names;
     for (const py::handle one : given["names"]) {
         const auto values = one.cast<py::tuple>();

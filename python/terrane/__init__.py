@@ -20,7 +20,7 @@ from ._arrangement import Arrangement, RoundedMesh, arrange, check, regions, rou
 from ._arrays import IndexLists, SurfaceInfo
 from ._blocks import (NO_INDEX, BlockParts, Corner, InterfaceParts, Line, Patch, Structure, Volumes,
                       structure, volumes)
-from ._cells import CellGrid
+from ._cells import BlocksInCells
 from ._ensemble import Ensemble, ensemble
 from ._ensemble_results import BlockOutcome, Failure, Juxtaposed
 from ._errors import ERROR_CODES, Doubt, Error, OutOfMemory
@@ -59,7 +59,7 @@ for _name in ("tetgen", "gmsh"):
 __version__: str = _core.version
 
 __all__ = [
-    "Arrangement", "Block", "BlockOutcome", "BlockParts", "BlockVolume", "Blocks", "BorderLoop", "Built", "CellGrid", "CheckReport", "ClosedGap",
+    "Arrangement", "Block", "BlockOutcome", "BlockParts", "BlockVolume", "Blocks", "BorderLoop", "Built", "BlocksInCells", "CheckReport", "ClosedGap",
     "Contact", "Corner", "Doubt", "ERROR_CODES", "Ensemble", "Error", "Failure", "FillReport", "Filled", "FilledHole", "Frame",
     "HAS_REPORTS", "Improved", "IndexLists", "Interface", "InterfaceParts", "JudgedProperty", "Juxtaposed", "Juxtaposition", "LayerReport", "Layered",
     "Leak", "Line", "Map", "Mesh", "MeshJudgement", "Model", "NO_INDEX", "OpenBorder", "OpenGap", "OutOfMemory", "OutOfOrder",

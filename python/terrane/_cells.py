@@ -11,11 +11,11 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import Float64Array, Path, UInt32Array, as_count, as_list, as_number
 from ._errors import bad_option
-from ._results import Result, counted
+from ._results import Result
 from ._run import how
 
 
-class CellGrid(Result):
+class BlocksInCells(Result):
     """A rectilinear grid of cells, and the blocks in them.
 
     Attributes
@@ -35,7 +35,7 @@ class CellGrid(Result):
     --------
     >>> m = ...
     >>> m.grid(step=1)
-    <CellGrid: 4 x 4 x 3 cells, 48 in blocks>
+    <BlocksInCells: 4 x 4 x 3 cells, 48 in blocks>
     """
 
     __slots__ = ("_values", "x", "y", "z", "block_of", "cells", "blocks", "fractions")
@@ -88,7 +88,12 @@ class CellGrid(Result):
 
     def _numbers(self) -> Dict[str, Any]:
         return {"cells": self.block_of.size, "in blocks": int(np.count_nonzero(self.block_of)),
-                "shares": counted(len(self.cells), "share")}
+                "shares": len(self.cells)}
+
+    def _shape(self) -> Tuple[Any, Any]:
+        ends = np.array([[self.x[i], self.y[j], self.z[k]] for k in (0, -1) for j in (0, -1) for i in (0, -1)])
+        sides = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+        return ends, np.array([t for a, b, c, d in sides for t in ((a, b, c), (a, c, d))], dtype=np.uint32)
 
 
 def cells_wanted(step: Any, cells: Any, planes: Tuple[Any, Any, Any]) -> Dict[str, Any]:
@@ -120,6 +125,6 @@ def _planes(given: Any, name: str) -> List[float]:
     return made
 
 
-def grid_of(model: Any, wanted: Dict[str, Any], threads: Optional[int], progress: Any) -> CellGrid:
+def grid_of(model: Any, wanted: Dict[str, Any], threads: Optional[int], progress: Any) -> BlocksInCells:
     """Return the grid of a model's handle."""
-    return CellGrid(_core.cells(model, wanted, how(threads, progress)))
+    return BlocksInCells(_core.cells(model, wanted, how(threads, progress)))

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrangement import as_move
 from ._arrays import Path, as_count, as_flag, as_list, as_number, as_pair, as_text, as_word
-from ._cells import CellGrid, cells_wanted, grid_of
+from ._cells import BlocksInCells, cells_wanted, grid_of
 from ._errors import Doubt, bad_option, doubts_of
 from ._interop import meshio_mesh, package
 from ._maps import Map, nodes_of
@@ -251,7 +251,7 @@ class Model(Parts):
                                               how(threads, progress)))
 
     def grid(self, *, step: Any = None, cells: Any = None, x: Any = None, y: Any = None, z: Any = None,
-             threads: Optional[int] = None, progress: Any = None) -> CellGrid:
+             threads: Optional[int] = None, progress: Any = None) -> BlocksInCells:
         """Fill the cells of a rectilinear grid with blocks: that of each centre, and the part of each cell that a block fills.
 
         Parameters

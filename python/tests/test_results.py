@@ -53,7 +53,7 @@ MAKE = {
     "Selected": lambda: terrane.select([s.replace(name="box") for s in terrane.box((0, 0, 0), (1, 2, 3))], "box"),
     "Map": lambda: terrane.map_surface(stack(), "dip", step=1),
     "Section": lambda: terrane.section(terrane.model(stack(), box=BOX), level=0.5),
-    "CellGrid": lambda: terrane.model(stack(), box=BOX).grid(cells=(3, 2, 5)),
+    "BlocksInCells": lambda: terrane.model(stack(), box=BOX).grid(cells=(3, 2, 5)),
     "WellLog": lambda: terrane.log_well(terrane.model(stack(), box=BOX), [(0.5, 0.5, 3), (0.5, 0.5, -1)]),
     "Model": lambda: terrane.model(stack(), box=BOX),
     "Built": lambda: terrane.build(project()),

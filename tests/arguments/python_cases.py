@@ -226,7 +226,7 @@ METHODS = {
         "save": (lambda f: dict(path="m.irap"), {"format": "vti"})}),
     "Section": (lambda f: terrane.section(f.model, level=0), {
         "save": (lambda f: dict(path="s.svg"), {"title": "a title", "exaggeration": 2.0})}),
-    "CellGrid": (lambda f: f.model.grid(cells=(2, 2, 2)), {
+    "BlocksInCells": (lambda f: f.model.grid(cells=(2, 2, 2)), {
         "save": (lambda f: dict(path="g.vti"), {}), "fraction": (lambda f: dict(block=1), {})}),
     "WellLog": (lambda f: terrane.log_well(f.model, [(1, 1, 3), (1, 1, -2)]), {
         "save": (lambda f: dict(path="w.las"), {"step": 0.5})}),

@@ -26,6 +26,7 @@ WITHIN = {
     "arrange_exactly_within": "arrange_within",
     "arranging_of": "build",
     "cell_centres": "parse_surfaces, grdecl",
+    "check_folds": "make_prisms",
     "check_edge_length": "fill_by_kriging",
     "check_sides": "fill_by_kriging",
     "check_improvable": "build",

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <terrane/algorithms/cells/cells.hpp>
 #include <terrane/algorithms/cells/prisms.hpp>
 #include <terrane/algorithms/maps/maps.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
@@ -210,7 +209,7 @@ std::vector<Stage> drawing() {
             return map_blocks(*f.mesh, f.volumes, std::span(&block, 1), grid);
         },
         [](const Grid& made) { return shown(made.values.back()); }));
-    const auto size = [](const CellGrid& made) { return std::to_string(made.size()); };
+    const auto size = [](const RectilinearGrid& made) { return std::to_string(made.size()); };
     stages.push_back(stage(
         "cells_with_steps",
         [&f] {
@@ -223,7 +222,7 @@ std::vector<Stage> drawing() {
             return cells_by_count(*f.mesh, {3, 4, 5});
         },
         size));
-    static const CellGrid cells = needed(cells_by_count(*f.mesh, {3, 4, 5}));
+    static const RectilinearGrid cells = needed(cells_by_count(*f.mesh, {3, 4, 5}));
     stages.push_back(stage(
         "blocks_in_cells", [&f] { return blocks_in_cells(*f.mesh, f.volumes, cells); },
         [](const BlocksInCells& made) { return shown(made.shares.back().fraction); }));
@@ -252,11 +251,9 @@ std::vector<Stage> drawing() {
         "make_prisms", [] { return make_prisms(lid, floor, {.layers = 40}); },
         [](const PrismMesh& made) { return shown(made.volume); }));
     static const std::vector<Surface> horizons{lid, floor};
+    static const PillarOptions pillars{{0, 2, 4, 6}, {0, 3, 6}, {7}};
     stages.push_back(stage(
-        "make_pillar_grid",
-        [] {
-            return make_pillar_grid(horizons, {{0, 2, 4, 6}, {0, 3, 6}, {7}});
-        },
+        "make_pillar_grid", [] { return make_pillar_grid(horizons, pillars); },
         [](const PillarGrid& made) { return std::to_string(made.active); }));
     static constexpr double contact = 4;
     stages.push_back(stage(

@@ -24,7 +24,7 @@ struct LayerShare {
 /// Walks down a column. Precondition: the rounding mode is "to nearest".
 class CellColumn {
 public:
-    CellColumn(const Mesh& mesh, const Volumes& volumes, const CellGrid& grid) :
+    CellColumn(const Mesh& mesh, const Volumes& volumes, const RectilinearGrid& grid) :
         mesh_(mesh), volumes_(volumes), grid_(grid), places_(grid) {}
 
     /// Tells of which layers the block of the centre is needed, from the top down.
@@ -91,7 +91,7 @@ private:
 
     const Mesh& mesh_;
     const Volumes& volumes_;
-    const CellGrid& grid_;
+    const RectilinearGrid& grid_;
     PlacesOfPieces places_;
     Pieces pieces_;
     std::size_t taken_ = 0;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
-#include <ranges>
+#include <utility>
 
 #include <tbb/parallel_sort.h>
 
@@ -22,7 +22,7 @@ struct Slabs {
 /// Finds the pieces of triangles, one after the other.
 class PieceFinder {
 public:
-    PieceFinder(const CellGrid& grid, std::vector<CellPiece>& out) :
+    PieceFinder(const RectilinearGrid& grid, std::vector<CellPiece>& out) :
         grid_(grid), places_(grid), out_(out) {}
 
     void add(std::uint32_t number, const std::array<Point3, 3>& corners) {
@@ -63,14 +63,25 @@ private:
         const auto begin = std::size_t(std::max<std::ptrdiff_t>(above - 1, 0));
         const auto end =
             std::max(begin, std::size_t(std::min<std::ptrdiff_t>(below, std::ssize(at) - 1)));
-        const auto all = std::views::iota(begin, end);
-        const auto first = std::ranges::partition_point(all, [&](std::size_t s) {
-            return !part.reaches({axis, at[s + 1]}, Sign::Negative);
+        const std::size_t first = first_that(begin, end, [&](std::size_t s) {
+            return part.reaches({axis, at[s + 1]}, Sign::Negative);
         });
-        const auto last = std::ranges::partition_point(first, all.end(), [&](std::size_t s) {
-            return part.reaches({axis, at[s]}, Sign::Positive);
-        });
-        return {begin + std::size_t(first - all.begin()), begin + std::size_t(last - all.begin())};
+        return {first, first_that(first, end, [&](std::size_t s) {
+                    return !part.reaches({axis, at[s]}, Sign::Positive);
+                })};
+    }
+
+    /// Returns the first number in [first, last) from which on something holds, or `last`.
+    template <class Holds>
+    static std::size_t first_that(std::size_t first, std::size_t last, const Holds& holds) {
+        while (first < last) {
+            const std::size_t middle = first + (last - first) / 2;
+            if (holds(middle))
+                last = middle;
+            else
+                first = middle + 1;
+        }
+        return first;
     }
 
     template <class Visit>
@@ -115,7 +126,7 @@ private:
         out_.push_back(piece);
     }
 
-    const CellGrid& grid_;
+    const RectilinearGrid& grid_;
     PlacesOfPieces places_;
     std::vector<CellPiece>& out_;
     std::uint32_t number_ = 0;
@@ -128,8 +139,8 @@ std::array<Point3, 3> corners_in(const Mesh& mesh, std::uint32_t triangle) {
     return {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
 }
 
-std::vector<CellPiece> find_pieces(const Mesh& mesh, const Volumes& volumes, const CellGrid& grid,
-                                   const Run& run) {
+std::vector<CellPiece> find_pieces(const Mesh& mesh, const Volumes& volumes,
+                                   const RectilinearGrid& grid, const Run& run) {
     constexpr std::size_t ranges_per_thread = 16; // a large triangle has many pieces
     auto found = concatenated(parts_of_ranges<std::vector<CellPiece>>(
         mesh.triangles.size(), run,
@@ -156,7 +167,7 @@ std::vector<CellPiece> find_pieces(const Mesh& mesh, const Volumes& volumes, con
     return found;
 }
 
-CellBox box_at(const CellGrid& grid, std::uint64_t place) {
+CellBox box_at(const RectilinearGrid& grid, std::uint64_t place) {
     const PlacesOfPieces places(grid);
     const std::uint64_t column = places.column_of(place);
     const std::uint64_t i = column % places.nx, j = column / places.nx;
@@ -164,7 +175,8 @@ CellBox box_at(const CellGrid& grid, std::uint64_t place) {
     return {{grid.x[i], grid.y[j], grid.z[k]}, {grid.x[i + 1], grid.y[j + 1], grid.z[k + 1]}};
 }
 
-TrianglePart part_at(const CutTriangle& triangle, const CellGrid& grid, std::uint64_t place) {
+TrianglePart part_at(const CutTriangle& triangle, const RectilinearGrid& grid,
+                     std::uint64_t place) {
     const CellBox box = box_at(grid, place);
     TrianglePart part(triangle);
     const std::uint8_t axes = triangle.is_level() ? 2 : 3;

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <terrane/algorithms/cells/cells.hpp>
 #include <terrane/algorithms/cells/detail/triangle_part.hpp>
+#include <terrane/algorithms/sections/sections.hpp>
 #include <terrane/kernel/double_double.hpp>
 
 namespace terrane::cells::detail {
@@ -25,7 +25,7 @@ struct CellPiece {
 struct PlacesOfPieces {
     std::uint64_t nx, ny, nz;
 
-    explicit PlacesOfPieces(const CellGrid& grid) :
+    explicit PlacesOfPieces(const RectilinearGrid& grid) :
         nx(grid.x.size() - 1), ny(grid.y.size() - 1), nz(grid.z.size() - 1) {}
 
     /// Returns the place of layer k of a column; k = nz: above the grid.
@@ -42,13 +42,13 @@ struct PlacesOfPieces {
 std::array<Point3, 3> corners_in(const Mesh& mesh, std::uint32_t triangle);
 
 /// Returns the pieces of all triangles that do not dangle, by place and triangle.
-std::vector<CellPiece> find_pieces(const Mesh& mesh, const Volumes& volumes, const CellGrid& grid,
-                                   const Run& run);
+std::vector<CellPiece> find_pieces(const Mesh& mesh, const Volumes& volumes,
+                                   const RectilinearGrid& grid, const Run& run);
 
 /// Returns the box of the cell at a place; above the grid, that of the cell below.
-CellBox box_at(const CellGrid& grid, std::uint64_t place);
+CellBox box_at(const RectilinearGrid& grid, std::uint64_t place);
 
 /// Returns the part of a triangle at a place, which has a piece there.
-TrianglePart part_at(const CutTriangle& triangle, const CellGrid& grid, std::uint64_t place);
+TrianglePart part_at(const CutTriangle& triangle, const RectilinearGrid& grid, std::uint64_t place);
 
 } // namespace terrane::cells::detail

@@ -10,7 +10,7 @@
 
 #include <gmpxx.h>
 
-#include <terrane/algorithms/cells/cells.hpp>
+#include <terrane/algorithms/sections/sections.hpp>
 
 #include "support/winding_oracle.hpp"
 
@@ -76,7 +76,7 @@ inline mpq_class six_volumes_within(const RationalTetrahedron& t,
 /// Returns the volume of each block within a cell, in units of the cell; [0] is that of the outside.
 inline std::vector<mpq_class> fractions_by_tetrahedra(const terrane::Mesh& mesh,
                                                       const terrane::Volumes& volumes,
-                                                      const terrane::CellGrid& grid,
+                                                      const terrane::RectilinearGrid& grid,
                                                       std::size_t cell) {
     const auto [nx, ny, nz] = grid.counts();
     const auto ends = [](const std::vector<double>& planes, std::size_t i) {

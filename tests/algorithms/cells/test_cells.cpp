@@ -9,8 +9,8 @@
 #include <optional>
 #include <random>
 
-#include <terrane/algorithms/cells/cells.hpp>
 #include <terrane/algorithms/model/arrange_within.hpp>
+#include <terrane/algorithms/sections/sections.hpp>
 #include <terrane/algorithms/volume_of_interest/volume_of_interest.hpp>
 
 #include "cells_by_tetrahedra.hpp"
@@ -37,7 +37,7 @@ std::optional<CellModel> cell_model(std::vector<Surface> surfaces, std::vector<S
     return model;
 }
 
-BlocksInCells cells_of(const CellModel& model, const CellGrid& grid, const Run& run = {}) {
+BlocksInCells cells_of(const CellModel& model, const RectilinearGrid& grid, const Run& run = {}) {
     auto found = blocks_in_cells(model.mesh, model.volumes, grid, run);
     REQUIRE(message_of(found) == "no error");
     return std::move(*found);
@@ -78,7 +78,8 @@ double nearest_to(const mpq_class& q) {
 }
 
 /// Compares each fraction with the oracle's, and counts those that are neither 0 nor 1.
-std::size_t compare(const CellModel& model, const CellGrid& grid, const BlocksInCells& found) {
+std::size_t compare(const CellModel& model, const RectilinearGrid& grid,
+                    const BlocksInCells& found) {
     std::size_t partial = 0;
     REQUIRE(found.block_of.size() == grid.size());
     REQUIRE(found.first.size() == grid.size() + 1);
@@ -156,7 +157,7 @@ TEST_CASE("cells: random models against tetrahedra in rationals", "[cells]") {
             cell_model(maker.model(), seed % 2 == 0 ? *box_boundary({-5, -5, -5}, {5, 5, 5})
                                                     : std::vector<Surface>{});
         if (!model) continue;
-        CellGrid grid;
+        RectilinearGrid grid;
         grid.x = planes_of(maker, 6);
         grid.y = planes_of(maker, 6);
         grid.z = planes_of(maker, 6);
@@ -212,7 +213,7 @@ TEST_CASE("cells: a sliver has its share, to the last bit", "[cells]") {
                         {-1, 2, 1 - 2 * thickness}};
         const auto model = cell_model({lid}, boundary);
         REQUIRE(model);
-        const CellGrid grid{{-0.25, 0.5, 1}, {0.125, 1.5}, {0, 0.5, 1}};
+        const RectilinearGrid grid{{-0.25, 0.5, 1}, {0.125, 1.5}, {0, 0.5, 1}};
         CHECK(compare(*model, grid, cells_of(*model, grid)) > 3);
     }
 }

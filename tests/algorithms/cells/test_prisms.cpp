@@ -123,6 +123,15 @@ std::size_t count_of_size(const PrismMesh& mesh, int size) {
                                      [&](const PrismCell& c) { return c.size == size; }));
 }
 
+/// Returns the heights of the nodes on a vertical, ascending.
+std::vector<double> heights_at(const PrismMesh& mesh, double x, double y) {
+    std::vector<double> heights;
+    for (const Point3& p : mesh.vertices)
+        if (p.x == x && p.y == y) heights.push_back(p.z);
+    std::sort(heights.begin(), heights.end());
+    return heights;
+}
+
 } // namespace
 
 TEST_CASE("prisms: planes in closed form", "[prisms]") {
@@ -150,6 +159,8 @@ TEST_CASE("prisms: layers that follow a surface are cut by the other one", "[pri
     CHECK(volume_of(below) == 64 * 2);
     CHECK(count_of_size(below, 4) + count_of_size(below, 5) > 0);
     for (const Point3& p : below.vertices) CHECK((p.z == std::round(p.z) || p.z == -p.x / 2));
+    CHECK(heights_at(below, 8, 0) == std::vector<double>{-4, -3, -2, -1, 0});
+    CHECK(heights_at(below, 4, 2) == std::vector<double>{-2, -1, 0});
     faces_of(below);
     const auto above = prisms_of(top, base, {4, PrismLayers::base, 0.5});
     CHECK(volume_of(above) == 64 * 2);
@@ -157,6 +168,8 @@ TEST_CASE("prisms: layers that follow a surface are cut by the other one", "[pri
         const double n = (p.z + p.x / 2) / 0.5;
         CHECK((p.z == 0 || n == std::round(n)));
     }
+    CHECK(heights_at(above, 8, 0) == std::vector<double>{-4, -3.5, -3, -2.5, 0});
+    CHECK(heights_at(above, 2, 2) == std::vector<double>{-1, -0.5, 0});
     faces_of(above);
 }
 
@@ -272,10 +285,10 @@ TEST_CASE("prisms: what makes none is refused", "[prisms]") {
     CHECK(refusal(make_prisms(base, top)) == ErrorCode::nothing_to_do);
     Surface fold = base;
     fold.vertices[4] = {2.5, 1, 0.5}; // beyond its neighbour
-    CHECK(refusal(make_prisms(top, fold)) == ErrorCode::improper_contact);
-    CHECK(refusal(make_prisms(fold, base)) == ErrorCode::improper_contact);
+    CHECK(refusal(make_prisms(top, fold)) == ErrorCode::bad_option);
+    CHECK(refusal(make_prisms(fold, base)) == ErrorCode::bad_option);
     Surface wall{"wall", Role::fault, {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}}, {{0, 1, 2}}};
-    CHECK(refusal(make_prisms(top, wall)) == ErrorCode::improper_contact);
+    CHECK(refusal(make_prisms(top, wall)) == ErrorCode::bad_option);
     std::stop_source stop;
     stop.request_stop();
     CHECK(refusal(make_prisms(top, base, {}, {.stop = stop.get_token()})) ==
