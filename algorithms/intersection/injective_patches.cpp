@@ -62,14 +62,17 @@ private:
                                   std::array{edges_[edge].to, 0u}))[1];
     }
 
+    /// The search gets the edges as triangles without area, as boxes of long edges say little. It leaves out
+    /// only edges that are apart.
     bool touches_itself() const {
-        std::vector<Box> boxes;
-        for (const BorderEdge& e : edges_) {
-            const auto a = at(e.from), b = at(e.to);
-            boxes.push_back({{std::min(a.u, b.u), std::min(a.v, b.v), 0},
-                             {std::max(a.u, b.u), std::max(a.v, b.v), 0}});
+        std::vector<Point3> starts;
+        std::vector<Triangle> edges;
+        for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+            const auto from = at(edges_[e].from);
+            starts.push_back({from.u, from.v, 0});
+            edges.push_back({e, next(e), next(e)});
         }
-        for (const CandidatePair& p : candidate_pairs(boxes, {}, Search::automatic))
+        for (const CandidatePair& p : candidate_pairs({starts, edges}, {}, Search::automatic))
             if (meet(edges_[p.first], edges_[p.second])) return true;
         return false;
     }

@@ -153,13 +153,15 @@ std::vector<BorderGap> gaps_along(const Mesh& mesh, const ModelLine& line,
 } // namespace
 
 std::vector<FreeBorder> find_free_borders(const Mesh& mesh, const Structure& structure) {
+    const auto is_free = [](const ModelLine& line) { return line.kind == LineKind::free_border; };
+    if (std::ranges::none_of(structure.lines, is_free)) return {}; // closed surfaces need no tree
     const StandardArithmetic guard;
     const SurfaceParts parts(mesh, structure);
     const SurfaceTree tree({mesh.vertices, mesh.triangles, parts.of_triangles()});
     std::vector<FreeBorder> borders;
     for (std::uint32_t l = 0; l < structure.lines.size(); ++l) {
         const ModelLine& line = structure.lines[l];
-        if (line.kind != LineKind::free_border) continue;
+        if (!is_free(line)) continue;
         borders.push_back({l, line.surfaces, line.length,
                            line.vertices.front() == line.vertices.back(),
                            gaps_along(mesh, line, parts, tree)});

@@ -21,8 +21,8 @@ struct Model {
 
 /// Returns the model "pair1_7k", "pair1_68k", "pair1_680k", "pair1_6800k", likewise for pair2,
 /// "nonuniform1", "nonuniform2", "rectangles_100", "rectangles_1000", "balls_160k", "loft_20k",
-/// "extrusion_20k", "fans_1000k" or "thread_1000k"; any other name is that of a file. The model is kept until another one is asked for. Throws std::runtime_error for a file
-/// that can't be read.
+/// "extrusion_20k", "fans_1000k" or "thread_1000k"; any other name is that of a file. The model is kept
+/// until another one is asked for. Throws std::runtime_error for a file that can't be read.
 const Model& model(const std::string& name);
 
 } // namespace bench

@@ -143,10 +143,10 @@ private:
         const bool same = &here == &there;
         for (std::uint32_t j = there.first; j < there.end; ++j) {
             const std::uint32_t g = other.order_[j];
-            const Box box = source_[g];
+            const Box& box = other.boxes_[j];
             for (std::uint32_t i = here.first; i < (same ? j : here.end); ++i) {
                 const std::uint32_t f = order_[i];
-                if (have_one_label(f, g) || !boxes_[i].overlaps(box)) continue;
+                if (!boxes_[i].overlaps(box) || have_one_label(f, g)) continue;
                 if (!are_joined(f, g)) {
                     auto& filter = filters[i - here.first]; // NOLINT: a leaf has at most leaf_size
                     if (!filter) {
