@@ -148,8 +148,9 @@ def map_surface(surfaces: Any, number: str, *, to: Any = None, step: Optional[fl
     array([[1., 3.],
            [1., 3.]])
     """
-    given = parts_of_surfaces(as_surfaces(surfaces))
+    mapped = as_surfaces(surfaces)
+    given = parts_of_surfaces(mapped)
     other = [] if to is None else parts_of_surfaces(as_surfaces(to))
     word = as_word(number, "number")
-    nodes = nodes_of(given, as_surfaces(surfaces)[0].name, step, like)
+    nodes = nodes_of(given, mapped[0].name if mapped else "", step, like)
     return Map(nodes, *_core.map(given, word, nodes, other, how(threads, progress)))

@@ -9,6 +9,7 @@ from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 from . import _core
 from ._arrangement import as_move
 from ._arrays import Path, UInt32Array, as_flag, as_text, as_word
+from ._errors import Error
 from ._mesh import Mesh, OnMesh, require_conforming
 from ._results import counted
 from ._rounding import RoundingReport, rounding_report
@@ -87,7 +88,12 @@ class Selected(OnMesh):
         self.rounding: RoundingReport = rounding_report(report["rounding"])
 
     def save(self, path: Path, format: Optional[str] = None, **options: Any) -> None:
-        """Write the mesh as ``terrane select`` does: only if it is conforming; see `Mesh.save`.
+        """Write the mesh as ``terrane select`` does: only if it is conforming, and there is one; see `Mesh.save`.
+
+        Raises
+        ------
+        terrane.Error
+            ``improper_contact``; ``nothing_to_do`` if nothing is selected; those of `Mesh.save`.
 
         Examples
         --------
@@ -95,6 +101,8 @@ class Selected(OnMesh):
         >>> terrane.select([a, b], "a & b").save("both.stl")
         """
         require_conforming(self.rounding.clean, len(self.rounding.contacts))
+        if not len(self.mesh.triangles):
+            raise Error("nothing_to_do", "nothing is selected, so nothing is written", str(path))
         self.mesh.save(path, format, **options)
 
     def _state(self) -> Tuple[Any, ...]:

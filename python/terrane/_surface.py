@@ -248,7 +248,11 @@ class Surface:
             return NotImplemented
         names = [s.name if re.fullmatch(r"[\w.]+", s.name) else f"({s.name})" for s in (self, other)]
         operands = [s.replace(name=name)._core for s, name in ((self, "a"), (other, "b"))]
-        made, _, report = _core.select(operands, f"a {operator} b", "nonzero", False, None, how(None, None))
+        try:
+            made, _, report = _core.select(operands, f"a {operator} b", "nonzero", False, None, how(None, None))
+        except Error as error:
+            place = {"a": self.name, "b": other.name}.get(error.place, error.place)
+            raise Error(error.code, error.sentence, place) from None
         if not report["rounding"]["clean"]:
             raise Error("improper_contact", "the boundary is not conforming in doubles; terrane.select() tells where")
         return Surface(made.vertices, made.triangles, f"{names[0]} {operator} {names[1]}", self.role)
