@@ -14,7 +14,7 @@ from ._mesh import Mesh, OnMesh, require_conforming
 from ._results import counted
 from ._rounding import RoundingReport, rounding_report
 from ._run import how
-from ._surface import as_surfaces, parts_of_surfaces
+from ._surface import as_surfaces, parts_of_surfaces, warn_of_doubts
 
 
 class SelectedPiece(NamedTuple):
@@ -148,6 +148,11 @@ def select(surfaces: Any, expression: str, *, rule: str = "nonzero", fractions: 
     max_move : float, optional
         As in `round`.
 
+    Warns
+    -----
+    terrane.Doubt
+        For each likely mistake in the surfaces, such as different units.
+
     Raises
     ------
     terrane.Error
@@ -165,7 +170,9 @@ def select(surfaces: Any, expression: str, *, rule: str = "nonzero", fractions: 
     >>> terrane.select([a, b], "b - a", fractions=True).exact_volume
     Fraction(7, 1)
     """
+    given = as_surfaces(surfaces)
+    warn_of_doubts(given, ["duplicate_surface"])
     mesh, piece_of, report = _core.select(
-        parts_of_surfaces(as_surfaces(surfaces)), as_text(expression, "expression"), as_word(rule, "rule"),
+        parts_of_surfaces(given), as_text(expression, "expression"), as_word(rule, "rule"),
         as_flag(fractions, "fractions"), as_move(max_move), how(threads, progress))
     return Selected(Mesh(mesh), piece_of, report)

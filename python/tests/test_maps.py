@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Maps of surfaces and blocks: values in closed form, grids written and read, errors."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -31,6 +33,15 @@ def test_thickness_and_distance():
     assert np.all(terrane.map_surface(top, "thickness", to=base, step=1).values == 5)
     distance = terrane.map_surface(top, "distance", to=[base], step=1)
     np.testing.assert_allclose(distance.values[:, :7], 4, rtol=1e-14)  # the feet of the others are off the base
+
+
+def test_units_that_differ_are_a_doubt():
+    metres, feet = (plane(0, 0, 1, unit).replace(frame=terrane.Frame(unit, unit)) for unit in ("m", "ft"))
+    with pytest.warns(terrane.Doubt, match="different units"):
+        terrane.map_surface(metres, "thickness", to=feet, step=5)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        terrane.map_surface(metres, "thickness", to=metres, step=5)
 
 
 def test_thickness_of_blocks_is_volume_over_area():
