@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 //
 // Sections of a model, logs of wells, and blocks in the cells of a grid. Sections are the parts of blocks and surfaces
-// that lie in a plane, in a fence of vertical panels, in horizontal planes, or in any surface that folds over nowhere.
+// that lie in a plane, in a fence of vertical panels, in horizontal planes, or in any surface that lines along one of
+// the axes meet once only.
 //
 // The section surface is one more surface in an exact arrangement of the model's triangles. So
 // (1) the block of each part of the section, and where it ends, are decided without an epsilon, also where the
@@ -63,8 +64,8 @@ Result<SectionSurface> section_levels(const Mesh& mesh, std::span<const double> 
 Result<SectionSurface> section_fence(const Mesh& mesh,
                                      std::span<const std::array<double, 2>> corners);
 
-/// Returns a section along a surface, such as a topography or a fault. `along` and `up` are two of its coordinates: x
-/// and y, y and z, or x and z, those in which most of it is seen, of those in which it folds over nowhere.
+/// Returns a section along a surface, such as a topography or a fault. `along` and `up` are two of its coordinates: x and
+/// y, y and z, or x and z: those in which most of it is seen, of those in which it does not fold over.
 /// Errors: bad_option if it folds over in all three; those of arrange().
 Result<SectionSurface> section_along(const Surface& surface, const Run& run = {});
 

@@ -122,7 +122,9 @@ std::vector<BlockMeasure> measure_blocks(const Mesh& mesh, const Volumes& volume
         }
         for (std::size_t l = 0; l < contacts.size(); ++l) {
             m.above[l].column = std::max(0.0, m.high - contacts[l]);
-            if (m.low > contacts[l]) m.above[l].area = 0; // but for rounding
+            if (m.low < contacts[l]) continue;
+            m.above[l].volume = volumes.measures[v]; // all of it; sums would round
+            if (m.low > contacts[l]) m.above[l].area = 0;
         }
         m.middle = {m.middle.x / area[v], m.middle.y / area[v], m.middle.z / area[v]};
     }

@@ -31,7 +31,8 @@ struct ColumnMaps {
 
 /// Follows the vertical line through the centre of each cell. Which triangles it meets is exact: a line
 /// through an edge or corner counts as moved a little to greater x, and less to greater y, so that it meets
-/// one triangle of those round it. Vertical triangles are not met. Cost: linear in the triangles and in
+/// one triangle of those round it; where it leaves the model so, to smaller x, or to smaller y. The order of what it
+/// meets is exact. Vertical triangles are not met. Cost: linear in the triangles and in
 /// the cells that their boxes cover.
 ColumnMaps column_maps(const Mesh& mesh, const Volumes& volumes, const MapGrid& grid);
 

@@ -111,7 +111,12 @@ ExitStatus map_files(const MapCommand& command, const CLI::App& app, Session& se
     const auto surfaces = std::span(inputs.surfaces).first(mapped);
     const auto to = std::span(inputs.surfaces).subspan(mapped);
     Json statistics = statistics_of(inputs);
-    examine(inputs.surfaces, {}, inputs, session, statistics);
+    auto doubts = find_doubts(inputs.surfaces);
+    std::erase_if(doubts, [](const PlausibilityWarning& w) { // a map makes no blocks
+        return w.doubt == Doubt::duplicate_surface;
+    });
+    add_constants(statistics, "plausibility", plausibility_constants());
+    report_doubts(doubts, inputs.labels, inputs.strict, statistics);
     const auto map = session.timed("map", [&] {
         return map_surface(surfaces, kind, nodes_of(command, surfaces, inputs.labels.front(), app),
                            to, session.run());

@@ -31,18 +31,18 @@ struct SectionCommand {
 };
 
 constexpr auto section_footer =
-    R"(The surfaces are arranged, cut by a volume of interest and rounded as `terrane volume` does, and its options and
-names of blocks are the same. The model is then cut exactly: polygons of blocks, lines of surfaces.
+    R"(The command arranges the surfaces, cuts them by a volume of interest, rounds them and names the blocks as
+`terrane volume` does. Then it cuts the model exactly: polygons of blocks, lines of surfaces.
 
 OUT is a drawing (.svg), a map or table (.geojson, .shp, .dxf, .csv), or the triangles of the section by block in any
 format of surfaces (.vtp, .obj, .ts, ...). Coordinates of a drawing are the distance along the section and the height;
-those of levels, and of a surface that folds over nowhere in the map, are x and y.
+those of levels, and of a surface that is seen from above, are x and y.
 
-Where the section lies upon a surface, the block in front counts, on the side of the normal; of a fence that is the
-right of its way. A section by a surface in the map shows the blocks below, as a geological map does; one by a steep
+Where the section lies upon a surface, the block in front counts, on the side of the normal, or the right of a
+fence. A section by a surface in the map shows the blocks below, as a geological map does; one by a steep
 surface, such as a fault, shows which block touches which.
 
-Without any block or line in the section nothing is written, and the exit status is 1.
+A section without blocks and lines is not written, and the exit status is 1.
 
 Examples:
   terrane section *.ts --box 0,0,-3000,9000,9000,500 --fence 0,0,4000,5000,9000,9000 -o fence.svg
@@ -188,7 +188,8 @@ std::string text_of(const Section& section, const SectionNames& names,
         counted(blocks.size(), "block"), quantities.area(area_of(section)),
         counted(section.lines.size(), "line"), counted(surfaces.size(), "surface"));
     if (section.polygons.empty() && !section.lines.empty())
-        text += "It meets no closed block; a volume of interest, such as --box, closes blocks.\n";
+        text += "The section meets no closed block; a volume of interest, such as --box, closes "
+                "blocks.\n";
     return text;
 }
 

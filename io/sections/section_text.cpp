@@ -16,6 +16,7 @@
 #include <terrane/io/text/json.hpp>
 #include <terrane/io/text/names.hpp>
 #include <terrane/io/text/text.hpp>
+#include <terrane/io/text/utf8.hpp>
 
 namespace terrane {
 
@@ -107,9 +108,13 @@ bool is_map(const Section& section) {
     return true;
 }
 
-Result<std::vector<SectionFile>> section_files(const Section& section, const SectionNames& names,
+Result<std::vector<SectionFile>> section_files(const Section& section, const SectionNames& given,
                                                SectionFormat format) {
     using Files = std::vector<SectionFile>;
+    SectionNames names = given;
+    for (std::string& block : names.blocks) block = as_utf8(block);
+    for (std::string& unit : names.units) unit = as_utf8(unit);
+    for (SurfaceInfo& surface : names.surfaces) surface.name = as_utf8(surface.name);
     switch (format) {
     case SectionFormat::geojson:
         return Files{{".geojson", section_geojson(section, names)}};

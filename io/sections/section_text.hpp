@@ -55,7 +55,8 @@ struct SectionFile {
     std::string contents; ///< all bytes
 };
 
-/// Returns the files of a section in a format; the first is called like the format. Errors: those of section_shapes().
+/// Returns the files of a section in a format; the first is called like the format. Bytes of names that are not UTF-8
+/// become U+FFFD. Errors: those of section_shapes().
 Result<std::vector<SectionFile>> section_files(const Section& section, const SectionNames& names,
                                                SectionFormat format);
 

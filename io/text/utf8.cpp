@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/io/text/utf8.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -22,24 +23,41 @@ Utf8Start utf8_start(unsigned byte) {
     return {1, byte & 31U, 0x80};
 }
 
+/// Returns the number of bytes of the character at the beginning of a text, which is not empty; 0 if it is none.
+std::size_t character_size(std::string_view text) {
+    const unsigned first = static_cast<unsigned char>(text[0]);
+    if (first < 0x80) return 1;
+    if (first < 0xC0 || first >= 0xF8) return 0;
+    const Utf8Start start = utf8_start(first);
+    std::uint32_t code = start.bits;
+    for (std::size_t k = 1; k <= start.more; ++k) {
+        const unsigned byte = k < text.size() ? static_cast<unsigned char>(text[k]) : 0U;
+        if ((byte & 0xC0U) != 0x80) return 0;
+        code = code << 6U | (byte & 0x3FU);
+    }
+    const bool surrogate = code >= 0xD800 && code < 0xE000;
+    return code < start.least || surrogate || code > 0x10FFFF ? 0 : start.more + 1;
+}
+
 } // namespace
 
 bool is_utf8(std::string_view text) {
-    for (std::size_t i = 0; i < text.size();) {
-        const unsigned first = static_cast<unsigned char>(text[i++]);
-        if (first < 0x80) continue;
-        if (first < 0xC0 || first >= 0xF8) return false;
-        const Utf8Start start = utf8_start(first);
-        std::uint32_t code = start.bits;
-        for (std::size_t k = 0; k < start.more; ++k, ++i) {
-            const unsigned byte = i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-            if ((byte & 0xC0U) != 0x80) return false;
-            code = code << 6U | (byte & 0x3FU);
-        }
-        const bool surrogate = code >= 0xD800 && code < 0xE000;
-        if (code < start.least || surrogate || code > 0x10FFFF) return false;
+    while (!text.empty()) {
+        const std::size_t size = character_size(text);
+        if (size == 0) return false;
+        text.remove_prefix(size);
     }
     return true;
+}
+
+std::string as_utf8(std::string_view text) {
+    std::string out;
+    while (!text.empty()) {
+        const std::size_t size = character_size(text);
+        out += size == 0 ? "\xEF\xBF\xBD" : text.substr(0, size); // U+FFFD
+        text.remove_prefix(std::max<std::size_t>(size, 1));
+    }
+    return out;
 }
 
 std::string utf8_of_utf16(std::string_view text) {

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import warnings
 from fractions import Fraction
 from typing import Any, Callable, Dict, List, Optional, Tuple
 
@@ -11,14 +10,13 @@ import numpy as np
 
 from . import _core
 from ._arrays import Float64Array, IndexLists, Path, SurfaceInfo, UInt32Array, as_count, as_flag, as_number, as_word
-from ._errors import doubts_of
 from ._interop import polydata
 from ._mesh import CheckReport, Mesh, OnMesh, Region, Regions, mesh_of, require_conforming
 from ._report import facts
 from ._results import Part, Result, counted
 from ._rounding import RoundingReport, rounding_report
 from ._run import how
-from ._surface import Surface, as_surfaces, parts_of_surfaces, surface_of_parts
+from ._surface import Surface, as_surfaces, parts_of_surfaces, surface_of_parts, warn_of_doubts
 
 
 class Arrangement(Result):
@@ -300,8 +298,7 @@ def arrange(surfaces: Any, *, search: str = "auto", threads: Optional[int] = Non
     """
     given = as_surfaces(surfaces)
     made = _arranged(given, as_word(search, "search"), threads, progress)
-    for doubt in doubts_of(_core.doubts(parts_of_surfaces(given)), _core.unique_labels([(s.name, s.role) for s in given])):
-        warnings.warn(doubt, stacklevel=2)
+    warn_of_doubts(given)
     return made
 
 

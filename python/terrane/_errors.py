@@ -59,8 +59,8 @@ class OutOfMemory(Error, MemoryError):
 class Doubt(UserWarning):
     """A likely mistake in what was passed; nothing was changed.
 
-    `model` and `arrange` warn of it, and `Model.doubts` lists it. ``warnings.simplefilter("error", terrane.Doubt)`` stops
-    at the first, as ``--strict`` of the program does.
+    `model`, `arrange`, `select` and `map_surface` warn of it, and `Model.doubts` lists it.
+    ``warnings.simplefilter("error", terrane.Doubt)`` stops at the first, as ``--strict`` of the program does.
 
     Attributes
     ----------

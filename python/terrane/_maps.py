@@ -12,7 +12,7 @@ from ._arrays import Float64Array, Path, as_format, as_number, as_word, read_onl
 from ._errors import bad_option
 from ._results import Result, counted
 from ._run import how
-from ._surface import as_surfaces, parts_of_surfaces
+from ._surface import as_surfaces, parts_of_surfaces, warn_of_doubts
 
 Nodes = Tuple[str, float, float, float, float, float, int, int]
 
@@ -135,6 +135,11 @@ def map_surface(surfaces: Any, number: str, *, to: Any = None, step: Optional[fl
     like : Map, str or os.PathLike, optional
         A map, or a file with a grid, that has the nodes.
 
+    Warns
+    -----
+    terrane.Doubt
+        For each likely mistake in the surfaces, such as different units.
+
     Raises
     ------
     terrane.Error
@@ -148,8 +153,9 @@ def map_surface(surfaces: Any, number: str, *, to: Any = None, step: Optional[fl
     array([[1., 3.],
            [1., 3.]])
     """
-    given = parts_of_surfaces(as_surfaces(surfaces))
-    other = [] if to is None else parts_of_surfaces(as_surfaces(to))
+    mapped, others = as_surfaces(surfaces), [] if to is None else as_surfaces(to)
+    warn_of_doubts(mapped + others, ["duplicate_surface"])
+    given, other = parts_of_surfaces(mapped), parts_of_surfaces(others)
     word = as_word(number, "number")
-    nodes = nodes_of(given, as_surfaces(surfaces)[0].name, step, like)
+    nodes = nodes_of(given, mapped[0].name if mapped else "", step, like)
     return Map(nodes, *_core.map(given, word, nodes, other, how(threads, progress)))

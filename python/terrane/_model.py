@@ -16,7 +16,7 @@ from ._cells import BlocksInCells, cells_wanted, grid_of
 from ._errors import Doubt, bad_option, doubts_of
 from ._interop import meshio_mesh, package
 from ._maps import Map, nodes_of
-from ._parts import Parts
+from ._parts import Block, Parts
 from ._picture import apart, card, unlike_neighbours
 from ._quality import improve_options
 from ._relations import Juxtaposition, Leak, Relation
@@ -227,8 +227,8 @@ class Model(Parts):
 
         Parameters
         ----------
-        blocks : str, int, or list of these
-            Blocks by name or number, which count as one.
+        blocks : str, int, Block, or list of these
+            Blocks by name or number, or themselves, which count as one.
         step, like : as in `map_surface`
 
         Raises
@@ -244,8 +244,8 @@ class Model(Parts):
         >>> m.map_thickness("above flat", step=2).values.max()
         2.0
         """
-        given = [blocks] if isinstance(blocks, (str, int)) else as_list(blocks, "blocks")
-        chosen = [self.blocks[block] for block in given]
+        given = [blocks] if isinstance(blocks, (str, int, Block)) else as_list(blocks, "blocks")
+        chosen = [self.blocks[block.number if isinstance(block, Block) else block] for block in given]
         nodes = nodes_of(parts_of_surfaces(self.mesh.split()), ", ".join(b.name for b in chosen), step, like)
         return Map(nodes, _core.map_thickness(self._core.mesh, self._core.volumes, [b.number for b in chosen], nodes,
                                               how(threads, progress)))

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _core
 from ._arrays import Float64Array, Path, UInt32Array, as_list, as_number, as_point, as_points, as_text
-from ._errors import bad_option
+from ._errors import Error, bad_option
 from ._mesh import Mesh
 from ._model import Model
 from ._results import Result, by_value, counted
@@ -127,6 +127,11 @@ class Section(Result):
         exaggeration : float, optional
             By which a drawing is stretched vertically.
 
+        Raises
+        ------
+        terrane.Error
+            ``nothing_to_do`` if the section does not meet the model; those of `Mesh.save`.
+
         Examples
         --------
         >>> import os
@@ -135,6 +140,8 @@ class Section(Result):
         >>> os.path.exists("fence.svg")
         True
         """
+        if not self.polygons and not self.lines:
+            raise Error("nothing_to_do", "the section does not meet the model, so nothing is written", str(path))
         if not _core.save_section(self._values, path, as_text(title, "title"),
                                   as_number(exaggeration, "exaggeration", positive=True)):
             self.mesh.save(path)
@@ -167,7 +174,7 @@ def section(model: Model, *, plane: Any = None, fence: Any = None, level: Any = 
     level : float or list of float, optional
         Heights of horizontal planes, seen from above.
     by : str or surface, optional
-        The name of a surface of the model, or any surface that folds over nowhere, as seen along x, y or z.
+        The name of a surface of the model, or any surface that each line along x, or y, or z meets once only.
 
     Raises
     ------

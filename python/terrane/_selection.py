@@ -9,11 +9,12 @@ from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 from . import _core
 from ._arrangement import as_move
 from ._arrays import Path, UInt32Array, as_flag, as_text, as_word
+from ._errors import Error
 from ._mesh import Mesh, OnMesh, require_conforming
 from ._results import counted
 from ._rounding import RoundingReport, rounding_report
 from ._run import how
-from ._surface import as_surfaces, parts_of_surfaces
+from ._surface import as_surfaces, parts_of_surfaces, warn_of_doubts
 
 
 class SelectedPiece(NamedTuple):
@@ -87,7 +88,12 @@ class Selected(OnMesh):
         self.rounding: RoundingReport = rounding_report(report["rounding"])
 
     def save(self, path: Path, format: Optional[str] = None, **options: Any) -> None:
-        """Write the mesh as ``terrane select`` does: only if it is conforming; see `Mesh.save`.
+        """Write the mesh as ``terrane select`` does: only if it is conforming, and there is one; see `Mesh.save`.
+
+        Raises
+        ------
+        terrane.Error
+            ``improper_contact``; ``nothing_to_do`` if nothing is selected; those of `Mesh.save`.
 
         Examples
         --------
@@ -95,6 +101,8 @@ class Selected(OnMesh):
         >>> terrane.select([a, b], "a & b").save("both.stl")
         """
         require_conforming(self.rounding.clean, len(self.rounding.contacts))
+        if not len(self.mesh.triangles):
+            raise Error("nothing_to_do", "nothing is selected, so nothing is written", str(path))
         self.mesh.save(path, format, **options)
 
     def _state(self) -> Tuple[Any, ...]:
@@ -140,6 +148,11 @@ def select(surfaces: Any, expression: str, *, rule: str = "nonzero", fractions: 
     max_move : float, optional
         As in `round`.
 
+    Warns
+    -----
+    terrane.Doubt
+        For each likely mistake in the surfaces, such as different units.
+
     Raises
     ------
     terrane.Error
@@ -157,7 +170,9 @@ def select(surfaces: Any, expression: str, *, rule: str = "nonzero", fractions: 
     >>> terrane.select([a, b], "b - a", fractions=True).exact_volume
     Fraction(7, 1)
     """
+    given = as_surfaces(surfaces)
+    warn_of_doubts(given, ["duplicate_surface"])
     mesh, piece_of, report = _core.select(
-        parts_of_surfaces(as_surfaces(surfaces)), as_text(expression, "expression"), as_word(rule, "rule"),
+        parts_of_surfaces(given), as_text(expression, "expression"), as_word(rule, "rule"),
         as_flag(fractions, "fractions"), as_move(max_move), how(threads, progress))
     return Selected(Mesh(mesh), piece_of, report)

@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _core
 from ._arrays import Float64Array, Path, UInt32Array, as_count, as_flag, as_format, as_points, as_text, as_triangles, as_word
-from ._errors import Error, bad_option
+from ._errors import Error, bad_option, doubts_of
 from ._interop import meshio_mesh, polydata
 from ._modellers import parts_of_vtk, refuse_internal_coordinates, surfaces_of_model
 from ._picture import card
@@ -248,7 +248,11 @@ class Surface:
             return NotImplemented
         names = [s.name if re.fullmatch(r"[\w.]+", s.name) else f"({s.name})" for s in (self, other)]
         operands = [s.replace(name=name)._core for s, name in ((self, "a"), (other, "b"))]
-        made, _, report = _core.select(operands, f"a {operator} b", "nonzero", False, None, how(None, None))
+        try:
+            made, _, report = _core.select(operands, f"a {operator} b", "nonzero", False, None, how(None, None))
+        except Error as error:
+            place = {"a": self.name, "b": other.name}.get(error.place, error.place)
+            raise Error(error.code, error.sentence, place) from None
         if not report["rounding"]["clean"]:
             raise Error("improper_contact", "the boundary is not conforming in doubles; terrane.select() tells where")
         return Surface(made.vertices, made.triangles, f"{names[0]} {operator} {names[1]}", self.role)
@@ -488,6 +492,14 @@ def as_surface(value: Any, name: Optional[str] = None, role: Optional[str] = Non
     points, cells = _data_of(value)
     return Surface(parts[0], parts[1], given if isinstance(given, str) else "",
                    own_role if isinstance(own_role, str) and own_role in ROLES else "unknown", None, points, cells)
+
+
+def warn_of_doubts(surfaces: List[Surface], leave_out: Sequence[str] = ()) -> None:
+    """Warn the caller's caller of likely mistakes in surfaces, but for some kinds."""
+    labels = _core.unique_labels([(s.name, s.role) for s in surfaces])
+    for doubt in doubts_of(_core.doubts(parts_of_surfaces(surfaces)), labels):
+        if doubt.about not in leave_out:
+            warnings.warn(doubt, stacklevel=3)
 
 
 def as_surfaces(value: Any, place: str = "surfaces") -> List[Surface]:

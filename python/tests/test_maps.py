@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Maps of surfaces and blocks: values in closed form, grids written and read, errors."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -33,18 +35,39 @@ def test_thickness_and_distance():
     np.testing.assert_allclose(distance.values[:, :7], 4, rtol=1e-14)  # the feet of the others are off the base
 
 
+def test_units_that_differ_are_a_doubt():
+    metres, feet = (plane(0, 0, 1, unit).replace(frame=terrane.Frame(unit, unit)) for unit in ("m", "ft"))
+    with pytest.warns(terrane.Doubt, match="different units"):
+        terrane.map_surface(metres, "thickness", to=feet, step=5)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        terrane.map_surface(metres, "thickness", to=metres, step=5)
+
+
 def test_thickness_of_blocks_is_volume_over_area():
     model = terrane.model([plane(0.5, 0, 1)], box=((0, 0, 0), (10, 10, 8)))
     below, above = sorted(model.blocks.values(), key=lambda b: b.name != "below plane")
     fine = [model.map_thickness(b.name, step=0.5) for b in (below, above)]
-    inside = np.s_[1:-1, 1:-1]
     x = fine[0].points[..., 0]
-    np.testing.assert_allclose(fine[0].values[inside], (0.5 * x + 1)[inside], rtol=1e-14)
-    np.testing.assert_allclose((fine[0].values + fine[1].values)[inside], 8, rtol=1e-14)
+    np.testing.assert_allclose(fine[0].values, 0.5 * x + 1, rtol=1e-14)
+    np.testing.assert_allclose(fine[0].values + fine[1].values, 8, rtol=1e-14)
     both = model.map_thickness([1, 2], like=fine[0])
-    assert np.all(both.values[inside] == 8) and both.name == "below plane, above plane"
+    assert np.all(both.values == 8) and both.name == "below plane, above plane"
+    assert model.map_thickness([below, above], like=fine[0]) == both
+    assert model.map_thickness(below, step=0.5) == fine[0]
     with pytest.raises(KeyError, match="no block"):
         model.map_thickness("salt", step=1)
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_blocks_are_thick_only_where_they_are_though_surfaces_meet_at_nodes(order):
+    surfaces = [terrane.Surface([(x, y, a * x) for x, y in ((-4, -4), (4, -4), (4, 4), (-4, 4))],
+                                [[0, 1, 2], [0, 2, 3]], name, "horizon") for name, a in (("top", 0.25), ("base", -0.5))]
+    with pytest.warns(terrane.Doubt, match="run through each other"):
+        model = terrane.model(surfaces[::order], box=((-4, -4, -10), (4, 4, 10)))
+    between = model.map_thickness("below top, above base", step=1)
+    x = between.points[..., 0]
+    np.testing.assert_allclose(between.values, 0.75 * np.maximum(x, 0), rtol=1e-14)
 
 
 def test_parts_above_a_contact():
@@ -52,6 +75,7 @@ def test_parts_above_a_contact():
     below, above = model.blocks["below plane"], model.blocks["above plane"]
     assert below.above_contact(1) == (200, 100, 2) and above.above_contact(1) == (500, 0, 7)
     assert below.above_contact(3) == (0, 0, 0) and above.above_contact(7.5) == (50, 100, 0.5)
+    assert below.above_contact(-1e300) == (300, 0, 1e300) and above.above_contact(-1e12).volume == 500
     with pytest.raises(TypeError, match="contact"):
         below.above_contact("deep")
 
@@ -84,3 +108,7 @@ def test_errors():
         terrane.map_surface(top, "height", step=1e-9)
     with pytest.raises(terrane.Error, match="cannot be read"):
         terrane.map_surface(top, "height", like="missing.asc")
+    with pytest.raises(terrane.Error, match="no node"):
+        terrane.map_surface([], "height", step=1)
+    made = terrane.map_surface(iter([plane(0, 0, 1), plane(0, 0, 2)]), "height", step=5)
+    assert np.all(made.values == 2) and made.sheets == 9

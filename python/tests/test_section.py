@@ -101,3 +101,10 @@ def test_what_makes_no_sense_is_refused(model, where):
 def test_needs_a_model():
     with pytest.raises(TypeError):
         terrane.section([FAULT], level=1)
+
+
+def test_what_is_beside_the_model_is_not_written(model, tmp_path):
+    for name in ("beside.svg", "beside.vtp"):
+        with pytest.raises(terrane.Error, match="does not meet the model"):
+            terrane.section(model, level=1e6).save(tmp_path / name)
+    assert not list(tmp_path.iterdir())

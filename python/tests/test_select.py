@@ -116,3 +116,17 @@ def test_program_carries_values():
     status, _, text = run_program("select", "a - b", "a.vtp", "b.vtp", "-o", "out.vtp")
     assert status == 0, text
     assert {s.name: set(s.cell_data["rock"]) for s in terrane.read("out.vtp")} == {"a": {0}, "b": {1}}
+
+
+def test_nothing_is_written_where_nothing_is_selected(tmp_path):
+    with pytest.raises(terrane.Error, match="nothing is selected"):
+        terrane.select([A, B], "a - a").save(tmp_path / "none.obj")
+    assert not list(tmp_path.iterdir())
+
+
+def test_operators_name_the_surface_that_is_open():
+    flat = terrane.Surface([(0, 0, 1), (9, 0, 1), (0, 9, 1)], [[0, 1, 2]], "flat")
+    for combine in (lambda: A - flat, lambda: flat & A):
+        with pytest.raises(terrane.Error) as caught:
+            combine()
+        assert caught.value.place == "flat" and caught.value.code == "not_closed"

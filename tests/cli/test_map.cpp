@@ -180,6 +180,10 @@ TEST_CASE("map: other units of the second surface are named, and standard input 
     const auto converted = folder.run(thickness + " --unit m --strict");
     CHECK(converted.status == 0);
     CHECK(contains(converted.out, "1.3904 m to 1.3904 m"));
+    const auto itself =
+        folder.run("map thickness " + metres + " --to " + metres + " --step 1 -o a.asc --strict");
+    CHECK(itself.err == "");
+    CHECK(contains(itself.out, "0 m to 0 m"));
     CHECK(contains(folder.run("map thickness - --to - --format ts --step 1 -o a.asc").err,
                    "standard input can be read only once"));
     const auto by = folder.run("section " + metres + " --by " + feet + " -o a.svg");

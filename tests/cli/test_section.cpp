@@ -50,7 +50,7 @@ TEST_CASE("cli: section without blocks has lines alone", "[cli]") {
     CHECK(contains(r.out, "contours: 5 lines\n"));
     CHECK(contains(folder.read("out.csv"), "line,,,,slope,2,"));
     const auto lines = folder.run("section " + in + " -o out.dxf --plane 0,4,0,0,1,0");
-    CHECK(contains(lines.out, "1 line of 1 surface\nIt meets no closed block; "));
+    CHECK(contains(lines.out, "1 line of 1 surface\nThe section meets no closed block; "));
     CHECK(folder.run("section " + in + " -o out.obj --plane 0,4,0,0,1,0").status == 2);
     const auto none = folder.run("section " + in + " -o none.svg --level 9");
     CHECK(none.status == 1);

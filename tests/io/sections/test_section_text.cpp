@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <terrane/io/sections/section_text.hpp>
+#include <terrane/io/text/utf8.hpp>
 
 using namespace terrane;
 
@@ -136,4 +137,20 @@ TEST_CASE("section files: drawings of one point, of large numbers and far away e
         section.flat[v] = {5e15 + 2 * double(v), 5e15 + double(v % 2)};
     CHECK(has(section_svg(section, numbered_names(1)), "</svg>"));
     CHECK(has(section_svg(Section{}, numbered_names(1)), "</svg>"));
+}
+
+TEST_CASE("section files: names in Latin-1 become UTF-8 in all formats of text") {
+    SectionNames names = numbered_names(2);
+    names.blocks[1] = "bl\xf6"
+                      "ck";
+    names.units[1] = "gr\xe8s";
+    names.surfaces[0].name = "caf\xe9";
+    names.title = "\xe9t\xe9";
+    for (const auto format :
+         {SectionFormat::svg, SectionFormat::geojson, SectionFormat::csv, SectionFormat::dxf}) {
+        const auto files = section_files(row_of_squares(2), names, format);
+        REQUIRE(files);
+        CHECK(detail::is_utf8(files->front().contents));
+        CHECK(has(files->front().contents, "caf\ufffd"));
+    }
 }

@@ -50,3 +50,16 @@ TEST_CASE("UTF-8: cut characters and single bytes are none") {
     for (unsigned byte = 0x80; byte < 0x100; ++byte)
         CHECK_FALSE(is_utf8(std::string(1, static_cast<char>(byte))));
 }
+
+TEST_CASE("UTF-8: what is none becomes the replacement character, byte by byte") {
+    using terrane::detail::as_utf8;
+    CHECK(as_utf8("") == "");
+    CHECK(as_utf8("caf\u00e9 \u20ac \U0001f30d") == "caf\u00e9 \u20ac \U0001f30d");
+    CHECK(as_utf8("caf\xe9, \xe2\x82") == "caf\ufffd, \ufffd\ufffd");
+    for (unsigned first = 0; first < 0x100; ++first)
+        for (unsigned second = 0; second < 0x100; ++second) {
+            const std::string text{static_cast<char>(first), static_cast<char>(second)};
+            if (!is_utf8(as_utf8(text)) || (is_utf8(text) && as_utf8(text) != text))
+                FAIL(first << " " << second);
+        }
+}
