@@ -10,6 +10,7 @@
 #include <terrane/algorithms/maps/maps.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/sections/sections.hpp>
+#include <terrane/algorithms/selection/selection.hpp>
 #include <terrane/algorithms/tiles/local_supersteps.hpp>
 #include <terrane/algorithms/tiles/names_in_tiles.hpp>
 #include <terrane/algorithms/tiles/tiled_arrangement.hpp>
@@ -283,6 +284,9 @@ std::vector<Stage> cutting() {
         [](const Section& made) {
             return std::to_string(made.polygons.size()) + " " + std::to_string(made.lines.size());
         }));
+    stages.push_back(stage(
+        "select, blocks", [] { return select(f.model, "block(1) | volume > 1"); },
+        [](const Selected& made) { return std::to_string(made.mesh.triangles.size()); }));
     static const Section section = needed(cut_section(*f.mesh, f.volumes, fence));
     static const SectionNames names = names_in(f.model);
     for (const std::string extension : {".svg", ".geojson", ".dxf", ".csv", ".shp"}) {
