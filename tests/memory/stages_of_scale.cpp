@@ -241,7 +241,7 @@ std::vector<Stage> logging() {
     stages.push_back(stage(
         "surveyed_path",
         [] {
-            return surveyed_path("a well with a long name", {0, 0, 9}, stations);
+            return surveyed_path("A", {0, 0, 9}, stations);
         },
         [](const WellPath& made) { return std::to_string(made.points.size()); }));
     for (const auto& [name, text] : {std::pair{"table", &table}, std::pair{"las", &las}})
