@@ -19,7 +19,7 @@
 namespace terrane {
 
 using sections::number_at;
-using sections::Segment;
+using sections::PathSegment;
 using sections::SegmentContact;
 using sections::SegmentSearch;
 using sections::Share;
@@ -99,7 +99,7 @@ private:
     };
 
     void add_segment(std::size_t i) {
-        const Segment segment{path_.points[i], path_.points[i + 1]};
+        const PathSegment segment{path_.points[i], path_.points[i + 1]};
         const auto contacts = search_.contacts(segment);
         std::vector<Share> shares{Share{}, Share{Exact(1.0), Exact(1.0)}};
         for (const SegmentContact& c : contacts) {
@@ -155,7 +155,7 @@ private:
 
     /// Returns the block of a part of a segment that lies on no triangle, by a triangle that it crosses at an end, or
     /// by the piece before.
-    std::uint32_t block_of(const Segment& segment, std::array<const Share*, 2> ends,
+    std::uint32_t block_of(const PathSegment& segment, std::array<const Share*, 2> ends,
                            std::span<const SegmentContact* const> at_first,
                            std::span<const SegmentContact* const> at_second) {
         const auto crossed = [&](std::span<const SegmentContact* const> at,

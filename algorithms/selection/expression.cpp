@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 namespace terrane {
@@ -111,6 +114,8 @@ private:
         const std::size_t first = at_;
         std::string name = take_name();
         if (flaw_) return;
+        if (!is_quoted && (name == "volume" || name == "age") && (peek() == '<' || peek() == '>'))
+            return read_comparison(name == "age" ? Kind::age : Kind::volume);
         if (is_quoted || !take('('))
             return push({std::move(name), is_inside_ ? Kind::inside : Kind::bare});
         if (name == "inside") {
@@ -121,17 +126,35 @@ private:
         }
         const auto side = std::ranges::find(side_functions, name, &SideFunction::name);
         const bool is_side = side != side_functions.end();
-        if (!is_side && name != "hull")
+        const bool is_block = name == "block" || name == "unit";
+        if (!is_side && !is_block && name != "hull")
             return fail("there is no function " + name +
                             "(); there are inside(), hull(), below(), above(), west(), east(), "
-                            "south() and north()",
+                            "south(), north(), block() and unit()",
                         first);
-        std::string surface = take_name();
+        std::string of = take_name();
         if (flaw_) return;
-        push(is_side ? Expression::Operand{std::move(surface), Kind::low_side, side->axis}
-                     : Expression::Operand{std::move(surface), Kind::enclosed});
+        const Kind kind = is_side           ? Kind::low_side
+                          : name == "block" ? Kind::block
+                          : name == "unit"  ? Kind::unit
+                                            : Kind::enclosed;
+        push({std::move(of), kind, is_side ? side->axis : Axis::z});
         if (is_side && !side->is_low) made_.steps.push_back({Action::complement});
-        if (!take(')')) expect("')': " + name + "() takes the name of one surface");
+        if (!take(')'))
+            expect("')': " + name + "() takes the name of one " + (is_block ? name : "surface"));
+    }
+
+    /// Reads what follows "volume" or "age": "< 1e6".
+    void read_comparison(Kind kind) {
+        Expression::Operand operand{kind == Kind::age ? "age" : "volume", kind};
+        operand.is_less = take('<');
+        if (!operand.is_less) take('>');
+        peek();
+        const char* const first = text_.data() + at_;
+        const auto read = std::from_chars(first, text_.data() + text_.size(), operand.number);
+        if (read.ec != std::errc() || !std::isfinite(operand.number)) return expect("a number");
+        at_ += static_cast<std::size_t>(read.ptr - first);
+        push(std::move(operand));
     }
 
     std::string take_name() {
@@ -160,7 +183,8 @@ private:
             return o.kind == Kind::bare ? Kind::inside : o.kind;
         };
         const auto known = std::ranges::find_if(made_.operands, [&](const auto& o) {
-            return o.name == operand.name && kind(o) == kind(operand) && o.axis == operand.axis;
+            return o.name == operand.name && kind(o) == kind(operand) && o.axis == operand.axis &&
+                   o.is_less == operand.is_less && o.number == operand.number;
         });
         made_.steps.push_back(
             {Action::operand, static_cast<std::uint32_t>(known - made_.operands.begin())});

@@ -11,6 +11,7 @@
 #include <terrane/algorithms/mesh/validation.hpp>
 #include <terrane/algorithms/selection/detail/oriented.hpp>
 #include <terrane/algorithms/selection/detail/region.hpp>
+#include <terrane/algorithms/selection/parsed.hpp>
 #include <terrane/algorithms/volumes/exact_volumes.hpp>
 #include <terrane/algorithms/volumes/volumes.hpp>
 
@@ -129,8 +130,17 @@ Mesh Selected::piece(std::uint32_t number) const {
 Result<Selected> select(std::span<const Surface> surfaces, std::string_view expression,
                         const SelectOptions& options, const Run& run) {
     return guarded("for the selection", "select", [&]() -> Result<Selected> {
+        auto parsed = parse_expression(expression);
+        if (!parsed) return parsed.error();
+        return select_parsed(surfaces, std::move(*parsed), options, run);
+    });
+}
+
+Result<Selected> select_parsed(std::span<const Surface> surfaces, Expression expression,
+                               const SelectOptions& options, const Run& run) {
+    return guarded("for the selection", "select", [&]() -> Result<Selected> {
         if (const auto valid = validate(surfaces); !valid) return valid.error();
-        const auto question = question_of(surfaces, expression, options.rule);
+        const auto question = question_of(surfaces, std::move(expression), options.rule);
         if (!question) return question.error();
         return selected(surfaces, *question, options, run);
     });

@@ -157,6 +157,9 @@ std::string text_of(std::span<const WellLog> logs, const SectionNames& names,
 
 void check_outputs(const WellCommand& command) {
     const FileOptions& files = command.model.files;
+    FileOptions inputs = files;
+    inputs.outputs.clear();
+    plan_outputs(inputs, OutputKind::surfaces);
     for (const std::string& path : files.outputs) {
         const WellFormat format = format_of(files, path);
         if (path != "-") check_folder(path);

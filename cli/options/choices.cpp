@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/cli/options/choices.hpp>
 
+#include <charconv>
 #include <cmath>
 #include <string_view>
-
-#include <terrane/cli/options/roles.hpp>
+#include <system_error>
 
 namespace terrane::cli {
 namespace {
@@ -19,10 +19,18 @@ std::string list_of(const std::vector<std::string>& words) {
 
 } // namespace
 
+std::optional<double> parse_number(std::string_view text) {
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [after, failed] = std::from_chars(text.data(), end, number);
+    if (failed != std::errc() || after != end || !std::isfinite(number)) return std::nullopt;
+    return number;
+}
+
 CLI::Validator positive() {
     const auto flaw = [](const std::string& text) -> std::string {
         const auto number = parse_number(text);
-        if (number && *number > 0 && std::isfinite(*number)) return {};
+        if (number && *number > 0) return {};
         return "needs a number above 0, not " + text;
     };
     return CLI::Validator(flaw, "");

@@ -4,7 +4,9 @@
 // completion and manual pages find them.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +19,9 @@ CLI::Option* add_value(CLI::App& app, const std::string& name, T& value,
                        const std::string& placeholder, const std::string& help) {
     return app.add_option(name, value, help)->type_name(placeholder);
 }
+
+/// Reads a finite number that takes up the whole text, in no locale.
+std::optional<double> parse_number(std::string_view text);
 
 /// Checks that a value is a finite number above 0.
 CLI::Validator positive();

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/cli/options/roles.hpp>
 
-#include <charconv>
-#include <cmath>
 #include <map>
-#include <system_error>
 
 #include <terrane/algorithms/mesh/labels.hpp>
-#include <terrane/cli/options/choices.hpp>
 
 namespace terrane::cli {
 namespace {
@@ -40,14 +36,6 @@ void add_roles(CLI::App& command, std::vector<std::string>& roles) {
 
 void set_roles(const std::vector<std::string>& roles, Inputs& inputs) {
     for (const std::string& role : roles) set_role(role, inputs);
-}
-
-std::optional<double> parse_number(std::string_view text) {
-    double number = 0;
-    const char* const end = text.data() + text.size();
-    const auto [after, failed] = std::from_chars(text.data(), end, number);
-    if (failed != std::errc() || after != end || !std::isfinite(number)) return std::nullopt;
-    return number;
 }
 
 std::optional<ProjectSize> parse_named_length(std::string_view text) {

@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include <terrane/algorithms/pipeline/project.hpp>
+#include <terrane/cli/options/choices.hpp>
 #include <terrane/cli/options/files.hpp>
 
 namespace terrane::cli {
@@ -19,9 +20,6 @@ void add_roles(CLI::App& command, std::vector<std::string>& roles);
 
 /// Sets the roles given as NAME=ROLE. Errors: bad_option.
 void set_roles(const std::vector<std::string>& roles, Inputs& inputs);
-
-/// Reads a finite number that takes up the whole text, in no locale.
-std::optional<double> parse_number(std::string_view text);
 
 /// Reads a length for a surface or block, NAME=L, split at the last '='.
 std::optional<ProjectSize> parse_named_length(std::string_view text);

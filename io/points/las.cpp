@@ -88,7 +88,7 @@ private:
 
     MaybeError read_header(std::string_view line) {
         const auto header = header_line(line);
-        if (section_ == 'O' || section_ == ' ') return std::nullopt;
+        if (std::string_view("VWCP").find(section_) == std::string_view::npos) return std::nullopt;
         if (!header) return in_.error(ErrorCode::bad_syntax, "a line of the header has no dot");
         const std::string mnemonic = lower(header->mnemonic);
         if (section_ == 'V') return read_version(mnemonic, header->value);

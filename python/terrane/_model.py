@@ -16,6 +16,7 @@ from ._cells import BlocksInCells, cells_wanted, grid_of
 from ._errors import Doubt, bad_option, doubts_of
 from ._interop import meshio_mesh, package
 from ._maps import Map, nodes_of
+from ._mesh import Mesh
 from ._parts import Block, Parts
 from ._picture import apart, card, unlike_neighbours
 from ._quality import improve_options
@@ -23,6 +24,7 @@ from ._relations import Juxtaposition, Leak, Relation
 from ._results import counted
 from ._rounding import RoundingReport, rounding_report
 from ._run import how
+from ._selection import Selected
 from ._surface import as_surfaces, parts_of_surfaces
 from ._tetrahedra import Tetrahedra, tetrahedralize
 from ._volume_of_interest import as_boundary
@@ -220,6 +222,41 @@ class Model(Parts):
         for name, block in self.blocks.items():
             blocks[name] = block.mesh.to_pyvista()
         return blocks
+
+    def where(self, expression: str, *, others: Any = (), rule: str = "nonzero", fractions: bool = False,
+              max_move: Optional[float] = None, threads: Optional[int] = None, progress: Any = None) -> Selected:
+        """Select a region of the model by an expression over its blocks and surfaces.
+
+        Parameters
+        ----------
+        expression : str
+            As in `select`, with ``block(name)``, ``unit(name)``, ``volume < 1e6``, ``volume > 1e6``, ``age < 66`` and
+            ``age > 66`` as operands besides the surfaces of the model. Blocks may be named by their numbers, too.
+        others : as in `arrange`, optional
+            Surfaces that the expression names besides.
+        rule, fractions, max_move : optional
+            As in `select`.
+
+        Raises
+        ------
+        terrane.Error
+            ``bad_option`` for a name of no block, unit or surface, with those that there are; those of `select`.
+
+        Notes
+        -----
+        The region is closed, and has the surfaces of the model. `parents_of` of its mesh are triangles of the model's mesh,
+        then of `others`.
+
+        Examples
+        --------
+        >>> m = ...
+        >>> m.where('block("above flat") | volume < 5').volume
+        12.0
+        """
+        mesh, piece_of, report = _core.select_of_model(
+            self._core, as_text(expression, "expression"), parts_of_surfaces(as_surfaces(others, "others")),
+            as_word(rule, "rule"), as_flag(fractions, "fractions"), as_move(max_move), how(threads, progress))
+        return Selected(Mesh(mesh), piece_of, report)
 
     def map_thickness(self, blocks: Any, *, step: Optional[float] = None, like: Any = None,
                       threads: Optional[int] = None, progress: Any = None) -> Map:

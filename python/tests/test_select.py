@@ -130,3 +130,27 @@ def test_operators_name_the_surface_that_is_open():
         with pytest.raises(terrane.Error) as caught:
             combine()
         assert caught.value.place == "flat" and caught.value.code == "not_closed"
+
+
+def test_regions_of_a_model():
+    def level(name, z):
+        return terrane.Surface([(-1, -1, z), (9, -1, z), (9, 9, z), (-1, 9, z)], [(0, 1, 2), (0, 2, 3)], name, "horizon")
+
+    model = terrane.model([level("upper", 5), level("lower", 2)], box=((0, 0, 0), (8, 8, 8)),
+                          column=[{"unit": "sand", "surface": "upper", "age": 10}, {"unit": "shale", "surface": "lower", "age": 20},
+                                  {"unit": "salt", "age": 30}])
+    contact = level("contact", 3)
+    for expression, volume in (("unit(sand)", 192), ('block("shale")', 192), ("block(1) | block(2) | block(3)", 512),
+                               ("volume < 150", 128), ("age > 15 & ~unit(salt)", 192), ("unit(shale) & above(contact)", 128),
+                               ("volume > 1 - above(lower)", 128)):
+        made = model.where(expression, others=contact if "contact" in expression else ())
+        assert made.volume == volume and made.rounding.clean, expression
+    made = model.where("unit(shale) & above(contact)", others=[contact])
+    assert [s.name for s in made.mesh.surfaces][-1] == "contact"
+    assert made.mesh.parents_of.values.max() < len(model.mesh.triangles) + 2
+    for expression, sentence in (("unit(snad)", "did you mean sand"), ("block(7)", "no block is called 7"),
+                                 ("~unit(sand)", "has no end"), ("volume < x", "a number")):
+        with pytest.raises(terrane.Error, match=sentence):
+            model.where(expression)
+    with pytest.raises(terrane.Error, match="those of a model"):
+        terrane.select([level("upper", 5)], "block(1)")

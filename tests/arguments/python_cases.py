@@ -235,6 +235,9 @@ METHODS = {
         "block_of": (lambda f: dict(points=[(1, 1, 0)]), {}), "names_of": (lambda f: dict(points=[(1, 1, 0)]), {}),
         "improved": (lambda f: {}, {"edge_length": 2, "passes": 1, "max_deviation": 1e-3}),
         "tetrahedra": (lambda f: {}, {"edge_length": 2, "improve": None, "quality": 1.8}),
+        "where": (lambda f: dict(expression="block(1)"), {
+            "others": lambda f: (f.doubled, {"expression": "block(1) | body"}), "rule": None, "fractions": True,
+            "max_move": None}),
         "map_thickness": (lambda f: dict(blocks=[1], step=0.5), {"step": 0.25, "like": None}),
         "grid": (lambda f: dict(step=0.5), {
             "step": 0.25, "cells": ((2, 2, 2), {"step": None}), "x": [-1, 0, 1], "y": [-1, 0, 1], "z": [-1, 0, 1]}),

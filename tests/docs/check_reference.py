@@ -281,7 +281,7 @@ def check_json(program, findings):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for file in (ROOT / "docs" / "data").iterdir():
-            if file.suffix in (".ts", ".asc", ".obj"):
+            if file.suffix in (".ts", ".asc", ".obj", ".csv"):
                 (folder / file.name).write_bytes(file.read_bytes())
         written = write_json_files(program, folder)
         true = {page: set().union(*(key_paths(json.loads((folder / f).read_text())) for f in files))

@@ -59,6 +59,7 @@ WITHIN = {
     "step": "arrange_in_tiles",
     "validate_options": "fill_by_rbf",
     "visit": "arrange_in_tiles",
+    "select_parsed": "select",
     "section_files": "write_section, svg",
     "section_shapes": "write_section, shp",
     "size_of_file": "judge",

@@ -11,6 +11,7 @@
 #include <terrane/algorithms/maps/maps.hpp>
 #include <terrane/algorithms/model/resolution.hpp>
 #include <terrane/algorithms/sections/sections.hpp>
+#include <terrane/algorithms/selection/selection.hpp>
 #include <terrane/algorithms/tiles/local_supersteps.hpp>
 #include <terrane/algorithms/tiles/names_in_tiles.hpp>
 #include <terrane/algorithms/tiles/tiled_arrangement.hpp>
@@ -283,7 +284,7 @@ std::vector<Stage> logging() {
     stages.push_back(stage(
         "surveyed_path",
         [] {
-            return surveyed_path("a well with a long name", {0, 0, 9}, stations);
+            return surveyed_path("A", {0, 0, 9}, stations);
         },
         [](const WellPath& made) { return std::to_string(made.points.size()); }));
     for (const auto& [name, text] : {std::pair{"table", &table}, std::pair{"las", &las}})
@@ -328,6 +329,9 @@ std::vector<Stage> sections() {
         [](const Section& made) {
             return std::to_string(made.polygons.size()) + " " + std::to_string(made.lines.size());
         }));
+    stages.push_back(stage(
+        "select, blocks", [] { return select(f.model, "block(1) | volume > 1"); },
+        [](const Selected& made) { return std::to_string(made.mesh.triangles.size()); }));
     static const Section section = needed(cut_section(*f.mesh, f.volumes, fence));
     static const SectionNames names = names_in(f.model);
     for (const std::string extension : {".svg", ".geojson", ".dxf", ".csv", ".shp"}) {

@@ -38,7 +38,7 @@ Share share_of(const Exact& above, const Exact& below) {
 }
 
 /// Finds the part of a segment in a triangle in whose plane it lies.
-std::optional<SegmentContact> contact_in_plane(const Segment& s, const ThreePoints& t) {
+std::optional<SegmentContact> contact_in_plane(const PathSegment& s, const ThreePoints& t) {
     if (collinear(t[0], t[1], t[2])) return std::nullopt;
     const Axis axis = projection_axis(t[0], t[1], t[2]);
     const bool turns_left = orient2d(axis, t[0], t[1], t[2]) == Sign::Positive;
@@ -65,7 +65,7 @@ std::optional<SegmentContact> contact_in_plane(const Segment& s, const ThreePoin
     return contact;
 }
 
-std::optional<SegmentContact> contact_of(const Segment& s, const ThreePoints& t) {
+std::optional<SegmentContact> contact_of(const PathSegment& s, const ThreePoints& t) {
     const Sign a = orient3d(t[0], t[1], t[2], s.a), b = orient3d(t[0], t[1], t[2], s.b);
     if (a == b) return a == Sign::Zero ? contact_in_plane(s, t) : std::nullopt;
     const std::array turns{orient3d(s.a, s.b, t[0], t[1]), orient3d(s.a, s.b, t[1], t[2]),
@@ -80,7 +80,7 @@ std::optional<SegmentContact> contact_of(const Segment& s, const ThreePoints& t)
     return SegmentContact{at, at, 0, !has(Sign::Zero), a, b};
 }
 
-ExactPoint point_at(const Segment& s, const Share& share) {
+ExactPoint point_at(const PathSegment& s, const Share& share) {
     const auto a = exact(s.a), b = exact(s.b);
     const auto at = [&](const Exact& p, const Exact& q) {
         return p * share.below + (q - p) * share.above;
@@ -186,7 +186,7 @@ void SegmentSearch::for_near(const Point3& low, const Point3& high, const Visit&
     }
 }
 
-std::vector<SegmentContact> SegmentSearch::contacts(const Segment& segment) const {
+std::vector<SegmentContact> SegmentSearch::contacts(const PathSegment& segment) const {
     const auto& [a, b] = segment;
     std::vector<SegmentContact> found;
     for_near({std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
@@ -199,7 +199,7 @@ std::vector<SegmentContact> SegmentSearch::contacts(const Segment& segment) cons
     return found;
 }
 
-std::uint32_t SegmentSearch::block_between(const Segment& segment, const Share& s,
+std::uint32_t SegmentSearch::block_between(const PathSegment& segment, const Share& s,
                                            const Share& t) const {
     const ExactPoint p =
         point_at(segment, {s.above * t.below + t.above * s.below, Exact(2.0) * s.below * t.below});

@@ -15,7 +15,7 @@
 namespace terrane::sections {
 
 /// A segment between two different points.
-struct Segment {
+struct PathSegment {
     Point3 a, b;
 };
 
@@ -49,7 +49,7 @@ public:
     SegmentSearch(const Mesh& mesh, const Volumes& volumes);
 
     /// Returns all contacts of a segment, in no order. Triangles without area have none.
-    [[nodiscard]] std::vector<SegmentContact> contacts(const Segment& segment) const;
+    [[nodiscard]] std::vector<SegmentContact> contacts(const PathSegment& segment) const;
 
     /// Returns the block on a side of a triangle.
     [[nodiscard]] std::uint32_t block(std::uint32_t triangle, Sign side) const {
@@ -59,7 +59,7 @@ public:
     }
     /// Returns the block around the point of a segment half way between two shares, which lies on no triangle: the one
     /// below the lowest triangle above it, on a vertical line that is shifted by (e, e^2) for an infinitely small e.
-    [[nodiscard]] std::uint32_t block_between(const Segment& segment, const Share& s,
+    [[nodiscard]] std::uint32_t block_between(const PathSegment& segment, const Share& s,
                                               const Share& t) const;
 
 private:

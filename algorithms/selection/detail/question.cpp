@@ -47,13 +47,11 @@ bool Question::is_inside(int winding) const {
     }
 }
 
-Result<Question> question_of(std::span<const Surface> surfaces, std::string_view text,
+Result<Question> question_of(std::span<const Surface> surfaces, Expression expression,
                              InsideRule rule) {
-    auto parsed = parse_expression(text);
-    if (!parsed) return parsed.error();
     const auto infos = infos_of(surfaces);
     const auto labels = unique_labels(infos);
-    Question question{std::move(*parsed),
+    Question question{std::move(expression),
                       {},
                       std::vector<std::uint32_t>(surfaces.size(), no_index),
                       {},
@@ -62,6 +60,9 @@ Result<Question> question_of(std::span<const Surface> surfaces, std::string_view
     const auto& operands = question.expression.operands;
     for (std::uint32_t k = 0; k < operands.size(); ++k) {
         const auto& name = operands[k].name;
+        if (question.expression.is_of_blocks(k))
+            return of_expression("block(), unit(), volume and age are those of a model, and there "
+                                 "are surfaces alone");
         question.surfaces_of.push_back(surfaces_called(name, infos, labels));
         if (question.surfaces_of[k].empty())
             return of_expression(not_called("surface", name, labels));

@@ -7,7 +7,6 @@
 #include <map>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <terrane/algorithms/core/result.hpp>
@@ -40,8 +39,8 @@ struct Question {
     [[nodiscard]] bool is_inside(int winding) const;
 };
 
-/// Reads the expression, and finds the surfaces that it names. Errors: bad_option.
-Result<Question> question_of(std::span<const Surface> surfaces, std::string_view text,
+/// Finds the surfaces that an expression names. Errors: bad_option.
+Result<Question> question_of(std::span<const Surface> surfaces, Expression expression,
                              InsideRule rule);
 
 /// The answers of a question for cells, which are told apart by the operands that hold there.

@@ -74,7 +74,8 @@ TEST_CASE("expression: flaws are named with their column") {
     CHECK(flaw_of("a & \"\"") == "expression, column 5: a name may not be empty");
     CHECK(flaw_of("a & near(b)") == "expression, column 5: there is no function near(); there are "
                                     "inside(), hull(), below(), above(), "
-                                    "west(), east(), south() and north()");
+                                    "west(), east(), south(), north(), block() and unit()");
+    CHECK(flaw_of("volume < b") == "expression, column 10: expected a number, not 'b'");
     CHECK(flaw_of("below(a | b)") ==
           "expression, column 9: expected ')': below() takes the name of one surface, not '|'");
     CHECK(flaw_of("hull()") == "expression, column 6: expected a name, '(' or '~', not ')'");
