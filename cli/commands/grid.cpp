@@ -99,6 +99,10 @@ struct CellOutput {
 };
 
 std::vector<CellOutput> plan_cell_outputs(const FileOptions& files) {
+    FileOptions others = files; // the formats of inputs are checked with those of no output
+    others.outputs.clear();
+    others.output_format.clear();
+    plan_outputs(others, OutputKind::surfaces);
     std::vector<CellOutput> outputs;
     for (const std::string& path : files.outputs) {
         const auto extension = files.output_format.empty()

@@ -73,6 +73,10 @@ PillarOptions options_of(const PillarCommand& command, const std::vector<Surface
 }
 
 void check_pillar_outputs(const FileOptions& files) {
+    FileOptions others = files; // the formats of inputs are checked with those of no output
+    others.outputs.clear();
+    others.output_format.clear();
+    plan_outputs(others, OutputKind::surfaces);
     for (const std::string& path : files.outputs) {
         const auto extension = files.output_format.empty()
                                    ? std::filesystem::path(path).extension().string()

@@ -57,6 +57,10 @@ void check_surfaces(const Inputs& inputs) {
 }
 
 std::vector<Output> plan_prism_outputs(const FileOptions& files) {
+    FileOptions others = files; // the formats of inputs are checked with those of no output
+    others.outputs.clear();
+    others.output_format.clear();
+    plan_outputs(others, OutputKind::surfaces);
     std::vector<Output> outputs;
     for (const std::string& path : files.outputs) {
         const auto extension = files.output_format.empty()

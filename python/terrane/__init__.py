@@ -59,7 +59,7 @@ for _name in ("tetgen", "gmsh"):
 __version__: str = _core.version
 
 __all__ = [
-    "Arrangement", "Block", "BlockOutcome", "BlockParts", "BlockVolume", "Blocks", "BorderLoop", "Built", "BlocksInCells", "CheckReport", "ClosedGap",
+    "Arrangement", "Block", "BlockOutcome", "BlockParts", "BlockVolume", "Blocks", "BlocksInCells", "BorderLoop", "Built", "CheckReport", "ClosedGap",
     "Contact", "Corner", "Doubt", "ERROR_CODES", "Ensemble", "Error", "Failure", "FillReport", "Filled", "FilledHole", "Frame",
     "HAS_REPORTS", "Improved", "IndexLists", "Interface", "InterfaceParts", "JudgedProperty", "Juxtaposed", "Juxtaposition", "LayerReport", "Layered",
     "Leak", "Line", "Map", "Mesh", "MeshJudgement", "Model", "NO_INDEX", "OpenBorder", "OpenGap", "OutOfMemory", "OutOfOrder",
