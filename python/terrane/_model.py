@@ -250,8 +250,8 @@ class Model(Parts):
         Examples
         --------
         >>> m = ...
-        >>> m.where('block("above flat") | volume < 5').volume
-        12.0
+        >>> m.where('block("above flat")').volume
+        32.0
         """
         mesh, piece_of, report = _core.select_of_model(
             self._core, as_text(expression, "expression"), parts_of_surfaces(as_surfaces(others, "others")),

@@ -256,6 +256,6 @@ METHODS = {
 }
 
 #: Classes that functions return, made of the module's own objects: their constructors are nobody's.
-RETURNED = {"Arrangement", "RoundedMesh", "Mesh", "Regions", "CheckReport", "Volumes", "Structure", "Filled", "Layered", "Selected", "Map", "Section", "BlocksInCells", "Model",
+RETURNED = {"Arrangement", "RoundedMesh", "Mesh", "Regions", "CheckReport", "Volumes", "Structure", "Filled", "Layered", "Selected", "Map", "Section", "WellLog", "BlocksInCells", "Model",
             "Block", "Blocks", "Interface", "Tetrahedra", "Built", "Improved", "Sealed", "VolumeOfInterest", "Ensemble",
             "OutOfMemory", "Doubt"}
