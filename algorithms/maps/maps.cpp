@@ -148,7 +148,10 @@ public:
             add_distances();
         } else if (kind == MapKind::thickness) {
             const auto other = highest_points(to_, map_.grid);
-            for (std::size_t k = 0; k < values.size(); ++k) values[k] = at_.z[k] - other.z[k];
+            for (std::size_t k = 0; k < values.size(); ++k) {
+                values[k] = at_.z[k] - other.z[k];
+                if (other.several[k]) at_.several[k] = true;
+            }
         } else {
             for (std::size_t k = 0; k < values.size(); ++k) values[k] = value_at(k, kind);
         }

@@ -60,12 +60,13 @@ InputPoint input_point(const PointStore& points, PointIndex p) {
 }
 
 /// Returns the side of a directed edge on which a point is in the projection; a point on its line is shifted by
-/// (e, e^2) for an infinitely small e. Zero only if the ends coincide.
-Sign turn(Axis axis, const InputPoint& a, const InputPoint& b, const ExactPoint& p) {
+/// (e, e^2) for an infinitely small e, or by its opposite. Zero only if the ends coincide.
+Sign turn(Axis axis, const InputPoint& a, const InputPoint& b, const ExactPoint& p, bool opposite) {
     if (const Sign s = exact_sign(polynomial::orient2d(axis, a, b, p)); s != Sign::Zero) return s;
     const auto d = polynomial::difference(axis, b, a);
     const Sign first = -exact_sign(d.v);
-    return first != Sign::Zero ? first : exact_sign(d.u);
+    const Sign shifted = first != Sign::Zero ? first : exact_sign(d.u);
+    return opposite ? -shifted : shifted;
 }
 
 /// Whether a convex polygon has area.
@@ -120,16 +121,18 @@ std::optional<ExactPoint> point_in_overlap(const PointStore& points, Axis axis,
 
 } // namespace
 
-std::uint8_t SidedSurface::along_line(const ExactPoint& place,
-                                      std::span<const std::uint32_t> near) const {
+std::uint8_t SidedSurface::along_line(const ExactPoint& place, std::span<const std::uint32_t> near,
+                                      bool opposite) const {
     const PointStore& points = exact_.state->points;
     int above = 0, below = 0;
     for (const std::uint32_t p : near) {
         const Triangle& corners = exact_.input_corners()[p];
         const InputPoint a = input_point(points, corners[0]), b = input_point(points, corners[1]),
                          c = input_point(points, corners[2]);
-        const Sign side = turn(axis_, a, b, place);
-        if (turn(axis_, b, c, place) != side || turn(axis_, c, a, place) != side) continue;
+        const Sign side = turn(axis_, a, b, place, opposite);
+        if (turn(axis_, b, c, place, opposite) != side ||
+            turn(axis_, c, a, place, opposite) != side)
+            continue;
         const bool is_above = exact_sign(polynomial::orient3d(a, b, c, place)) != side;
         (is_above ? above : below) += (side == Sign::Positive) == (upper_[p] > 0) ? 1 : -1;
     }
@@ -147,10 +150,11 @@ std::uint8_t SidedSurface::along_lines(std::uint32_t triangle,
     std::vector<std::uint32_t> over; // what overlaps the triangle
     unsigned passages = 0;           // bits: up above it, down above it, up below it, down below it
     const unsigned unknown = 0b1111;
+    bool is_line = false; // as seen along the axis
     {
         const UpwardRounding upward;
-        if (points.orient2d(upward, axis_, corners[0], corners[1], corners[2]) == Sign::Zero)
-            passages = unknown; // lines are shifted off a triangle that is seen as one
+        is_line = points.orient2d(upward, axis_, corners[0], corners[1], corners[2]) == Sign::Zero;
+        if (is_line) passages = unknown; // lines are shifted off it
         for (const std::uint32_t p : near) {
             const Corners other = exact_.input_corners()[p];
             if (!overlap(upward, points, axis_, corners, other)) continue;
@@ -175,8 +179,11 @@ std::uint8_t SidedSurface::along_lines(std::uint32_t triangle,
     std::uint8_t sides = no_side;
     for (std::size_t i = 0; i < over.size(); ++i)
         if (const auto place =
-                point_in_overlap(points, axis_, corners, exact_.input_corners()[over[i]]))
-            sides |= along_line(*place, passed[i]);
+                point_in_overlap(points, axis_, corners, exact_.input_corners()[over[i]])) {
+            unsigned told = along_line(*place, passed[i], false);
+            if (is_line) told &= along_line(*place, passed[i], true); // the surface may end there
+            sides |= static_cast<std::uint8_t>(told);
+        }
     return sides;
 }
 

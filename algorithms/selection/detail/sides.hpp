@@ -9,7 +9,8 @@
 // (3) One that does not touch the surface is on its lower side if lines along the axis pass through the surface above
 //     the part only, and on its upper side if below the part only. Passages up and down through the same surface cancel
 //     out. There is a line for each two triangles, of the part's boundary and of the surface, that overlap as seen
-//     along the axis, so that the answer depends neither on the order of triangles nor on how the part is divided.
+//     along the axis, so that the answer depends neither on the order of triangles nor on how the part is divided. A
+//     triangle that is seen as a line counts where lines on both of its sides say the same.
 // (4) A part that is on both sides, as the surface ends inside of it, or on none, is an error.
 #pragma once
 
@@ -54,7 +55,7 @@ private:
     [[nodiscard]] std::uint8_t along_lines(std::uint32_t triangle,
                                            std::span<const std::uint32_t> near) const;
     [[nodiscard]] std::uint8_t along_line(const ExactPoint& place,
-                                          std::span<const std::uint32_t> near) const;
+                                          std::span<const std::uint32_t> near, bool opposite) const;
 
     const Arrangement& exact_;
     const std::vector<bool>& surfaces_;

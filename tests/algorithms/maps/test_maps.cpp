@@ -102,6 +102,8 @@ TEST_CASE("maps: the highest of several sheets counts, and each node is counted"
     }
     CHECK(high == 18);
     CHECK(map.sheets == 18); // with those on borders
+    CHECK(mapped(plane(9, 0, 0), MapKind::thickness, 20, {two}).sheets == 18);
+    CHECK(mapped(plane(9, 0, 0), MapKind::distance, 20, {two}).sheets == 0);
 }
 
 TEST_CASE("maps: thickness within a box", "[maps]") {

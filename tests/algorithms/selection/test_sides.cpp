@@ -257,6 +257,16 @@ TEST_CASE("select: a part that reaches round the end of a surface is on no side 
     CHECK(picked(s, "deep & above(t)").pieces.empty());
 }
 
+TEST_CASE("select: a part that only borders on lines through a surface is on no side of it") {
+    const std::vector<Surface> s{level(0, 0, 0, 4, 4, "t"), box({1, 4, -3}, {2, 5, -2}, "north"),
+                                 box({1, -1, -3}, {2, 0, -2}, "south"),
+                                 box({4, 1, -3}, {5, 2, -2}, "east"),
+                                 box({-1, 1, -3}, {0, 2, -2}, "west")};
+    for (const std::string body : {"north", "south", "east", "west"})
+        CHECK(refusal(s, "\"" + body + "\" & below(t)").find("is neither below nor above it") !=
+              std::string::npos);
+}
+
 TEST_CASE("select: what lies on a boundary is inside, what lies on a surface is below it") {
     const std::vector<Surface> s{cube(0, 2, "a"), level(0, -1, -1, 3, 3, "f"),
                                  level(0, 0, 0, 1, 1, "t")};
