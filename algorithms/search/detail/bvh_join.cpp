@@ -50,27 +50,57 @@ struct Task {
     }
 };
 
-/// Tells whether boxes that are not turned say little of the triangles: whether a sample of the leaves has
-/// many times more pairs than triangles that meet their neighbours only.
-bool say_little(const PackedTree& a, const PackedTree& b, const Task& task) {
-    constexpr std::size_t few = 512, samples = 64, many = 24, most_per_leaf = 8 * 2048;
-    const std::size_t triangles = a.indices().size() + (&a == &b ? 0 : b.indices().size());
-    if (!task.turns || triangles < few) return false;
-    struct Count {
+/// Calls visit(i, j) for the pairs of a sample of the leaves, for each leaf up to a number. Returns the number of
+/// these leaves.
+template <class Visit>
+std::size_t sample_pairs(const PackedTree& a, const PackedTree& b, const Task& task,
+                         std::size_t most_per_leaf, const Visit& visit) {
+    constexpr std::size_t samples = 64;
+    struct Report {
         const Task& task;
-        std::size_t& pairs;
-        std::size_t end;
+        const Visit& visit;
+        std::size_t& left;
 
         void operator()(std::uint32_t i, std::uint32_t j, bool inside) const {
-            if (task.is_pair(i, j, inside)) ++pairs;
+            if (left == 0 || !task.is_pair(i, j, inside)) return;
+            --left;
+            visit(i, j);
         }
-        [[nodiscard]] bool is_full() const { return pairs >= end; }
+        [[nodiscard]] bool is_full() const { return left == 0; }
     };
     const std::size_t step = std::max<std::size_t>(4, a.leaf_count() / samples);
-    std::size_t pairs = 0, leaves = 0;
-    for (std::size_t l = 0; l < a.leaf_count(); l += step, ++leaves)
-        a.join(static_cast<std::uint32_t>(l), b, Count{task, pairs, pairs + most_per_leaf});
-    return pairs * a.leaf_count() > many * triangles * leaves;
+    std::size_t leaves = 0;
+    for (std::size_t l = 0; l < a.leaf_count(); l += step, ++leaves) {
+        std::size_t left = most_per_leaf;
+        a.join(static_cast<std::uint32_t>(l), b, Report{task, visit, left});
+    }
+    return leaves;
+}
+
+/// Tells whether boxes that are not turned say little of the triangles: whether a sample of the leaves has many
+/// more pairs than triangles that meet their neighbours only, and turned boxes show nearly all of them to be apart.
+bool say_little(const PackedTree& a, const PackedTree& b, const Task& task) {
+    constexpr std::size_t few = 512, many = 24, share = 8;
+    const std::size_t triangles = a.indices().size() + (&a == &b ? 0 : b.indices().size());
+    if (!task.turns || triangles < few) return false;
+    std::size_t pairs = 0;
+    const std::size_t leaves = sample_pairs(a, b, task, std::size_t{8} * 2048,
+                                            [&](std::uint32_t, std::uint32_t) { ++pairs; });
+    if (pairs * a.leaf_count() <= many * triangles * leaves) return false;
+    const UnitMap map(task.boxes, a.indices(), b.indices());
+    const auto turned = [&](std::uint32_t t) {
+        const Triangle& c = task.boxes.triangles()[t];
+        const auto points = task.boxes.points();
+        const std::array corners{
+            std::array{map(points[c[0]]), map(points[c[1]]), map(points[c[2]])}};
+        return turned_box({&corners, 1});
+    };
+    std::size_t together = 0, tested = 0;
+    sample_pairs(a, b, task, std::size_t{8} * 128, [&](std::uint32_t i, std::uint32_t j) {
+        ++tested;
+        if (!turned(i).is_apart(turned(j), map.room())) ++together;
+    });
+    return tested > share * together;
 }
 
 /// Adds the pairs of two trees that the filter accepts, but for those that turned boxes show to be apart.
@@ -220,15 +250,15 @@ void join_itself(const Selection& selection, const PackedTree& tree, const Task&
     auto parts = join_limited(tree, task, most_per_leaf, !turns);
     for (const LimitedPairs& part : parts)
         busy.insert(busy.end(), part.busy.begin(), part.busy.end());
+    const Run again = without_progress(task.run); // which has told of all leaves already
     if (busy.empty()) {
-        if (turns) return join_turned(tree, tree, task, blocks);
+        if (turns) return join_turned(tree, tree, task.with(again), blocks);
         for (LimitedPairs& part : parts) blocks.push_back(std::move(part.pairs));
         return;
     }
     parts.clear();
     std::sort(busy.begin(), busy.end());
     const auto crowds = with_crowds(task, find_crowds(busy));
-    const Run again = without_progress(task.run); // which has told of all leaves already
     join_itself(PackedTree(selection, crowds),
                 {task.boxes, task.groups, crowds, task.filter, again, task.turns}, blocks);
 }

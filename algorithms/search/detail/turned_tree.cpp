@@ -75,7 +75,19 @@ Axes axes_along(std::span<const Corners> triangles) {
     return are_orthonormal(axes) ? axes : plain_axes;
 }
 
-TurnedBox box_round(std::span<const Corners> triangles) {
+/// Returns the label of all triangles, or no_group.
+std::uint32_t common_label(std::span<const std::uint32_t> labels,
+                           std::span<const std::uint32_t> triangles) {
+    if (labels.empty()) return no_group;
+    const std::uint32_t first = labels[triangles[0]];
+    for (const std::uint32_t t : triangles)
+        if (labels[t] != first) return no_group;
+    return first;
+}
+
+} // namespace
+
+TurnedBox turned_box(std::span<const Corners> triangles) {
     TurnedBox box{axes_along(triangles), {}, {}};
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Vector low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
@@ -92,18 +104,6 @@ TurnedBox box_round(std::span<const Corners> triangles) {
     }
     return box;
 }
-
-/// Returns the label of all triangles, or no_group.
-std::uint32_t common_label(std::span<const std::uint32_t> labels,
-                           std::span<const std::uint32_t> triangles) {
-    if (labels.empty()) return no_group;
-    const std::uint32_t first = labels[triangles[0]];
-    for (const std::uint32_t t : triangles)
-        if (labels[t] != first) return no_group;
-    return first;
-}
-
-} // namespace
 
 UnitMap::UnitMap(const BoxSource& source, std::span<const std::uint32_t> chosen,
                  std::span<const std::uint32_t> others) {
@@ -188,7 +188,7 @@ TurnedTree::TurnedTree(const BoxSource& source, std::span<const std::uint32_t> c
     }
     for (Node& node : nodes_) {
         const std::uint32_t count = node.end - node.first;
-        node.box = box_round(std::span(all).subspan(node.first, count));
+        node.box = turned_box(std::span(all).subspan(node.first, count));
         const auto triangles = std::span(order_).subspan(node.first, count);
         node.group = common_label(labels_.groups, triangles);
         node.crowd = common_label(labels_.crowds, triangles);

@@ -59,6 +59,9 @@ struct TurnedBox {
     [[nodiscard]] bool is_apart(const TurnedBox& o, double room) const;
 };
 
+/// Returns a box round triangles, whose corners are in units of a UnitMap.
+TurnedBox turned_box(std::span<const std::array<Vector, 3>> triangles);
+
 /// The triangles that a join leaves out with each other; empty for none.
 struct Labels {
     std::span<const std::uint32_t> groups, crowds; ///< per triangle of the source, or no_group

@@ -51,11 +51,26 @@ Soup mapped(const Soup& soup, const std::function<Point3(const Point3&)>& map) {
     return copy;
 }
 
-/// Checks that a search leaves out only pairs that are apart, whatever the rounding of their points: pairs that
-/// do not meet where each point is moved to its neighbours either. Returns the number of pairs left out.
-std::size_t check(const Soup& soup, bool moves = false) {
+/// Returns the pairs of one tree with itself.
+Pairs pairs_of_tree(const Soup& soup) {
+    std::vector<std::uint32_t> all(soup.triangles.size());
+    std::iota(all.begin(), all.end(), 0U);
+    const search::UnitMap map(soup.source(), all);
+    const search::TurnedTree tree(soup.source(), all, {}, map);
+    Pairs found;
+    for (std::size_t l = 0; l < tree.leaf_count(); ++l)
+        tree.join(l, tree, [&](std::uint32_t f, std::uint32_t g) {
+            found.push_back({std::min(f, g), std::max(f, g)});
+        });
+    std::ranges::sort(found);
+    REQUIRE(std::ranges::adjacent_find(found) == found.end());
+    return found;
+}
+
+/// Checks that only pairs are left out that are apart, whatever the rounding of their points: pairs that do not
+/// meet where each point is moved to its neighbours either. Returns the number of pairs left out.
+std::size_t check(const Soup& soup, const Pairs& found, bool moves = false) {
     const Pairs all = candidate_pairs(soup.source(), {}, Search::brute);
-    const Pairs found = candidate_pairs(soup.source(), {}, Search::bvh);
     REQUIRE(std::ranges::includes(all, found));
     Pairs left_out;
     std::ranges::set_difference(all, found, std::back_inserter(left_out));
@@ -71,6 +86,10 @@ std::size_t check(const Soup& soup, bool moves = false) {
             moved.points[i] = nudged(random, soup.points[i]);
     }
     return left_out.size();
+}
+
+std::size_t check_tree(const Soup& soup, bool moves = false) {
+    return check(soup, pairs_of_tree(soup), moves);
 }
 
 /// Triangles between points of a lattice, which touch, overlap in planes and share corners often; most are
@@ -128,7 +147,9 @@ TEST_CASE("turned boxes: long thin solids have few candidates, and none is missi
             Surface s = thin_solids::solid(name, 4000);
             if (shuffled) thin_solids::shuffle(s);
             const Soup soup = soup_of(s);
-            const std::size_t left_out = check(soup);
+            const std::size_t left_out =
+                check(soup, candidate_pairs(soup.source(), {}, Search::bvh));
+            check_tree(soup);
             if (std::string(name) == "fans") continue; // their triangles share tips
             CHECK(left_out > 50 * soup.triangles.size());
             const Surface large = thin_solids::solid(name, 20000);
@@ -165,14 +186,14 @@ TEST_CASE("turned boxes: lattices, whatever their scale and place") {
     Random random(91);
     for (int k = 0; k < 2; ++k) {
         const Soup soup = lattice_soup(random, 700);
-        CHECK(check(soup) > 0);
+        CHECK(check_tree(soup) > 0);
         for (const double scale : {1e-150, 1e150, 0x1p-1074, 0x1p1020}) {
             INFO(scale);
-            check(mapped(soup, [&](const Point3& p) {
+            check_tree(mapped(soup, [&](const Point3& p) {
                 return Point3{scale * p.x, scale * p.y, scale * p.z};
             }));
         }
-        CHECK(check(mapped(soup, [](const Point3& p) {
+        CHECK(check_tree(mapped(soup, [](const Point3& p) {
                   return Point3{512345.5 + p.x / 3, 4212345.25 + p.y / 7 + p.x / 9,
                                 p.z / 5 - p.y / 3};
               })) > 0);
@@ -183,9 +204,9 @@ TEST_CASE("turned boxes: needles at the distance of an ulp") {
     Random random(92);
     for (const double far : {0.0, 512345.25, 1e12}) {
         INFO(far);
-        check(near_needles(random, 350, far), true);
+        check_tree(near_needles(random, 350, far), true);
     }
-    CHECK(check(near_needles(random, 350, 0)) > 10000);
+    CHECK(check_tree(near_needles(random, 350, 0)) > 10000);
 }
 
 TEST_CASE("turned boxes contain their triangles, and are apart only if all of them are") {
