@@ -89,8 +89,8 @@ std::uint32_t common_label(std::span<const std::uint32_t> labels,
 
 TurnedBox turned_box(std::span<const Corners> triangles) {
     TurnedBox box{axes_along(triangles), {}, {}};
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Vector low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+    constexpr double far = std::numeric_limits<double>::infinity();
+    Vector low{far, far, far}, high{-far, -far, -far};
     for (const Corners& c : triangles)
         for (const Vector& p : c)
             for (unsigned k = 0; k < 3; ++k) {
@@ -107,8 +107,8 @@ TurnedBox turned_box(std::span<const Corners> triangles) {
 
 UnitMap::UnitMap(const BoxSource& source, std::span<const std::uint32_t> chosen,
                  std::span<const std::uint32_t> others) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Vector low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+    constexpr double far = std::numeric_limits<double>::infinity();
+    Vector low{far, far, far}, high{-far, -far, -far};
     for (const auto& part : {chosen, others})
         for (const std::uint32_t t : part) {
             const Box box = source[t];
@@ -124,7 +124,7 @@ UnitMap::UnitMap(const BoxSource& source, std::span<const std::uint32_t> chosen,
         extent = std::max(extent, half);
         largest = std::max({largest, std::fabs(low[k]), std::fabs(high[k])});
     }
-    if (!(extent > 0x1p-900 && extent < infinity)) return;
+    if (!(extent > 0x1p-900 && extent < far)) return;
     factor_ = 1 / extent;
     room_ += 0x1p-47 * (largest * factor_);
 }
