@@ -55,6 +55,27 @@ bool overlap(UpwardWitness upward, const PointStore& points, Axis axis, const Co
            (own == Sign::Zero || !is_beyond(other, triangle, own));
 }
 
+/// Whether a triangle that is seen as a line runs through the inside of another one that it overlaps.
+bool runs_through(UpwardWitness upward, const PointStore& points, Axis axis, const Corners& line,
+                  const Corners& other) {
+    const Sign its = points.orient2d(upward, axis, other[0], other[1], other[2]);
+    bool has_corners_on_both_sides = false; // the other one, of the line
+    for (unsigned i = 0; i < 3; ++i) {
+        const unsigned j = (i + 1) % 3;
+        const auto side_of = [&](const Corners& edge, PointIndex p) {
+            return points.orient2d(upward, axis, edge[i], edge[j], p);
+        };
+        if (std::ranges::all_of(line, [&](PointIndex p) { return side_of(other, p) != its; }))
+            return false;
+        const auto lies = [&](Sign side) {
+            return std::ranges::any_of(other,
+                                       [&](PointIndex p) { return side_of(line, p) == side; });
+        };
+        has_corners_on_both_sides |= lies(Sign::Positive) && lies(Sign::Negative);
+    }
+    return has_corners_on_both_sides;
+}
+
 InputPoint input_point(const PointStore& points, PointIndex p) {
     return polynomial::cartesian<Exact>(points.input(p));
 }
@@ -140,8 +161,8 @@ std::uint8_t SidedSurface::along_line(const ExactPoint& place, std::span<const s
     return above == 0 && below != 0 ? high_side : no_side;
 }
 
-std::uint8_t SidedSurface::along_lines(std::uint32_t triangle,
-                                       std::span<const std::uint32_t> near) const {
+std::uint8_t SidedSurface::along_lines(std::uint32_t triangle, std::span<const std::uint32_t> near,
+                                       bool skips_lines) const {
     const PointStore& points = exact_.state->points;
     const auto& [u, v, w] = exact_.triangles[triangle];
     const Corners corners{exact_.vertices[u], exact_.vertices[v], exact_.vertices[w]};
@@ -150,23 +171,25 @@ std::uint8_t SidedSurface::along_lines(std::uint32_t triangle,
     std::vector<std::uint32_t> over; // what overlaps the triangle
     unsigned passages = 0;           // bits: up above it, down above it, up below it, down below it
     const unsigned unknown = 0b1111;
-    bool is_line = false; // as seen along the axis
+    bool is_line = false,
+         runs_in = false; // as seen along the axis; inside of a triangle of the surface
     {
         const UpwardRounding upward;
         is_line = points.orient2d(upward, axis_, corners[0], corners[1], corners[2]) == Sign::Zero;
-        if (is_line) passages = unknown; // lines are shifted off it
+        if (is_line && skips_lines) return no_side;
         for (const std::uint32_t p : near) {
             const Corners other = exact_.input_corners()[p];
             if (!overlap(upward, points, axis_, corners, other)) continue;
             over.push_back(p);
+            runs_in = runs_in || !is_line || runs_through(upward, points, axis_, corners, other);
             const Box its = box_of(points, other);
             const bool is_above = its.low[k] > own.high[k], is_below = its.high[k] < own.low[k];
             const bool up = (turn_of(exact_, p, axis_) == Sign::Positive) == (upper_[p] > 0);
             passages |= is_above ? (up ? 1U : 2U) : is_below ? (up ? 4U : 8U) : unknown;
         }
     }
-    if (passages == 1 || passages == 2) return low_side;
-    if (passages == 4 || passages == 8) return high_side;
+    if (runs_in && (passages == 1 || passages == 2)) return low_side;
+    if (runs_in && (passages == 4 || passages == 8)) return high_side;
     std::vector<Box> boxes;
     for (const std::uint32_t p : over)
         boxes.push_back(flattened(box_of(points, exact_.input_corners()[p]), axis_));
@@ -187,8 +210,8 @@ std::uint8_t SidedSurface::along_lines(std::uint32_t triangle,
     return sides;
 }
 
-std::vector<std::uint8_t>
-SidedSurface::along_lines(const std::vector<std::uint32_t>& triangles) const {
+std::vector<std::uint8_t> SidedSurface::along_lines(const std::vector<std::uint32_t>& triangles,
+                                                    bool skips_lines) const {
     std::vector<std::uint8_t> sides(triangles.size(), no_side);
     if (triangles.empty()) return sides;
     const PointStore& points = exact_.state->points;
@@ -213,7 +236,7 @@ SidedSurface::along_lines(const std::vector<std::uint32_t>& triangles) const {
         near.clear();
         for (; end < pairs.size() && pairs[end].first == pairs[i].first; ++end)
             near.push_back(inputs[pairs[end].second - count]);
-        sides[pairs[i].first] = along_lines(triangles[pairs[i].first], near);
+        sides[pairs[i].first] = along_lines(triangles[pairs[i].first], near, skips_lines);
     }
     return sides;
 }

@@ -83,6 +83,7 @@ Cells volume_cells(const Volumes& volumes, const SidedSurface& surface) {
             if (front != back) cells.others.push_back({back, t});
         }
     }
+    cells.are_volumes = true;
     return cells;
 }
 

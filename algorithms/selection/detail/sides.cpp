@@ -143,7 +143,7 @@ public:
             parts.push_back(sets_.find(c));
             triangles.push_back(t);
         }
-        const auto sides = surface.along_lines(triangles);
+        const auto sides = surface.along_lines(triangles, cells_.are_volumes);
         for (std::size_t i = 0; i < parts.size(); ++i) add(parts[i], sides[i], triangles[i]);
     }
 

@@ -10,7 +10,7 @@
 //     the part only, and on its upper side if below the part only. Passages up and down through the same surface cancel
 //     out. There is a line for each two triangles, of the part's boundary and of the surface, that overlap as seen
 //     along the axis, so that the answer depends neither on the order of triangles nor on how the part is divided. A
-//     triangle that is seen as a line counts where lines on both of its sides say the same.
+//     triangle that is seen as a line counts where lines on both of its sides say the same, and at a volume not at all.
 // (4) A part that is on both sides, as the surface ends inside of it, or on none, is an error.
 #pragma once
 
@@ -44,16 +44,18 @@ public:
         const unsigned f = front_[triangle];
         return static_cast<std::uint8_t>((f & 1U) << 1U | f >> 1U);
     }
-    /// Returns the sides on which other triangles of the arrangement are, by (3). Cost: that of candidate_pairs().
-    [[nodiscard]] std::vector<std::uint8_t>
-    along_lines(const std::vector<std::uint32_t>& triangles) const;
+    /// Returns the sides on which other triangles of the arrangement are, by (3). skips_lines: those that are seen as
+    /// lines are on none. Cost: that of candidate_pairs().
+    [[nodiscard]] std::vector<std::uint8_t> along_lines(const std::vector<std::uint32_t>& triangles,
+                                                        bool skips_lines) const;
 
 private:
     void turn_alike();
     void find_upper(const std::vector<std::uint32_t>& patch_of, std::uint32_t patches);
     void mark_fronts();
     [[nodiscard]] std::uint8_t along_lines(std::uint32_t triangle,
-                                           std::span<const std::uint32_t> near) const;
+                                           std::span<const std::uint32_t> near,
+                                           bool skips_lines) const;
     [[nodiscard]] std::uint8_t along_line(const ExactPoint& place,
                                           std::span<const std::uint32_t> near, bool opposite) const;
 
@@ -77,6 +79,8 @@ struct Cells {
     std::vector<Touch> touches;                       ///< cells at triangles of the surface
     /// {cell, triangle at it that is not of the surface}, all of them.
     std::vector<std::array<std::uint32_t, 2>> others;
+    /// Whether they are volumes: lines through these pass through triangles that are not seen as lines.
+    bool are_volumes = false;
 };
 
 /// How errors name a surface and its sides.
