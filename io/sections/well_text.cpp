@@ -230,8 +230,7 @@ Result<std::vector<std::filesystem::path>> write_wells(std::span<const WellLog> 
         for (const WellLog& log : logs) wells.push_back(log.name);
         Paths paths = well_files(wells, format, path);
         for (std::size_t i = 0; i < texts->size(); ++i)
-            if (auto written = write_file(paths[i], (*texts)[i]); !written)
-                return written.error();
+            if (auto written = write_file(paths[i], (*texts)[i]); !written) return written.error();
         if (together)
             if (auto published = together->publish(); !published) return published.error();
         return paths;
