@@ -34,8 +34,9 @@ struct WellCommand {
 
 constexpr auto well_footer =
     R"(The surfaces are arranged, cut by a volume of interest and rounded as `terrane volume` does, and its options and
-names of blocks are the same. Each path is a polyline, and is compared with the model exactly: where it enters and leaves
-blocks, and where it meets surfaces. A part of a path that runs in a surface is stated as such, with all blocks around it.
+names of blocks are the same. Each path is a polyline, and is compared with the model exactly: where it enters and
+leaves blocks, and where it meets surfaces. A part of a path that runs in a surface is stated as such, with all blocks
+around it.
 
 FILE of --path is a table whose heading names x, y and z, and perhaps well and md; or one that names md, inclination and
 azimuth, for which --head says where the well begins; or LAS 2.0 with such curves. Between the stations of a survey

@@ -217,7 +217,8 @@ def read_wells(path: Path, *, heads: Any = None) -> List[WellPath]:
     if heads is None:
         stated: List[Tuple[str, Point]] = []
     elif hasattr(heads, "keys"):
-        stated = [(as_text(name, "heads"), as_point(place, "heads")) for name, place in as_mapping(heads, "heads").items()]
+        stated = [(as_text(name, "heads"), as_point(place, "heads"))
+                  for name, place in as_mapping(heads, "heads").items()]
     else:
         stated = [("", as_point(heads, "heads"))]
     return [WellPath(*well) for well in _core.read_wells(path, stated)]
