@@ -108,7 +108,7 @@ void join_turned(const PackedTree& a, const PackedTree& b, const Task& task, Pai
     const bool same = &a == &b;
     const UnitMap map(task.boxes, a.indices(),
                       same ? std::span<const std::uint32_t>{} : b.indices());
-    const Labels labels{task.groups, task.crowds};
+    const PairLabels labels{task.groups, task.crowds};
     const TurnedTree here(task.boxes, a.indices(), labels, map);
     std::optional<TurnedTree> other;
     if (!same) other.emplace(task.boxes, b.indices(), labels, map);

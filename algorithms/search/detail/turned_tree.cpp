@@ -155,7 +155,7 @@ struct TurnedTree::Item {
 };
 
 TurnedTree::TurnedTree(const BoxSource& source, std::span<const std::uint32_t> chosen,
-                       const Labels& labels, const UnitMap& map) :
+                       const PairLabels& labels, const UnitMap& map) :
     source_(source),
     labels_(labels), room_(map.room()) {
     const auto mapped = [&](std::uint32_t t) {

@@ -63,7 +63,7 @@ struct TurnedBox {
 TurnedBox turned_box(std::span<const std::array<Vector, 3>> triangles);
 
 /// The triangles that a join leaves out with each other; empty for none.
-struct Labels {
+struct PairLabels {
     std::span<const std::uint32_t> groups, crowds; ///< per triangle of the source, or no_group
 };
 
@@ -73,8 +73,8 @@ class TurnedTree {
 public:
     static constexpr std::uint32_t leaf_size = 8;
 
-    TurnedTree(const BoxSource& source, std::span<const std::uint32_t> chosen, const Labels& labels,
-               const UnitMap& map);
+    TurnedTree(const BoxSource& source, std::span<const std::uint32_t> chosen,
+               const PairLabels& labels, const UnitMap& map);
 
     /// Returns the number of leaves of at most leaf_size triangles.
     [[nodiscard]] std::size_t leaf_count() const { return leaves_.size(); }
@@ -165,7 +165,7 @@ private:
     }
 
     BoxSource source_;
-    Labels labels_;
+    PairLabels labels_;
     double room_;
     std::vector<std::uint32_t> order_;  ///< the chosen triangles
     std::vector<Box> boxes_;            ///< of the triangles, in this order
