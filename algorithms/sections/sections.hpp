@@ -64,8 +64,8 @@ Result<SectionSurface> section_levels(const Mesh& mesh, std::span<const double> 
 Result<SectionSurface> section_fence(const Mesh& mesh,
                                      std::span<const std::array<double, 2>> corners);
 
-/// Returns a section along a surface, such as a topography or a fault. `along` and `up` are two of its coordinates: x and
-/// y, y and z, or x and z: those in which most of it is seen, of those in which it does not fold over.
+/// Returns a section along a surface, such as a topography or a fault. `along` and `up` are two of its coordinates: x
+/// and y, y and z, or x and z: those in which most of it is seen, of those in which it does not fold over.
 /// Errors: bad_option if it folds over in all three; those of arrange().
 Result<SectionSurface> section_along(const Surface& surface, const Run& run = {});
 

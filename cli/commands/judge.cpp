@@ -79,8 +79,8 @@ ExitStatus not_judged(const Error& error, bool tags) {
     return error.code == ErrorCode::not_closed ? ExitStatus::bad_input : status;
 }
 
-/// Returns the mesh that is judged. With inputs, a file without triangles is an empty mesh, as the intersection of solids
-/// that are apart is.
+/// Returns the mesh that is judged. With inputs, a file without triangles is an empty mesh, as the intersection of
+/// solids that are apart is.
 Inputs read_output(const JudgeCommand& command, const FileOptions& files, Session& session) {
     try {
         return read_inputs(files, session);

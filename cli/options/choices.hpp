@@ -29,7 +29,8 @@ CLI::Validator positive();
 /// Checks that a value is one of the words, and lists them.
 CLI::Validator one_of(const std::vector<std::string>& words);
 
-/// Checks that a value is one of the words, in capitals or not, before a transformation that was added before, and lists them.
+/// Checks that a value is one of the words, in capitals or not, before a transformation that was added before, and
+/// lists them.
 CLI::Validator listing(const std::vector<std::string>& words);
 
 /// Returns the words that one_of or listing gave to an option; empty if none did.

@@ -43,20 +43,20 @@ py::tuple select_region(const py::sequence& surfaces, const py::str& expression,
                         const std::string& rule, bool fractions, std::optional<double> max_move,
                         const HowToRun& how) {
     auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(surfaces));
-    return tuple_of(run_stage(how, [given, text = from_text(expression),
-                                    options = options_of(rule, fractions, max_move)](
-                                       const Run& run) { return select(*given, text, options, run); }));
+    return tuple_of(run_stage(
+        how, [given, text = from_text(expression), options = options_of(rule, fractions, max_move)](
+                 const Run& run) { return select(*given, text, options, run); }));
 }
 
 py::tuple select_of_model(const ModelPointer& model, const py::str& expression,
                           const py::sequence& others, const std::string& rule, bool fractions,
                           std::optional<double> max_move, const HowToRun& how) {
     auto given = std::make_shared<const std::vector<Surface>>(to_surfaces(others));
-    return tuple_of(run_stage(how, [model, given, text = from_text(expression),
-                                    options = options_of(rule, fractions, max_move)](
-                                       const Run& run) {
-        return select(model->model, text, *given, options, run);
-    }));
+    return tuple_of(
+        run_stage(how, [model, given, text = from_text(expression),
+                        options = options_of(rule, fractions, max_move)](const Run& run) {
+            return select(model->model, text, *given, options, run);
+        }));
 }
 
 } // namespace
