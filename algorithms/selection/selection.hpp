@@ -99,10 +99,10 @@ Result<Selected> select(std::span<const Surface> surfaces, std::string_view expr
 struct Model; // model.hpp
 
 /// Selects a region of a model by an expression over its blocks, its surfaces as they are in the mesh, and other
-/// surfaces: "unit(sand) & above(contact)". Its operands are those above, and block(b), a block by its name or number; unit(u),
-/// all blocks of a unit; volume < 1e6 and age > 66, all blocks with such a volume in the model, or of a unit whose base
-/// has such an age. Surfaces of the model and `others` with one name are one operand. Surfaces of the result are those
-/// of the model, then `others`; parents are triangles of the mesh, then of `others`.
+/// surfaces: "unit(sand) & above(contact)". Its operands are those above, and block(b), a block by its name or
+/// number; unit(u), all blocks of a unit; volume < 1e6 and age > 66, all blocks with such a volume in the model, or
+/// of a unit whose base has such an age. Surfaces of the model and `others` with one name are one operand. Surfaces
+/// of the result are those of the model, then `others`; parents are triangles of the mesh, then of `others`.
 /// Errors: bad_option for a block or a unit that is not there; those of select() of surfaces.
 Result<Selected> select(const Model& model, std::string_view expression,
                         std::span<const Surface> others = {}, const SelectOptions& options = {},
