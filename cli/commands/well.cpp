@@ -91,7 +91,7 @@ std::vector<WellPaths> read_paths(const WellCommand& command) {
 }
 
 /// Returns the format of an output. Errors: unknown_format.
-WellFormat format_of(const FileOptions& files, const std::string& path) {
+WellFormat format_of_log(const FileOptions& files, const std::string& path) {
     const auto extension = files.output_format.empty()
                                ? std::filesystem::path(path).extension().string()
                                : "." + files.output_format;
@@ -106,7 +106,8 @@ void check_names(const WellCommand& command, std::span<const WellPaths> files) {
         for (const WellPath& well : file.paths) wells.push_back(well.name);
     for (const std::string& output : command.model.files.outputs) {
         if (output == "-") continue;
-        for (const auto& path : well_files(wells, format_of(command.model.files, output), output))
+        for (const auto& path :
+             well_files(wells, format_of_log(command.model.files, output), output))
             for (const std::string& input : command.paths) {
                 std::error_code none;
                 if (std::filesystem::equivalent(path, input, none))
@@ -162,7 +163,7 @@ void check_outputs(const WellCommand& command) {
     inputs.outputs.clear();
     plan_outputs(inputs, OutputKind::surfaces);
     for (const std::string& path : files.outputs) {
-        const WellFormat format = format_of(files, path);
+        const WellFormat format = format_of_log(files, path);
         if (path != "-") check_folder(path);
         if (command.step > 0 && format != WellFormat::las) refuse("is for .las files", "--step");
     }
@@ -220,8 +221,8 @@ ExitStatus log_files(const WellCommand& command, const CLI::App& app, Session& s
     if (meets)
         for (const std::string& output : command.model.files.outputs) {
             session.begin("write", Phase::writing);
-            const auto written = write_wells(logs, names, format_of(command.model.files, output),
-                                             output, command.step);
+            const auto written = write_wells(
+                logs, names, format_of_log(command.model.files, output), output, command.step);
             if (!written) throw Failure{at_option(written.error(), app)};
             session.end_stage();
             for (const auto& path : *written) say_written(run.told(), path.string());

@@ -63,7 +63,7 @@ struct PartCorner {
 /// A part of a triangle: a convex polygon with an area.
 class TrianglePart {
 public:
-    explicit TrianglePart(const CutTriangle& of) : triangle_(&of), size_(3) {
+    explicit TrianglePart(const CutTriangle& of) : triangle_(&of) {
         for (std::uint8_t k = 0; k < 3; ++k) {
             corners_[k].number = k;
             corners_[k].side.edge = k;
@@ -93,7 +93,7 @@ private:
     }
 
     const CutTriangle* triangle_;
-    std::size_t size_;
+    std::size_t size_ = 3;
     std::array<PartCorner, 10> corners_{}; ///< each of six planes adds one at most
 };
 

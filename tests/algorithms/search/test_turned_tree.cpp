@@ -107,8 +107,8 @@ Soup lattice_soup(Random& random, int count) {
         if (has_area(soup, t)) soup.triangles.push_back(t);
     }
     std::ranges::sort(soup.triangles);
-    const auto [first, end] = std::ranges::unique(soup.triangles);
-    soup.triangles.erase(first, end);
+    const auto end = std::unique(soup.triangles.begin(), soup.triangles.end());
+    soup.triangles.erase(end, soup.triangles.end());
     return soup;
 }
 
