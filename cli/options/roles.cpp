@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <terrane/cli/options/roles.hpp>
 
+#include <charconv>
 #include <map>
+#include <system_error>
 
 #include <terrane/algorithms/mesh/labels.hpp>
 
