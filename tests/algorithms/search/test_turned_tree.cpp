@@ -140,7 +140,7 @@ Soup soup_of(const Surface& s) {
 
 } // namespace
 
-TEST_CASE("turned boxes: long thin solids have few candidates, and none is missing") {
+TEST_CASE("turned boxes: long thin solids have few candidates, and none is missing", "[once]") {
     for (const char* name : thin_solids::names)
         for (const bool shuffled : {false, true}) {
             INFO(name << (shuffled ? ", shuffled" : ""));

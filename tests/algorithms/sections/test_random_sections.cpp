@@ -236,7 +236,8 @@ int compare_lines(const SectionModel& model, const Section& section, const Plane
 
 } // namespace
 
-TEST_CASE("sections: random models against winding numbers, areas and crossed triangles") {
+TEST_CASE("sections: random models against winding numbers, areas and crossed triangles",
+          "[once]") {
     int points = 0, lines = 0, upon = 0, holes = 0;
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
         ModelMaker maker(seed);

@@ -265,7 +265,8 @@ bool has_length(const WellPath& path) {
 
 } // namespace
 
-TEST_CASE("wells: random paths against clipped triangles and winding numbers in rationals") {
+TEST_CASE("wells: random paths against clipped triangles and winding numbers in rationals",
+          "[once]") {
     Counts counts;
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
         ModelMaker maker(seed);
