@@ -66,7 +66,7 @@ SENSE = {
     "--plane": ("1000,750,0,0,-1,0", f"BASE=top.ts base.ts fault.ts -o out.svg {BOX}"), "--fence": ("100,100,1500,900", f"BASE=top.ts base.ts fault.ts -o out.svg {BOX}"),
     "--level": ("-1100", f"BASE=top.ts base.ts fault.ts -o out.svg {BOX}"), "--contours": ("100", f"BASE=top.ts base.ts fault.ts -o out.svg {BOX}"),
     "--by": ("fault", f"BASE=top.ts base.ts fault.ts -o out.svg {BOX}"), "--exaggeration": ("2", ""),
-    "--x": ("0,300,900", ""), "--y": ("0,300,900", ""), "--z": ("-1700,-1200,-700", ""),
+    "--x": ("0,300,600", ""), "--y": ("0,300,600", ""), "--z": ("-1700,-1200,-700", ""),
     "--path": ("C-3.csv", "--head=200,200,-600"), "--head": ("C-3=200,200,-600", "--path=C-3.csv"),
     "--rule": ("odd", "BASE=body body.ts body.ts -o out.stl"), "--fractions": ("", ""),
     "--layer": ("salt=2", "BASE=salt.ts shale.ts -o out.stl --layer=shale=1")}

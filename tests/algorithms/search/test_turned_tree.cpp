@@ -182,6 +182,17 @@ TEST_CASE("turned boxes: candidates between and within groups") {
     }
 }
 
+TEST_CASE("turned boxes: a stop that came before is heeded") {
+    const Surface s = thin_solids::solid("loft", 4000);
+    std::vector<std::uint32_t> groups(s.triangles.size());
+    for (std::size_t t = 0; t < groups.size(); ++t) groups[t] = t % 2;
+    std::stop_source source;
+    source.request_stop();
+    const Run stopped{.stop = source.get_token()};
+    CHECK(candidate_pairs({s.vertices, s.triangles}, {}, Search::bvh, stopped).empty());
+    CHECK(candidate_pairs({s.vertices, s.triangles}, groups, Search::bvh, stopped).empty());
+}
+
 TEST_CASE("turned boxes: lattices, whatever their scale and place") {
     Random random(91);
     for (int k = 0; k < 2; ++k) {
