@@ -83,7 +83,8 @@ bool say_little(const PackedTree& a, const PackedTree& b, const Task& task) {
     constexpr std::size_t few = 512, many = 24, share = 8;
     const std::size_t triangles = a.indices().size() + (&a == &b ? 0 : b.indices().size());
     if (!task.turns || triangles < few) return false;
-    if (task.run.stop.stop_requested()) return false; // the selection may be cut short, and its boxes unset
+    if (task.run.stop.stop_requested())
+        return false; // the selection may be cut short, and its boxes unset
     std::size_t pairs = 0;
     const std::size_t leaves = sample_pairs(a, b, task, std::size_t{8} * 2048,
                                             [&](std::uint32_t, std::uint32_t) { ++pairs; });
