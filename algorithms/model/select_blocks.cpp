@@ -34,7 +34,7 @@ Error not_there(std::string_view kind, const std::string& name, std::vector<std:
     return {ErrorCode::bad_option, not_called(kind, name, names), "expression"};
 }
 
-/// Returns per block whether it is one of those that an operand names; the outside is none. Errors: bad_option.
+/// Returns per block whether an operand names it, never the outside. Errors: bad_option.
 Result<std::vector<bool>> blocks_of(const Model& model, const Expression::Operand& operand) {
     const auto& blocks = model.structure.blocks;
     std::vector<bool> in(blocks.size());

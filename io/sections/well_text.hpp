@@ -25,7 +25,7 @@ std::optional<WellFormat> well_format(std::string_view extension);
 /// Returns the names of an interval's blocks, or of the surfaces in which it runs, with " | " between them.
 std::string blocks_text(const WellInterval& interval, const SectionNames& names);
 std::string surfaces_text(const WellInterval& interval, const SectionNames& names);
-/// Returns the units of the blocks of an interval likewise, each once; empty where there are none.
+/// Returns the units of the blocks of an interval likewise, each once; empty without units.
 std::string units_text(const WellInterval& interval, const SectionNames& names);
 
 /// Writes a row per interval and marker, by well and depth: well, kind (block, surface, marker), from, to, block, unit,

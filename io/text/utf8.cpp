@@ -23,7 +23,8 @@ Utf8Start utf8_start(unsigned byte) {
     return {1, byte & 31U, 0x80};
 }
 
-/// Returns the number of bytes of the character at the beginning of a text, which is not empty; 0 if it is none.
+/// Returns how many bytes the first character of a text takes; 0 if the text does not begin with UTF-8. Precondition:
+/// the text is not empty.
 std::size_t character_size(std::string_view text) {
     const unsigned first = static_cast<unsigned char>(text[0]);
     if (first < 0x80) return 1;

@@ -105,7 +105,7 @@ inline Surface fans(std::uint32_t n, const Point3& origin = {}) {
     return s;
 }
 
-/// The flanks of a screw: strips of `across` quads that wind round the axis, 24 to a turn: about n triangles.
+/// Returns the flanks of a screw, about n triangles: strips of `across` quads wind round the axis, 24 quads to a turn.
 inline Surface thread(std::uint32_t n, const Point3& origin = {}) {
     constexpr std::uint32_t across = 100, per_turn = 24;
     Surface s;

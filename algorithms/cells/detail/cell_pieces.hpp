@@ -48,7 +48,7 @@ std::vector<CellPiece> find_pieces(const Mesh& mesh, const Volumes& volumes,
 /// Returns the box of the cell at a place; above the grid, that of the cell below.
 CellBox box_at(const RectilinearGrid& grid, std::uint64_t place);
 
-/// Returns the part of a triangle at a place, which has a piece there.
+/// Returns the part of a triangle in a cell. Precondition: the triangle has a piece there.
 TrianglePart part_at(const CutTriangle& triangle, const RectilinearGrid& grid, std::uint64_t place);
 
 } // namespace terrane::cells::detail

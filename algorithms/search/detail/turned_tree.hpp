@@ -62,7 +62,7 @@ struct TurnedBox {
 /// Returns a box round triangles, whose corners are in units of a UnitMap.
 TurnedBox turned_box(std::span<const std::array<Vector, 3>> triangles);
 
-/// The triangles that a join leaves out with each other; empty for none.
+/// Labels of triangles. A join leaves out pairs of triangles that have a label in common. A list may be empty.
 struct PairLabels {
     std::span<const std::uint32_t> groups, crowds; ///< per triangle of the source, or no_group
 };

@@ -15,6 +15,7 @@
 #include <terrane/algorithms/cells/prisms.hpp>
 
 #include "support/samples.hpp"
+#include "support/shapes.hpp"
 #include "support/winding_oracle.hpp"
 
 using namespace terrane;
@@ -25,19 +26,11 @@ namespace {
 /// A surface over a lattice of n x n squares of a size, from a corner, with heights z(x, y).
 template <class Height>
 Surface sheet(std::uint32_t n, double size, const Point3& from, const Height& z) {
-    Surface s{"sheet", Role::horizon, {}, {}};
-    for (std::uint32_t j = 0; j <= n; ++j)
-        for (std::uint32_t i = 0; i <= n; ++i) {
-            const double x = from.x + size * i, y = from.y + size * j;
-            s.vertices.push_back({x, y, from.z + z(x, y)});
-        }
-    for (std::uint32_t j = 0; j < n; ++j)
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const std::uint32_t a = j * (n + 1) + i, b = a + n + 1;
-            s.triangles.push_back({a, a + 1, b + 1});
-            s.triangles.push_back({a, b + 1, b});
-        }
-    return s;
+    const auto node = [&](std::uint32_t i, std::uint32_t j) {
+        const double x = from.x + size * i, y = from.y + size * j;
+        return Point3{x, y, from.z + z(x, y)};
+    };
+    return grid(n, n, node, "sheet", Role::horizon);
 }
 
 template <class T>
