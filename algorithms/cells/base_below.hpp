@@ -27,7 +27,8 @@ public:
     explicit BaseBelow(const Surface& surface);
 
     /// Returns the triangle on the vertical through p, moved by an infinitely small way towards the middle of the
-    /// triangle p, q, r in the map; or nothing where the surface is missing. Its corners are counterclockwise in the map.
+    /// triangle p, q, r in the map; or nothing where the surface is missing. Its corners are counterclockwise in the
+    /// map.
     [[nodiscard]] std::optional<std::array<Point3, 3>> at(const Point3& p, const Point3& q,
                                                           const Point3& r) const;
 
